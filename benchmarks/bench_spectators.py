@@ -16,9 +16,9 @@ from pathlib import Path
 from running_match import HERE, launch, running_match
 
 from coach_gateway.settings import GatewaySettings
-from coach_gateway.web.listener import free_port
 from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import Subscription
+from schemas.bus.endpoint import reserve_port
 from schemas.bus.zenoh.bus import open_client
 from schemas.messages.health import Health
 from schemas.process.clock import WallClock
@@ -75,7 +75,7 @@ def main() -> None:
         running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, host),
         open_client(config.name, WallClock(), endpoint, 60.0) as bus,
     ):
-        port = free_port("127.0.0.1", 0)
+        port = reserve_port("127.0.0.1")
         settings = GatewaySettings(connect=endpoint, match=config.name, web=WebSettings(port=port))
         server = launch("coach_gateway", settings)
         try:

@@ -1,17 +1,19 @@
 """The bridges of one gateway process beside the page: which ones its settings ask for, and their services."""
 
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from coach_gateway import refbox
 from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, port_tried
+from coach_gateway.ports import LOOPBACK, InheritedSockets, bound_socket
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.framing import BoxProtocol
+from coach_gateway.refbox.identity import SENT
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
 from coach_gateway.settings import BridgeOptions
@@ -26,11 +28,13 @@ class Bridges:
     """The bridges that are served beside the page."""
 
     udp: int | None = None
-    """Port for coach programs; 0 takes a free one."""
+    """Port for coach programs; 0 selects a free one."""
     boxes: tuple[BoxAddress, ...] = ()
     """Referee boxes of the league, one for each team whose base station this is."""
     server_addresses: tuple[ServerAddress, ...] = ()
     """Where our referee serves as a referee box."""
+    addresses: Mapping[Side, str] = field(default_factory=dict)
+    """What sides are called in the commands of our box, where it is not their name."""
     audience: tuple[tuple[str, int], ...] = ()
     """Host and port of each receiver of the audience feed."""
     listen: str = LOOPBACK
@@ -41,17 +45,40 @@ class Bridges:
         """Whether there is any bridge."""
         return self.udp is not None or bool(self.boxes or self.server_addresses or self.audience)
 
-    def try_ports(self) -> None:
-        """Make sure that all ports can be listened on at the same time.
+    def open_ports(self, inherited: InheritedSockets | None = None) -> "OpenPorts":
+        """Bind all ports, or take the sockets of a launcher that has bound them.
 
         Raises:
-            TouchlineError: a port is taken.
+            TouchlineError: a port is in use.
         """
         with ExitStack() as stack:
-            if self.udp is not None:
-                stack.enter_context(port_tried("--udp", self.listen, self.udp, socket.SOCK_DGRAM))
-            for address in self.server_addresses:
-                stack.enter_context(port_tried("--refbox-server", address.host, address.port, socket.SOCK_STREAM))
+
+            def bound(option: str, address: str, port: int, kind: socket.SocketKind) -> socket.socket:
+                opened = inherited.next() if inherited is not None else None
+                return stack.enter_context(opened or bound_socket(option, address, port, kind))
+
+            udp = bound("--udp", self.listen, self.udp, socket.SOCK_DGRAM) if self.udp is not None else None
+            servers = [
+                bound("--refbox-server", address.host, address.port, socket.SOCK_STREAM)
+                for address in self.server_addresses
+            ]
+            stack.pop_all()
+        return OpenPorts(udp, tuple(servers))
+
+
+@dataclass(frozen=True, slots=True)
+class OpenPorts:
+    """The bound sockets of bridges."""
+
+    udp: socket.socket | None
+    """For coach programs."""
+    servers: tuple[socket.socket, ...]
+    """For team software, in the order of the server addresses."""
+
+    @property
+    def all(self) -> list[socket.socket]:
+        """All sockets, in the order in which `Bridges.open_ports` inherits them."""
+        return [*([self.udp] if self.udp is not None else []), *self.servers]
 
 
 _LAST_PORT = 65_535
@@ -67,28 +94,41 @@ def bridges_of(options: BridgeOptions) -> Bridges:
         raise TouchlineError("--team is for --refbox HOST, which is not given")
     if options.refbox is not None and not options.team:
         raise TouchlineError("--refbox needs the team whose base station this is; add --team cyan or --team magenta")
+    if options.address and not options.refbox_server:
+        raise TouchlineError("--address is for --refbox-server, which is not given")
     box = _address("--refbox", options.refbox, refbox.DEFAULT_PORT) if options.refbox is not None else None
+    boxes = tuple(BoxAddress(team, *box, options.refbox_protocol) for team in options.team) if box is not None else ()
     return Bridges(
-        options.udp,
-        tuple(BoxAddress(team, *box, options.refbox_protocol) for team in options.team) if box is not None else (),
-        tuple(_server_address(word, options.listen_bridges) for word in options.refbox_server),
-        tuple(_address("--audience", word, None) for word in options.audience),
-        options.listen_bridges,
+        udp=options.udp,
+        boxes=boxes,
+        server_addresses=tuple(_server_address(word, options.listen_bridges) for word in options.refbox_server),
+        addresses=dict(_league_address(word) for word in options.address),
+        audience=tuple(_address("--audience", word, None) for word in options.audience),
+        listen=options.listen_bridges,
     )
 
 
-def services_of(bus: Bus, wanted: Bridges, tokens: Tokens, log: Callable[[str], None]) -> list[Service]:
-    """The services of these bridges; the first follows the match for all of them."""
+def services_of(
+    bus: Bus, wanted: Bridges, ports: OpenPorts, tokens: Tokens, log: Callable[[str], None]
+) -> list[Service]:
+    """The services of these bridges, on their open ports; the first follows the match for all of them."""
     if not wanted.wanted:
         return []
     live = LiveMatch(bus)
     services: list[Service] = [live]
-    if wanted.udp is not None:
-        services.append(UdpServer(live, tokens.role_of, log, wanted.udp, wanted.listen))
+    if ports.udp is not None:
+        services.append(UdpServer(live, tokens.role_of, log, bound=ports.udp))
     services += [RefBoxClient(live, box, log) for box in wanted.boxes]
     team_states = None
     if wanted.server_addresses:
-        box = RefBoxServer(live, wanted.server_addresses, log, lambda token: _side_of(tokens, token))
+        box = RefBoxServer(
+            live,
+            wanted.server_addresses,
+            log,
+            lambda token: _side_of(tokens, token),
+            addresses=wanted.addresses,
+            bound=ports.servers,
+        )
         team_states = box.team_states
         services.append(box)
     if wanted.audience:
@@ -120,9 +160,23 @@ def _is_name(host: str) -> bool:
 
 
 def _server_address(word: str, listen: str) -> ServerAddress:
-    """PORT, or SIDE:PORT for a port that one team alone uses."""
-    side, _, port = word.rpartition(":")
+    """PORT, SIDE:PORT for a port that one team alone uses, either with :characters for software of before 2020."""
+    place, colon, protocol = word.rpartition(":")
+    if not (colon and protocol in SENT):
+        place, protocol = word, BoxProtocol.JSON.value
+    side, _, port = place.rpartition(":")
     known = [known.value for known in Side]
     if port.isascii() and port.isdigit() and int(port) <= _LAST_PORT and (not side or side in known):
-        return ServerAddress(int(port), Side(side) if side else None, listen)
-    raise TouchlineError(f'--refbox-server is "{word}"; it is PORT, or cyan:PORT or magenta:PORT for one team alone')
+        return ServerAddress(int(port), Side(side) if side else None, listen, BoxProtocol(protocol))
+    raise TouchlineError(
+        f'--refbox-server is "{word}"; it is PORT, or cyan:PORT or magenta:PORT for one team alone; '
+        "PORT:characters is for software of before 2020"
+    )
+
+
+def _league_address(word: str) -> tuple[Side, str]:
+    """SIDE=ADDRESS, what the side is called in the commands of our box."""
+    side, _, address = word.partition("=")
+    if side in [known.value for known in Side] and address.strip() and address.isprintable():
+        return Side(side), address.strip()
+    raise TouchlineError(f'--address is "{word}"; it is cyan=ADDRESS or magenta=ADDRESS, as in cyan=224.16.32.44')

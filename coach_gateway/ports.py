@@ -1,35 +1,64 @@
-"""Ports that bridges listen on. They are tried before there is a match, so that a taken port is reported at once."""
+"""Ports that the gateway listens on: bound once, before there is a match, and kept until the process ends.
+
+A launcher binds the ports of the programs that it launches. It reports a port that is in use at once, and passes the
+bound sockets on, also to a program that is started again: no other process can take the port meanwhile.
+"""
 
 import errno
+import os
 import socket
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
 
 from schemas.errors import TouchlineError
 
 LOOPBACK = "127.0.0.1"
 """Address that only this machine can reach."""
+INHERITED = "TOUCHLINE_SOCKETS"
+"""Environment variable with the file descriptors of sockets that a launcher has bound, in the order of their use."""
 
 
-@contextmanager
-def port_tried(option: str, address: str, port: int, kind: socket.SocketKind) -> Iterator[None]:
-    """Make sure that this port can be listened on, and release it at the end of the block.
+class InheritedSockets:
+    """The sockets that the launcher of this process has bound; none without a launcher."""
+
+    def __init__(self) -> None:
+        self._handles = [int(word) for word in os.environ.pop(INHERITED, "").split(",") if word]
+
+    def next(self) -> socket.socket | None:
+        """The next socket, or None if there is no further one."""
+        if not self._handles:
+            return None
+        inherited = socket.socket(fileno=self._handles.pop(0))
+        inherited.set_inheritable(False)
+        return inherited
+
+
+def inheritance_of(sockets: Sequence[socket.socket]) -> dict[str, str]:
+    """The environment of a program that inherits these sockets."""
+    return {INHERITED: ",".join(str(one.fileno()) for one in sockets)} if sockets else {}
+
+
+def bound_socket(option: str, address: str, port: int, kind: socket.SocketKind) -> socket.socket:
+    """A socket on this port; one of a kind with connections listens.
 
     Raises:
         TouchlineError: the port cannot be listened on.
     """
-    with ExitStack() as stack:
-        try:
-            family, _, _, _, place = socket.getaddrinfo(address, port, type=kind, flags=socket.AI_PASSIVE)[0]
-            probe = stack.enter_context(socket.socket(family, kind))
-            if kind is socket.SOCK_STREAM:
-                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as the server itself does
-            probe.bind(place)
-            if kind is socket.SOCK_STREAM:
-                probe.listen()
-        except (OSError, UnicodeError) as error:
-            raise cannot_listen(option, address, port, error) from None
-        yield
+    try:
+        found = socket.getaddrinfo(address, port, type=kind, flags=socket.AI_PASSIVE)
+        family, _, _, _, place = min(found, key=lambda one: one[0] is not socket.AF_INET)  # of a name with several
+        bound = socket.socket(family, kind)
+    except (OSError, UnicodeError) as error:
+        raise cannot_listen(option, address, port, error) from None
+    try:
+        if kind is socket.SOCK_STREAM:
+            bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # connections in TIME_WAIT do not count
+        bound.bind(place)
+        if kind is socket.SOCK_STREAM:
+            bound.listen()
+    except OSError as error:
+        bound.close()
+        raise cannot_listen(option, address, port, error) from None
+    return bound
 
 
 def cannot_listen(option: str, address: str, port: int, error: OSError | UnicodeError) -> TouchlineError:

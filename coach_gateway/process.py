@@ -1,6 +1,7 @@
 """The gateway process: the match's page and other bridges, or the match as plain lines."""
 
 import signal
+import socket
 import sys
 import threading
 from collections.abc import Callable
@@ -8,7 +9,8 @@ from collections.abc import Callable
 from coach_gateway.access.tokens import Tokens, tokens_of
 from coach_gateway.bridges import bridges_of, services_of
 from coach_gateway.match.change_log import log_changes
-from coach_gateway.match.lines import printable
+from coach_gateway.match.team_names import printable
+from coach_gateway.ports import InheritedSockets
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.settings import GatewaySettings
@@ -45,31 +47,35 @@ def _show(settings: GatewaySettings) -> None:
 
 def _serve(settings: GatewaySettings) -> None:
     """Serve what is wanted; hosts may come and go meanwhile."""
-    bridges = bridges_of(settings.bridges)
-    bridges.try_ports()
+    bridges, inherited = bridges_of(settings.bridges), InheritedSockets()
+    ports = bridges.open_ports(inherited)
     known = tokens_of(settings.tokens)
-    page, waiting_page = _page(settings, settings.web, known) if settings.web is not None else (None, None)
+    page, waiting_page = (
+        _page(settings, settings.web, known, inherited.next()) if settings.web is not None else (None, None)
+    )
     if page is None and bridges.udp is not None:
         for line in [f"tokens: {settings.tokens}"] if settings.tokens is not None else known.lines():
             say(line)
 
     def services(bus: Bus) -> list[Service]:
-        return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, known, say)]
+        return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, ports, known, say)]
 
     run_services(settings.connect, settings.match, services, say, waiting_page)
 
 
-def _page(settings: GatewaySettings, web: WebSettings, tokens: Tokens) -> tuple[Callable[[Bus], Service], Service]:
+def _page(
+    settings: GatewaySettings, web: WebSettings, tokens: Tokens, listener: socket.socket | None
+) -> tuple[Callable[[Bus], Service], Service]:
     """What serves the page once there is a match, and what does before; prints at once where the page is."""
     need_web()
     from coach_gateway.web.binding import bind_page
     from coach_gateway.web.server import WebServer
     from coach_gateway.web.waiting_page import WaitingPage
 
-    binding = bind_page(web, tokens, settings.tokens)
+    binding = bind_page(web, tokens, settings.tokens, listener)
     for line in binding.lines():
         say(line)
-    return (lambda bus: WebServer(bus, binding, say)), WaitingPage(binding, settings.match)
+    return (lambda bus: WebServer(bus, binding, say, settings.result)), WaitingPage(binding, settings.match)
 
 
 def say(line: str) -> None:

@@ -14,7 +14,7 @@ from schemas.bus.endpoint import parse_endpoint
 from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import WallClock
 
-_LOOK_S = 1.0
+_POLL_S = 1.0
 """s of wall time that one attempt to find a host lasts."""
 
 
@@ -30,8 +30,8 @@ class Service(Protocol):
 
 
 def run(
-    connect: str,
-    match: str,
+    connect: str | None,
+    match: str | None,
     make: Callable[[Bus], Sequence[Service]],
     log: Callable[[str], None],
     waiting_page: Service | None = None,
@@ -39,15 +39,16 @@ def run(
     """Connect to the host and run the services until SIGINT or SIGTERM; `waiting_page` is served until there is a host.
 
     Raises:
-        TouchlineError: a service cannot start.
+        TouchlineError: a service cannot start, or it is not clear which match is meant.
     """
-    parse_endpoint(connect)
+    if connect is not None:
+        parse_endpoint(connect)
     asyncio.run(_run(connect, match, make, log, waiting_page))
 
 
 async def _run(
-    connect: str,
-    match: str,
+    connect: str | None,
+    match: str | None,
     make: Callable[[Bus], Sequence[Service]],
     log: Callable[[str], None],
     waiting_page: Service | None,
@@ -58,14 +59,16 @@ async def _run(
         loop.add_signal_handler(number, stop.set)
     bus = await _connect(connect, match, stop)
     if bus is None and not stop.is_set():
-        log(f"no host at {connect} yet; waiting for it")
+        log(f"no host {f'at {connect}' if connect is not None else 'on this machine'} yet; waiting for it")
         bus = await _wait(connect, match, stop, waiting_page)
     if bus is not None:
         with bus:
             await together(make(bus), stop)
 
 
-async def _wait(connect: str, match: str, stop: asyncio.Event, waiting_page: Service | None) -> Bus | None:
+async def _wait(
+    connect: str | None, match: str | None, stop: asyncio.Event, waiting_page: Service | None
+) -> Bus | None:
     """A connection to the match, after any length of time; None once `stop` is set."""
     met = asyncio.Event()
     waiting = asyncio.create_task(waiting_page.serve(met)) if waiting_page is not None else None
@@ -80,10 +83,10 @@ async def _wait(connect: str, match: str, stop: asyncio.Event, waiting_page: Ser
     return bus
 
 
-async def _connect(connect: str, match: str, stop: asyncio.Event) -> Bus | None:
+async def _connect(connect: str | None, match: str | None, stop: asyncio.Event) -> Bus | None:
     """A connection to the match; None if no host answers within one attempt."""
     try:
-        bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _LOOK_S)
+        bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _POLL_S)
     except BusError:
         return None
     if stop.is_set():

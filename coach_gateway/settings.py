@@ -17,15 +17,17 @@ class BridgeOptions(Settings):
     """What coach programs, referee boxes and audiences are joined to."""
 
     udp: Annotated[int | None, Field(ge=0, le=65_535)] = None
-    """Accept coach programs on this UDP port; 0 takes a free one."""
+    """Accept coach programs on this UDP port; 0 selects a free one."""
     refbox: Annotated[str | None, CommandLine(metavar="HOST[:PORT]")] = None
     """Be a base station at a league's referee box."""
     team: list[Side] = Field(default_factory=list)
     """Whose base station; may be given twice."""
     refbox_protocol: BoxProtocol = BoxProtocol.AUTO
     """Protocol of that box; auto: as its first bytes show."""
-    refbox_server: Annotated[list[str], CommandLine(metavar="[SIDE:]PORT")] = Field(default_factory=list)
-    """Be a referee box for team software; the league's port is 28097."""
+    refbox_server: Annotated[list[str], CommandLine(metavar="[SIDE:]PORT[:characters]")] = Field(default_factory=list)
+    """Be a referee box for team software; the league's port is 28097. With :characters for software of before 2020."""
+    address: Annotated[list[str], CommandLine(metavar="SIDE=ADDRESS")] = Field(default_factory=list)
+    """League address of a side, for team software that is served by --refbox-server."""
     audience: Annotated[list[str], CommandLine(metavar="HOST:PORT")] = Field(default_factory=list)
     """Send the audience feed there."""
     listen_bridges: str = LOOPBACK
@@ -34,7 +36,8 @@ class BridgeOptions(Settings):
     @property
     def wanted(self) -> bool:
         """Whether there is any bridge to run."""
-        return self.udp is not None or bool(self.refbox or self.team or self.refbox_server or self.audience)
+        given = (self.refbox, self.team, self.refbox_server, self.address, self.audience)
+        return self.udp is not None or any(given)
 
 
 NO_BRIDGES = BridgeOptions()
@@ -47,5 +50,8 @@ class GatewaySettings(ClientSettings):
     """File of the tokens, made when it is not there; without one they last as long as the process."""
     web: WebSettings | None = None
     """The page."""
+    result: Path | None = None
+    """Folder in which the result of the match will be written; with one, the page's server ends after the match, once
+    no page is open any more."""
     bridges: BridgeOptions = NO_BRIDGES
     """What takes part beside the page."""

@@ -6,6 +6,7 @@ It drives to the ball and kicks it toward the goal. A program in any other langu
 import json
 import math
 import os
+import secrets
 import struct
 import time
 from typing import Any
@@ -44,14 +45,23 @@ def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
     return command
 
 
-def ask_setup(session: zenoh.Session) -> dict[str, Any]:
-    """The setup of the match; queries the host until it replies."""
+def query(session: zenoh.Session, key: str, request: dict[str, Any]) -> dict[str, Any]:
+    """The host's reply to a request; queries the host until it replies."""
     while True:
-        for reply in session.get(f"{ROOT}/host/setup", payload='{"version": "2.0"}', timeout=1.0):
+        payload = json.dumps({"version": "2.0", **request})
+        for reply in session.get(f"{ROOT}/host/{key}", payload=payload, timeout=4.0):
             if reply.ok is not None:
-                setup: dict[str, Any] = json.loads(reply.ok.payload.to_bytes())
-                return setup
+                content: dict[str, Any] = json.loads(reply.ok.payload.to_bytes())
+                return content
         time.sleep(0.1)
+
+
+def claim(session: zenoh.Session, name: str) -> None:
+    """Claim the robot for the session of this name, whose liveliness token exists."""
+    secret = os.environ.get("TOUCHLINE_LAUNCH_TOKEN")
+    reply = query(session, "claim", {"robot": ROBOT, "session": name, "launch_token": secret})
+    if not reply["accepted"]:
+        raise SystemExit(f"{ROBOT}: refused by the host: {reply['reason']}")
 
 
 def main() -> None:
@@ -60,14 +70,16 @@ def main() -> None:
     for key, value in SETTINGS.items():
         config.insert_json5(key, json.dumps(value))
     with zenoh.open(config) as session:
-        goal_x = ask_setup(session)["pitch"]["length"] / 2
+        goal_x = query(session, "setup", {})["pitch"]["length"] / 2
         sights = session.declare_subscriber(f"{ROOT}/robot/{ROBOT}/sight", zenoh.handlers.RingChannel(1))
         commands = session.declare_publisher(
             f"{ROOT}/robot/{ROBOT}/command",
             encoding=zenoh.Encoding.APPLICATION_JSON,
             congestion_control=zenoh.CongestionControl.DROP,
         )
-        with session.liveliness().declare_token(f"{ROOT}/alive/agent/{ROBOT}"):
+        name = f"s{secrets.token_hex(12)}"
+        with session.liveliness().declare_token(f"{ROOT}/alive/session/{name}"):
+            claim(session, name)
             for sequence, sample in enumerate(sights):
                 sight = json.loads(sample.payload.to_bytes())
                 stamp = STAMP.pack(sequence, time.time_ns(), round(sight["time"] * 1e9))

@@ -21,6 +21,8 @@ from schemas.config.settings_file import exit_status
 
 PRELOAD = ("robot_agent.process", "robot_agent.forked")
 """Modules that every robot needs, this one among them."""
+SAFE_PATH = "PYTHONSAFEPATH"
+"""Environment variable that keeps the current directory off the module path; set for the fork server alone."""
 
 
 def run_forked(settings: AgentSettings, environment: Mapping[str, str], log: str, held: Connection) -> None:
@@ -29,13 +31,15 @@ def run_forked(settings: AgentSettings, environment: Mapping[str, str], log: str
     `held` is closed when it leads its group: signals are sent to that group.
     """
     os.setpgid(0, 0)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored by the fork server, if its launcher ignored it
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     held.close()
     _end_with_supervisor()
     _redirect(log)
     gc.freeze()  # what the fork server has imported is shared memory, and stays so while it is not looked through
+    os.environ.pop(SAFE_PATH, None)
     os.environ.update(environment)
-    if (here := str(Path.cwd())) != sys.path[0]:
-        sys.path.insert(0, here)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     Path("/proc/self/comm").write_text(settings.robot)  # as `ps -o comm`, `top` and `pgrep` show it
     sys.exit(exit_status(lambda: run(settings)))
 

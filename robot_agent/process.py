@@ -1,12 +1,15 @@
 """One robot's process: bus, brain, run. Importing it loads what every robot needs, and no brain."""
 
 import signal
+import sys
 from types import FrameType
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import serve
 from robot_agent.settings import AgentSettings
-from schemas.bus.zenoh.bus import open_client
+from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.bus.zenoh.waiting_client import open_when_there
 from schemas.config.match_config import LOCKSTEP
 from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
@@ -14,22 +17,33 @@ from schemas.process.scheduling import use_batch_scheduling
 
 
 def run(settings: AgentSettings) -> int:
-    """Run one robot; exit status 0: the match is over or somebody ended it, 1: the brain raised.
+    """Run one robot; exit status 0: the match is over or the process was ended; others as in `serve`.
 
     Raises:
         TouchlineError: no host answers, or the brain cannot be made.
     """
     signal.signal(signal.SIGTERM, _end)
+    clock = WallClock()
+
+    def connect(patience: float) -> ZenohBus:
+        return open_client(settings.match, clock, settings.connect, patience)
+
     try:
-        with open_client(settings.match, WallClock(), settings.connect, settings.patience) as bus:
+        client = open_when_there(connect, clock, settings.patience, _report)
+        assert client is not None  # a wait that nothing stops
+        with client as bus:
 
             def build(setup: Setup) -> Brain:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
-                return load_brain(settings.brain, Briefing.of(settings.robot, setup))
+                return load_brain(settings.brain, Briefing.of(settings.robot, setup), settings.brain_folder)
 
-            return serve(bus, build, settings.robot, settings.patience)
+            return serve(bus, build, settings.robot, settings.patience, settings.launch_token)
     except KeyboardInterrupt:
         return 0
+
+
+def _report(line: str) -> None:
+    sys.stderr.write(f"{line}\n")
 
 
 def _end(number: int, frame: FrameType | None) -> None:

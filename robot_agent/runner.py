@@ -2,11 +2,13 @@
 
 import gc
 import sys
-import traceback
 from collections.abc import Callable
 
+from robot_agent.brain_error import BrainError
+from robot_agent.claim import Membership
 from robot_agent.contract import Brain
-from schemas.bus.contract import Bus, NoReplyError, PresenceKind
+from robot_agent.settings import FIRST_SIGHT_FAILED
+from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
@@ -19,19 +21,6 @@ _IDLE = 0.25
 """s without a sight after which the host is looked for."""
 _ASK = 1.0
 """s that one query for the setup stays open."""
-
-
-class BrainError(Exception):
-    """The brain raised, or returned something that is not a command; the cause has the traceback."""
-
-    def report(self) -> str:
-        """The traceback of the brain, with the tick and the exception in the last line."""
-        cause = self.__cause__
-        if cause is None:
-            return f"{self}\n"
-        frames = cause.__traceback__.tb_next if cause.__traceback__ is not None else None
-        where = "".join(traceback.format_exception(type(cause), cause, frames))
-        return f"{where}{self}: {type(cause).__name__}: {' '.join(str(cause).split())}\n"
 
 
 class Runner:
@@ -96,10 +85,10 @@ class Runner:
     def _think(self, sight: Sight) -> bytes:
         try:
             command = self.brain.act(sight)
-        except Exception as error:
-            raise BrainError(f"act raised at tick {sight.tick}") from error
+        except (Exception, SystemExit) as error:
+            raise BrainError(sight.tick, self.brain.act) from error
         if not isinstance(command, Command):
-            raise BrainError(f"act returned {command!r} at tick {sight.tick}; return a Command")
+            raise BrainError(sight.tick, self.brain.act, command)
         return command.encode()
 
     def _count_invalid(self, error: BadMessageError) -> None:
@@ -130,17 +119,25 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
             return setup
 
 
-def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float) -> int:
+def serve(
+    bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float, launch_token: str | None = None
+) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
+
+    `launch_token` is the secret of the launch that the agent belongs to; None without one.
+
+    The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
 
     A host that has left and is back plays another match: the brain is built again before its first sight of it.
 
     Raises:
-        TouchlineError: `build` cannot make the brain, or there is no host.
+        TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
     """
-    runner = Runner(bus, build(ask_setup(bus, patience)), robot)
+    membership = Membership(bus, robot, launch_token)
+    setup = ask_setup(bus, patience)
+    runner = Runner(bus, build(setup), robot)
     host = HostWatch(bus)
-    bus.declare_alive(PresenceKind.AGENT, robot)
+    membership.join(setup, patience)
     gc.collect()
     gc.freeze()
     is_new_match = False
@@ -152,10 +149,12 @@ def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float
                 runner.answer(sight)
             except BrainError as error:
                 sys.stderr.write(error.report())
-                return 1
+                return 1 if runner.answered else FIRST_SIGHT_FAILED
         elif host.is_reachable():
             if is_new_match:
-                runner.restart(build(ask_setup(bus, patience)))
+                setup = ask_setup(bus, patience)
+                runner.restart(build(setup))
+                membership.join(setup, patience)
                 is_new_match = False
         elif host.unreachable_s() >= patience:
             sys.stderr.write(f"{robot}: the host has been gone for {patience:g} s; leaving\n")

@@ -1,5 +1,6 @@
 """What a robot's process is started with."""
 
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
@@ -7,6 +8,9 @@ from pydantic import Field
 from schemas.bus.settings import ClientSettings
 from schemas.config.settings import CommandLine
 from schemas.wire.message import Name
+
+FIRST_SIGHT_FAILED = 3
+"""Exit status of an agent whose brain failed at its first sight: it would fail again."""
 
 
 class AgentSettings(ClientSettings):
@@ -16,5 +20,9 @@ class AgentSettings(ClientSettings):
     """Name of the robot: cyan1, magenta3, …"""
     brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")]
     """module:Class, or module:function of a plain act(sight)."""
+    brain_folder: Path | None = None
+    """Folder in which the module is looked for before the current directory; a match uses that of its file."""
+    launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
+    """Secret of the host that the agent joins; by default none."""
     patience: Annotated[float, Field(ge=0)] = 10.0
     """s of wall time to wait for a host that is not there."""

@@ -1,4 +1,6 @@
-"""How far a host may run ahead of its recorders, and what it keeps for them: numbers that have to agree.
+"""How far a host may run ahead of its recorders, what it keeps for them, and for how long readers request it.
+
+These numbers have to agree.
 
 A lockstep host waits for a stalled recorder when it is `RUN_AHEAD_TICKS` ahead of it, so that everything that the
 recorder missed is in the `KEPT_BATCHES`. A host does not wait for a recorder that works: the data that it reads at
@@ -19,5 +21,7 @@ REST_TICKS = 60
 """Most ticks between two polls of a recorder."""
 REPORT_TICKS = 25
 """Ticks after which a recorder reports its progress at once."""
+GIVE_UP_S = 20.0
+"""Wall time without progress after which missing messages or batches are given up; a link recovers in less."""
 PARTING_S = 5.0
 """Wall time for which a host or a replay waits at its end for its recorders to receive the last tick."""

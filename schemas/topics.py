@@ -5,6 +5,7 @@ All keys are below `touchline/{match}/`.
 """
 
 from schemas.messages.applied import Applied
+from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
@@ -159,6 +160,17 @@ SETUP = Topic(
     "the setup of the match: pitch, bodies, limits, rules, names",
     reply=Setup,
 )
+CLAIM = Topic(
+    "host/claim",
+    AgentClaim,
+    Party.ROBOT,
+    (Party.HOST,),
+    "when an agent joins",
+    Delivery.QUERY,
+    False,
+    "claims a robot for an agent, or is refused with the reason",
+    reply=AgentClaimReply,
+)
 PARAMETERS = Topic(
     "host/parameters",
     ParametersRequest,
@@ -272,7 +284,7 @@ ALIVE = Topic(
     "while the process lives",
     Delivery.PRESENCE,
     False,
-    "liveliness token of a process: host, agent, coach, recorder, replay; refbox while a referee box officiates",
+    "token of a process: host, agent, session, coach, recorder, replay; refbox while a referee box officiates",
 )
 
 TOPICS: dict[str, Topic] = {
@@ -289,6 +301,7 @@ TOPICS: dict[str, Topic] = {
     "event": EVENT,
     "action": ACTION,
     "setup": SETUP,
+    "claim": CLAIM,
     "parameters": PARAMETERS,
     "scene": SCENE,
     "applied": APPLIED,

@@ -162,6 +162,8 @@ class Snapshot:
     """The robot whose kick was carried out in this tick."""
     silent: tuple[str, ...] = ()
     """Robots whose agent is gone or does not answer, in the order of the roster."""
+    refbox: bool = False
+    """A league's referee box is connected."""
     contacts: tuple[tuple[int, int], ...] = ()
     """Pairs of robots that touch each other, by their indices in the roster, sorted, the smaller index first."""
     ball_spin: tuple[float, float] = (0.0, 0.0)

@@ -2,6 +2,8 @@
 
 import os
 import shutil
+import signal
+import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
@@ -26,8 +28,20 @@ settings.load_profile("steady")
 
 
 def pytest_configure() -> None:
-    """Zenoh chooses its threads when the first session of a process is opened."""
+    """Zenoh chooses its threads when the first session of a process is opened.
+
+    Shells start background jobs with SIGINT ignored, and programs that they start inherit that. A signal with a handler
+    has its default in them. Hosts of tests are not announced to the user.
+    """
+    os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="touchline-tests-")
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, lambda *_: None)
     open_host("first", WallClock(), with_free_port("tcp/127.0.0.1:0")).close()
+
+
+def pytest_unconfigure() -> None:
+    """Remove the announcements of the tests' hosts."""
+    shutil.rmtree(os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
 
 
 @pytest.fixture(scope="session")

@@ -6,8 +6,10 @@ lockstep from the same seed are the same, tick for tick.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.game import Score
 from schemas.messages.command import Command
@@ -33,8 +35,10 @@ class MatchOutcome:
 class InProcessMatch:
     """One match laid out in one process: brains around a simulation, stepped by hand."""
 
-    def __init__(self, config: MatchConfig, brains: dict[str, Brain] | None = None) -> None:
-        """Brains by robot; those left out are loaded as the match file says.
+    def __init__(
+        self, config: MatchConfig, brains: dict[str, Brain] | None = None, brain_folder: Path | None = None
+    ) -> None:
+        """Brains by robot; the others are those of the match file, looked for in `brain_folder` first.
 
         Raises:
             TouchlineError: a brain cannot be loaded.
@@ -43,7 +47,7 @@ class InProcessMatch:
         setup = self.simulation.setup()
         given = brains or {}
         self.brains = {
-            name: given.get(name) or load_brain(config.team(side).brain or "", Briefing.of(name, setup))
+            name: given.get(name) or load_brain(config.team(side).brain or "", Briefing.of(name, setup), brain_folder)
             for side in Side
             for name in config.robots(side)
         }
@@ -62,13 +66,16 @@ def play_match(
     brains: dict[str, Brain] | None = None,
     watch: Callable[[TickResult], None] | None = None,
     until: float | None = None,
+    brain_folder: Path | None = None,
 ) -> MatchOutcome:
     """Play a match to its end, or to `until` s of simulated time; `watch` sees each tick.
+
+    Brains are looked for in `brain_folder`, such as that of the match file, and then in the current directory.
 
     Raises:
         TouchlineError: a brain cannot be loaded.
     """
-    match = InProcessMatch(config, brains)
+    match = InProcessMatch(config, brains, brain_folder)
     simulation = match.simulation
     events: list[GameEvent] = []
     while not simulation.over and (until is None or simulation.now.time < until):

@@ -15,6 +15,7 @@ RIGHTS: dict[str, frozenset[Role]] = {
     ActionName.REPAIR.value: _BENCH,
     ActionName.SUBSTITUTE.value: _BENCH,
     ActionName.ENTER.value: _BENCH,
+    ActionName.NAME_ROBOT.value: _BENCH,
     "order": _BENCH,
     "drive": _BENCH,
     "read_parameters": _BENCH,
@@ -25,7 +26,10 @@ RIGHTS: dict[str, frozenset[Role]] = {
 """Deed → the roles that may do it: the referee's actions by name, and other requests of the page."""
 
 _FOR_A_SIDE = frozenset(
-    {ActionName.REPAIR.value, ActionName.SUBSTITUTE.value, ActionName.ENTER.value, "order", "drive"}
+    {
+        *(ActionName.REPAIR.value, ActionName.SUBSTITUTE.value, ActionName.ENTER.value, ActionName.NAME_ROBOT.value),
+        *("order", "drive"),
+    }
 )
 """Deeds that a coach may do for its own side alone."""
 

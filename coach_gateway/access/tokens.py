@@ -16,6 +16,8 @@ from schemas.errors import TouchlineError
 _MIN_LENGTH = 8
 """Characters of a token, at least."""
 _RANDOM_BYTES = 16
+UNKNOWN_TOKEN = "unknown token; open the page with the address that was given out"
+"""The reply to a token that stands for no role."""
 
 
 @dataclass(frozen=True, slots=True)

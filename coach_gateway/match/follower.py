@@ -26,7 +26,7 @@ _SETTLES_S = 0.2
 """Wall time without another state after which the last one is the newest: a host's cache may deliver the oldest
 first."""
 _LATE_TICKS = 50
-"""Ticks that a state may be older than one before it. An even older one means that a replay has gone back."""
+"""Ticks that a state may be older than one before it. An even older one means that a replay has jumped back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,18 +43,18 @@ class MatchNews:
     """What one update has brought."""
 
     presence_changed: bool = False
-    """The host has come or gone."""
+    """The host has joined or left."""
     refboxes_changed: bool = False
     """A base station has connected to a referee box, or disconnected."""
     new_host: bool = False
     """Another host plays. The rest of this news is about the new host alone."""
     rewound: bool = False
-    """A replay has gone back."""
+    """A replay has jumped back."""
     events: list[GameEvent] = field(default_factory=list)
     states: list[GameState] = field(default_factory=list)
     healths: list[Health] = field(default_factory=list)
     world: bool = False
-    """A newer tick has come."""
+    """A newer tick was received."""
     beliefs: list[str] = field(default_factory=list)
     """Keys of newer beliefs."""
     orders: list[Side] = field(default_factory=list)
@@ -67,7 +67,7 @@ class MatchNews:
 
 
 class _Details(NamedTuple):
-    """Subscriptions that only a closer look needs."""
+    """The subscriptions of a follower with `details`."""
 
     worlds: Subscription
     beliefs: Subscription
@@ -76,20 +76,18 @@ class _Details(NamedTuple):
 
 
 class MatchFollower:
-    """The match as the bus brings it; `update` takes in what has come."""
+    """The match as received from the bus; `update` processes the received messages."""
 
     def __init__(self, bus: Bus, *, details: bool = False) -> None:
-        """With `details` worlds, beliefs, orders and referee boxes are followed too, and events begin with the past
-        ones that the host still keeps.
-        """
+        """`details` adds worlds, beliefs, orders and referee boxes, and the past events that the host still keeps."""
         self.bus = bus
         self.host = HostWatch(bus)
         self.gone = False
-        """The host was there and is no more."""
-        self.there = False
-        """The host is there."""
-        self.hosts = 0
-        """Hosts that have come after the first."""
+        """A host was present and has left."""
+        self.host_present = False
+        """The host is present."""
+        self.host_changes = 0
+        """How often another host has taken the place of the one before."""
         self.state: GameState | None = None
         """The newest state. That of an earlier host stays until the next one has published its own."""
         self.health: Health | None = None
@@ -117,11 +115,11 @@ class MatchFollower:
         self._details = self._follow_details() if details else None
 
     def update(self) -> MatchNews:
-        """Take in what has come since the last call, without waiting, and return what of it is new."""
+        """Process the messages received since the last call, without waiting; returns what is new."""
         news = MatchNews()
-        there, self.gone = self.there, self.host.has_left()
-        self.there = self.host.seen and not self.gone
-        news.presence_changed = self.there != there
+        was_present, self.gone = self.host_present, self.host.has_left()
+        self.host_present = self.host.seen and not self.gone
+        news.presence_changed = self.host_present != was_present
         for message, received in self._messages(self._events, news):
             self._add_event(message, received)
             news.events.append(message)
@@ -154,17 +152,17 @@ class MatchFollower:
 
     @property
     def payloads(self) -> dict[str, bytes]:
-        """Key → newest valid payload of state, health, world and beliefs, as it came."""
+        """Key → newest valid payload of state, health, world and beliefs, as received."""
         self._read_details()
         return self._payloads
 
     @property
     def radios(self) -> dict[str, Radio]:
-        """Robot → what it sent last on the radio."""
+        """Robot → its newest radio message."""
         return {robot: belief.radio for robot, belief in self.beliefs.items()}
 
-    def complete(self, messages: Iterable[ReceivedMessage]) -> list[GameEvent | GameState]:
-        """Take in recorded events and states of which some have not come; returns the new ones, in their order."""
+    def merge_recorded(self, messages: Iterable[ReceivedMessage]) -> list[GameEvent | GameState]:
+        """Merge recorded events and states, of which some were not received; returns the new ones, in their order."""
         fresh: list[GameEvent | GameState] = []
         for received in messages:
             message = self._decoded(received)
@@ -228,7 +226,7 @@ class MatchFollower:
         news.orders = details.orders.update()
 
     def _read_details(self) -> None:
-        """Read the newest worlds and beliefs, of which most are replaced before anything asks for them."""
+        """Read the newest worlds and beliefs, of which most are replaced before they are used."""
         unread, self._unread = self._unread, {}
         for received in unread.values():
             message = self._decoded(received)
@@ -251,7 +249,7 @@ class MatchFollower:
         """With the first message of another host, forget what the host before has published."""
         if not self._host_change.is_new_host(received):
             return
-        self.hosts += 1
+        self.host_changes += 1
         self.health = self.first = self.last = self._world = None
         self._newest_tick = 0
         for content in (self.events, self._payloads, self.orders, self._beliefs, self._unread):
@@ -262,7 +260,7 @@ class MatchFollower:
         news.world = news.rewound = False
 
     def _rewind(self, state: GameState, news: MatchNews) -> None:
-        """Forget the events that lie ahead again where a replay has gone back."""
+        """Forget the events that lie ahead again where a replay has jumped back."""
         if state.tick < self._newest_tick - _LATE_TICKS:
             self.events[:] = [event for event in self.events if event.tick <= state.tick]
             self.orders.clear()

@@ -3,6 +3,7 @@
 from typing import Any
 
 from coach_gateway.match.orders import OrderFollower, Receipt
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.bus.contract import Bus, NoReplyError, Publisher
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
@@ -14,10 +15,11 @@ from schemas.messages.setup import Setup, SetupRequest
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
-from schemas.wire.faults import FaultError, validated
+from schemas.wire.faults import FaultError
 from schemas.wire.message import BadMessageError, WireMessage
+from schemas.wire.struct_faults import validated
 
-_LOOK_S = 0.02
+_POLL_S = 0.02
 """s of wall time between two looks for acknowledgements."""
 
 
@@ -40,6 +42,13 @@ class HostClient:
         """
         setup: Setup = self._ask(SETUP, SetupRequest())
         return setup
+
+    def team_names(self) -> TeamNames:
+        """The teams' names; of a host that publishes no setup, the sides."""
+        try:
+            return TeamNames.of_setup(self.setup())
+        except TouchlineError:
+            return SIDES_ALONE
 
     def act(self, action: RefereeAction) -> ActionReply:
         """Ask the referee for an action; the reply has whether it was accepted, and why not.
@@ -89,7 +98,7 @@ class HostClient:
 
         Raises:
             TouchlineError: no host answers for this match, a robot named in the order is not in it, or a field is
-                invalid.
+                invalid, or a point of it is outside the field.
         """
         setup = self.setup()
         robots = setup.teams[side].robots
@@ -102,6 +111,8 @@ class HostClient:
             order = validated(CoachOrder, {**content, "sequence": self._sequence})
         except FaultError as error:
             raise TouchlineError(f"the order cannot be given: {error}") from None
+        if why := order.refusal_on(setup.pitch):
+            raise TouchlineError(f"the order cannot be given: {why}")
         if side not in self._orders:
             self._orders[side] = self._bus.publisher(ORDER, side=side.value)
         self._orders[side].put(order)
@@ -117,7 +128,7 @@ class HostClient:
             receipt = self.orders.book.receipt(side, order.sequence)
             if receipt.is_final or clock.now() >= deadline:
                 return receipt
-            clock.sleep_until(clock.now() + _LOOK_S)
+            clock.sleep_until(clock.now() + _POLL_S)
 
     def _next_number(self, side: Side, setup: Setup) -> int:
         """The number of the next order: wall time in ms, or one more than a larger number that is active.

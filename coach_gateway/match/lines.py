@@ -1,12 +1,8 @@
 """The match in plain words: one line for a state, one for an event."""
 
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.game import SIDED, GameStage
 from schemas.messages.game import GameEvent, GameState
-
-
-def printable(text: str) -> str:
-    """A text from the network as one line without control characters, which a terminal would obey."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
 def clock_text(seconds: float) -> str:
@@ -15,17 +11,12 @@ def clock_text(seconds: float) -> str:
     return f"{tenths // 600}:{tenths % 600 / 10:04.1f}"
 
 
-def score_text(state: GameState) -> str:
-    """`cyan 1 : 0 magenta`."""
-    return f"cyan {state.score.cyan} : {state.score.magenta} magenta"
-
-
-def phase_text(state: GameState) -> str:
-    """The phase and its side: `throw in, magenta` before START, `throw in, magenta, started` after it."""
+def phase_text(state: GameState, names: TeamNames = SIDES_ALONE) -> str:
+    """The phase and its team: `throw in, magenta` before START, `throw in, magenta, started` after it."""
     words = [state.phase.value.replace("_", " ")]
     if state.phase in SIDED:
         if state.side is not None:
-            words.append(state.side.value)
+            words.append(names[state.side])
         if state.running:
             words.append("started")
     return ", ".join(words)
@@ -51,17 +42,27 @@ def discipline_phrases(state: GameState) -> list[str]:
     return phrases
 
 
-def state_line(state: GameState) -> str:
+def question_phrases(state: GameState, names: TeamNames = SIDES_ALONE) -> list[str]:
+    """One phrase for each action that waits for its robot: `Lions names the robot for: yellow card, else cyan4`."""
+    return [
+        f"{names[asked.side]} names the robot for: {asked.action.value.replace('_', ' ')}, else {asked.default}"
+        for asked in state.questions
+    ]
+
+
+def state_line(state: GameState, names: TeamNames = SIDES_ALONE) -> str:
     """Clock, half, score and phase, robots with cards or off the field, and what is proposed."""
-    parts = [f"{clock_text(state.clock):>7}", half_text(state), score_text(state), phase_text(state)]
+    parts = [f"{clock_text(state.clock):>7}", half_text(state), names.score(state.score), phase_text(state, names)]
     discipline = discipline_phrases(state)
     if discipline:
         parts.append(f"[{'; '.join(discipline)}]")
     if state.proposal is not None:
-        parts.append(f"proposed: {state.proposal}")
+        parts.append(f"proposed: {names.in_text(state.proposal)}")
+    parts += question_phrases(state, names)
     return "  ".join(parts)
 
 
-def event_line(event: GameEvent) -> str:
-    """Clock, kind and sentence of an event."""
-    return f"{clock_text(event.clock):>7}  {event.kind.value.replace('_', ' ')}: {event.text}"
+def event_line(event: GameEvent, names: TeamNames = SIDES_ALONE) -> str:
+    """Clock, kind and sentence of an event; a sentence that begins with the kind does not repeat it."""
+    kind = event.kind.value.replace("_", " ")
+    return f"{clock_text(event.clock):>7}  {kind}: {names.in_text(event.text.removeprefix(f'{kind}, '))}"

@@ -1,6 +1,6 @@
-"""A running match for bridges that wait for many things at once: follows it, and takes requests to its host.
+"""A running match for bridges, which are asynchronous: follows it, and sends requests to its host.
 
-One task follows the bus. Requests to the host wait in threads, and delay nothing else.
+One task follows the bus. Requests to the host wait in threads, so that they delay nothing else.
 """
 
 import asyncio
@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderBook
+from coach_gateway.match.team_obstacles import TeamObstacle, team_obstacles
 from coach_gateway.service import pause
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
@@ -22,19 +23,19 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 
-_LOOK_S = 0.01
-"""s of wall time between two looks at the bus."""
+_POLL_S = 0.01
+"""Wall time between two polls of the bus, in s."""
 _ASK_S = 1.0
-"""s of wall time until a host that did not answer is asked again how its match is set up."""
+"""Wall time after which the setup is queried again from a host that did not reply, in s."""
 _CATCH_UP_S = 1.0
-"""s of wall time that a state published before a reply may arrive after it."""
+"""Wall time by which a state published before a reply may arrive after it, in s."""
 _REQUESTS = 4
 """Requests at the same time; further ones wait. A stop, and what a league's box commands, wait for no others."""
 _T = TypeVar("_T")
 
 
 class LiveMatch:
-    """One match, as it stands."""
+    """The present state of one match."""
 
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
@@ -49,7 +50,7 @@ class LiveMatch:
         self._asking: asyncio.Task[None] | None = None
         self._stale = True
         self.setup: Setup | None = None
-        """How the match is set up; None before the host has answered."""
+        """The setup of the match; None before the host has replied."""
         self.sides: dict[str, Side] = {}
         """Robot → its side, of those that take part."""
         self._state_handlers: list[Callable[[GameState], None]] = []
@@ -59,7 +60,7 @@ class LiveMatch:
         try:
             while not stop.is_set():
                 self.update()
-                await pause(stop, _LOOK_S)
+                await pause(stop, _POLL_S)
         finally:
             self._ended = True
             if self._asking is not None:
@@ -68,10 +69,10 @@ class LiveMatch:
                 threads.shutdown(wait=False, cancel_futures=True)
 
     def update(self) -> None:
-        """Take in what has come, without waiting, and ask for the setup where it is not known or has changed."""
+        """Process received messages, without waiting; query the setup where it is not known or has changed."""
         episode = self.state.episode if self.state is not None else None
         news = self.follower.update()
-        came = news.presence_changed and self.there  # another host may play another match
+        came = news.presence_changed and self.host_present  # another host may play another match
         if came or news.new_host or news.rewound:
             self._stale = True
         for state in news.states:
@@ -87,14 +88,14 @@ class LiveMatch:
         return self._bus.clock.now()
 
     @property
-    def there(self) -> bool:
-        """The host is there."""
-        return self.follower.there
+    def host_present(self) -> bool:
+        """The host is present."""
+        return self.follower.host_present
 
     @property
-    def hosts(self) -> int:
-        """Hosts that have come after the first; events are counted anew with each."""
-        return self.follower.hosts
+    def host_changes(self) -> int:
+        """How often another host has taken the place of the one before; the events begin anew with each."""
+        return self.follower.host_changes
 
     @property
     def state(self) -> GameState | None:
@@ -103,7 +104,7 @@ class LiveMatch:
 
     @property
     def events(self) -> list[GameEvent]:
-        """All that the host remembers, in order."""
+        """The events that the host keeps, in order."""
         return self.follower.events
 
     @property
@@ -133,6 +134,10 @@ class LiveMatch:
         beliefs = self.follower.beliefs
         return {name: beliefs[name] for name in sorted(beliefs) if self.sides.get(name) in wanted}
 
+    def obstacles(self, side: Side) -> list[TeamObstacle]:
+        """Opponents and other bodies as this side believes them, in its team frame."""
+        return team_obstacles(self.beliefs([side]), self.time)
+
     def on_state(self, handle: Callable[[GameState], None]) -> None:
         """Call `handle` with every state from now on, in order, beginning with the newest one."""
         self._state_handlers.append(handle)
@@ -142,12 +147,12 @@ class LiveMatch:
     def connect_refbox(self, side: Side, *, connected: bool) -> None:
         """Declare on the bus whether this side's base station is connected to a referee box.
 
-        While one is, everyone else may only stop the game.
+        Meanwhile other clients may only stop the game.
         """
         (self._bus.declare_alive if connected else self._bus.withdraw_alive)(PresenceKind.REFBOX, side.value)
 
     async def act(self, action: RefereeAction) -> ActionReply:
-        """Ask the referee; without a host the answer is a refusal that says so.
+        """Request an action from the referee; without a host the reply is a refusal with that reason.
 
         When it returns, `state` is at least as new as the action: the next request never rests on an older state.
         """
@@ -165,7 +170,7 @@ class LiveMatch:
         """Wait for the state of a tick that the host has published, for a limited time in case it was lost."""
         until = self.now + _CATCH_UP_S
         while (self.state is None or self.state.tick < tick) and self.now < until:
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
             self.update()
 
     async def order(self, side: Side, **content: Any) -> CoachOrder:
@@ -179,18 +184,18 @@ class LiveMatch:
 
     async def _in_thread(self, ask: Callable[[], _T], threads: ThreadPoolExecutor) -> _T:
         if self._ended:
-            raise TouchlineError("the gateway ends")
+            raise TouchlineError("the gateway is shutting down")
         return await asyncio.get_running_loop().run_in_executor(threads, ask)
 
     def _refresh_setup(self) -> None:
-        """Query how the match is set up, one query at a time."""
+        """Query the setup, one query at a time."""
         asking = self._asking is not None and not self._asking.done()
         if self._stale and not asking and self.now >= self._asked_at + _ASK_S:
             self._asked_at = self.now
             self._asking = asyncio.get_running_loop().create_task(self._ask_setup())
 
     async def _ask_setup(self) -> None:
-        self._stale = False  # another host may come before this one replies
+        self._stale = False  # another host may join before this one replies
         try:
             setup = await self._in_thread(self._client.setup, self._threads)
         except TouchlineError:

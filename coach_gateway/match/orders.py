@@ -6,7 +6,8 @@ The host publishes both on `team/{side}/standing`: on change, and once a simulat
 including those of other clients.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Annotated, Any
 
@@ -49,6 +50,8 @@ class Receipt:
     """Robots that have acknowledged it."""
     missing: tuple[str, ...] = ()
     """Robots of the side that have not."""
+    refused: Mapping[str, str] = field(default_factory=dict)
+    """Robot that does not carry it out → the reason."""
 
     @property
     def is_final(self) -> bool:
@@ -60,7 +63,11 @@ class Receipt:
             return "no robot has received it yet"
         if self.status is OrderStatus.REPLACED:
             return "replaced by an order with a larger number"
-        words = [f"acknowledged by {', '.join(self.acknowledged)}" if self.acknowledged else "acknowledged by no robot"]
+        follow = [name for name in self.acknowledged if name not in self.refused]
+        words = [f"acknowledged by {', '.join(follow)}"] if follow else []
+        if not self.acknowledged:
+            words = ["acknowledged by no robot"]
+        words += [f"refused by {', '.join(names)}: {why}" for why, names in _by_reason(self.refused).items()]
         return "; ".join([*words, f"not yet by {', '.join(self.missing)}"] if self.missing else words)
 
 
@@ -74,7 +81,7 @@ class OrderBook:
         """Take in an active order; returns whether order or acknowledgements are new."""
         before = self._active.get(side)
         self._active[side] = active
-        return before is None or (before.order, before.acknowledged) != (active.order, active.acknowledged)
+        return before is None or _content(before) != _content(active)
 
     def active(self, side: Side) -> ActiveOrder | None:
         """The active order and its acknowledgements; None before any was published."""
@@ -92,11 +99,24 @@ class OrderBook:
             OrderStatus.ACTIVE,
             tuple(name for name, has in robots.items() if has),
             tuple(name for name, has in robots.items() if not has),
+            active.refused,
         )
 
     def clear(self) -> None:
         """Forget all orders, as those of another host."""
         self._active.clear()
+
+
+def _content(active: ActiveOrder) -> tuple[object, ...]:
+    return active.order, active.acknowledged, active.refused
+
+
+def _by_reason(refused: Mapping[str, str]) -> dict[str, list[str]]:
+    """Reason → the robots that give it."""
+    found: dict[str, list[str]] = {}
+    for name, why in refused.items():
+        found.setdefault(why, []).append(name)
+    return found
 
 
 class OrderFollower:

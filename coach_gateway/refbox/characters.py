@@ -13,8 +13,7 @@ def read(character: str) -> tuple[Signal, Side | None]:
     return BY_CHARACTER[character]
 
 
-def write(signal: Signal, side: Side | None = None) -> str | None:
-    """The character of a signal; None for signals that only JSON has."""
-    if not signal.character:
-        return None
-    return signal.character.lower() if signal.sided and side is Side.MAGENTA else signal.character
+def write(signal: Signal, side: Side | None = None) -> bytes:
+    """The character of a signal on the wire; empty for signals that only JSON has."""
+    lower = signal.sided and side is Side.MAGENTA
+    return (signal.character.lower() if lower else signal.character).encode("ascii")

@@ -17,6 +17,7 @@ from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_ours, response_to, speaks_for
 from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.own_world_state import own_world_state
+from coach_gateway.refbox.signal_queue import BoxSignal, SignalQueue
 from coach_gateway.service import pause
 from schemas.errors import TouchlineError
 from schemas.game import OfficiatingMode
@@ -33,12 +34,10 @@ _FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.25, 5.0
 has sent something, the first pause applies again."""
 _CONNECT_S = 5.0
 """s of wall time that one attempt to connect lasts at most."""
-_UNREAD = 262_144
+UNREAD_BYTES = 262_144
 """Bytes of world states that wait for a box that does not read; beyond them, newer ones are left out."""
-_UNREAD_S = 10.0
+UNREAD_S = 10.0
 """s of wall time without reading after which the link to a box is closed."""
-_MOST_WAITING = 500
-"""Commands that wait until the match can be officiated; beyond them, the oldest are dropped."""
 _START_S = 10.0
 """s of simulated time during which START is repeated: the rules' pauses are in simulated time, too."""
 _START_AGAIN_S = 0.1
@@ -68,7 +67,7 @@ class RefBoxClient:
         self._parked = False
         self._error_notices = TokenBucket(1.0, 5.0, live.now)
         """How often an unreadable command is logged."""
-        self._signals: asyncio.Queue[tuple[Signal, Side | None, int | None]] = asyncio.Queue()
+        self._signals = SignalQueue()
         self.connected = False
         self.counts: Counter[str] = Counter()
         """`received`, `forwarded`, `refused`, `not forwarded`, `unreadable`, `dropped`, `uploaded`, `left out`,
@@ -117,7 +116,7 @@ class RefBoxClient:
         """Serve one connection from its beginning to its end."""
         self.counts["connections"] += 1
         self._target = None
-        self._signals = asyncio.Queue()
+        self._signals = SignalQueue()
         self._set_connected(True)
         self._log(f"{self._box.team} is connected to the referee box {self._box.host}:{self._box.port}")
         stopped = asyncio.create_task(stop.wait())
@@ -174,10 +173,8 @@ class RefBoxClient:
 
     def _note(self, signal: Signal, side: Side | None, robot: int | None) -> None:
         self.counts["received"] += 1
-        if self._signals.qsize() >= _MOST_WAITING:
-            self._signals.get_nowait()
+        if self._signals.put(BoxSignal(signal, side, robot)):
             self.counts["dropped"] += 1
-        self._signals.put_nowait((signal, side, robot))
 
     def _side_of(self, target: str) -> Side | None:
         """The side of a target: by the address of the welcome, or else by colour or name."""
@@ -198,10 +195,13 @@ class RefBoxClient:
         if self._live.setup.officiating not in (OfficiatingMode.MANUAL, None):
             self._log("our own referee still decides beside the box; start the match with --referee manual")
         while True:
-            signal, side, number = await self._signals.get()
+            signal, side, number = await self._signals.next()
             if not is_ours(signal, side, self._box.team, self._live.refboxes):
                 continue
-            wanted = response_to(signal, side, self._robot(side, number), self._live.state)
+            robot = self._robot(side, number)
+            if number is not None and robot is None and side is not None:
+                self._log(f"referee box: {signal.name} names robot {number}, and no robot of {side} has that number")
+            wanted = response_to(signal, side, robot, self._live.state)
             if wanted.reason:
                 self.counts["not forwarded"] += 1
                 self._log(f"referee box: {wanted.reason}")
@@ -228,10 +228,18 @@ class RefBoxClient:
             self._log(f"referee box: {reply.reason}")
 
     async def _start(self, action: RefereeAction) -> None:
-        """Repeat START until the game runs, unless the box sends something else meanwhile."""
+        """Repeat START until the game runs, unless the box changes the game otherwise meanwhile.
+
+        Cards and repairs do not: the league's box sends them right behind START.
+        """
         until = self._live.time + _START_S
         reason = ""
-        while self._signals.empty() and self._live.there and self._live.time < until and self._waits_for_start():
+        while (
+            not self._signals.changes_game
+            and self._live.host_present
+            and self._live.time < until
+            and self._waits_for_start()
+        ):
             reply = await self._live.act(action)
             reason = reply.reason
             await asyncio.sleep(_START_AGAIN_S)
@@ -264,10 +272,10 @@ class RefBoxClient:
         due = read_at = self._live.now
         while True:
             waiting = writer.transport.get_write_buffer_size()
-            if waiting < _UNREAD:
+            if waiting < UNREAD_BYTES:
                 read_at = self._live.now
                 self._upload(writer)
-            elif self._live.now - read_at > _UNREAD_S:
+            elif self._live.now - read_at > UNREAD_S:
                 return
             else:
                 self.counts["left out"] += 1

@@ -47,10 +47,10 @@ def _plain(name: ActionName) -> _Rule:
 
 
 def _for_robot(name: ActionName) -> _Rule:
-    def rule(signal: Signal, side: Side | None, robot: str | None, _state: GameState) -> SignalResponse:
-        if robot is None:
-            return SignalResponse(reason=f"{signal.name} for {side} names no robot of the match")
-        return SignalResponse((_action(name, robot=robot),))
+    """The action on the robot; without a robot on the side, which is asked to name it."""
+
+    def rule(_signal: Signal, side: Side | None, robot: str | None, _state: GameState) -> SignalResponse:
+        return SignalResponse((_action(name, robot=robot) if robot is not None else _action(name, side),))
 
     return rule
 
@@ -70,6 +70,12 @@ def _restart(signal: Signal, side: Side | None, _robot: str | None, state: GameS
 
 def _next_half(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
     return SignalResponse((_action(ActionName.START),)) if state.phase in BREAKS else _NOTHING
+
+
+def _end_part(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
+    """The end of the half, or of the match where the shoot-out is its last part."""
+    is_last = state.stage is GameStage.SHOOT_OUT
+    return SignalResponse((_action(ActionName.END_GAME if is_last else ActionName.END_HALF),))
 
 
 def _end(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
@@ -102,13 +108,13 @@ FORWARD: Mapping[str, _Rule] = {
     "GOAL": _plain(ActionName.GOAL),
     "SUBGOAL": _plain(ActionName.CANCEL_GOAL),
     "YELLOW_CARD": _for_robot(ActionName.YELLOW_CARD),
-    "DOUBLE_YELLOW": _for_robot(ActionName.YELLOW_CARD),
+    "DOUBLE_YELLOW": _for_robot(ActionName.DOUBLE_YELLOW),
     "RED_CARD": _for_robot(ActionName.RED_CARD),
     "REPAIR": _for_robot(ActionName.REPAIR),
     "REPAIR_END": _for_robot(ActionName.ENTER),
     "SUBSTITUTION": _for_robot(ActionName.SUBSTITUTE),
-    "HALF_TIME": _plain(ActionName.END_HALF),
-    "END_PART": _plain(ActionName.END_HALF),
+    "HALF_TIME": _end_part,
+    "END_PART": _end_part,
     "END_GAME": _end,
     "GAMEOVER": _plain(ActionName.END_GAME),
     "FIRST_HALF": _known,

@@ -1,12 +1,13 @@
 """The world state that a base station of ours sends to the referee box, from its robots' own beliefs. Pure.
 
-Robots send on the radio where they are and where they see the ball. What a robot has not sent lately is taken from the
-truth, as are the opponents.
+Robots send on the radio where they are, and where they believe the ball and the obstacles to be. What no robot has sent
+lately is taken from the truth.
 """
 
 from collections.abc import Mapping
 from typing import Any
 
+from coach_gateway.match.team_obstacles import OLD, team_obstacles
 from schemas.frames import Pose
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
@@ -16,8 +17,6 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 
-OLD = 1.0
-"""Simulated time in s after which a belief no longer counts. Chosen here: robots send one each tick, or each tenth."""
 _SURE_FOR = 2.0
 """s since a ball was seen after which its confidence is 0. Chosen here."""
 
@@ -37,20 +36,31 @@ def own_world_state(
     recent = {name: beliefs[name] for name in mine if name in beliefs and world.time - beliefs[name].time <= OLD}
     numbers = numbers_of(sides)
     ages = [world.time - belief.time for belief in recent.values()]
-    obstacles = [
-        ObstacleSeen(robot.x, robot.y, robot.vx, robot.vy, setup.robot.radius)
-        for name, robot in playing.items()
-        if sides.get(name) is side.opponent
-    ]
-    obstacles += [ObstacleSeen(body.x, body.y, 0.0, 0.0, body.radius) for body in world.obstacles.values()]
     return world_state(
         setup.teams[side].name,
         attack,
         [_robot(numbers[name], playing[name], recent.get(name), attack) for name in mine],
         _balls(setup, world, recent, attack),
-        obstacles,
+        _believed_obstacles(setup, recent, world.time, attack) or _true_obstacles(side, setup, sides, world),
         age_ms=max(0, round(max(ages, default=0.0) * 1e3)),
     )
+
+
+def _believed_obstacles(setup: Setup, beliefs: Mapping[str, Belief], time: float, attack: int) -> list[ObstacleSeen]:
+    """Opponents and other bodies as the team's robots have sent them; their size is taken to be a robot's."""
+    return [
+        ObstacleSeen(attack * one.x, attack * one.y, 0.0, 0.0, setup.robot.radius)
+        for one in team_obstacles(beliefs, time)
+    ]
+
+
+def _true_obstacles(side: Side, setup: Setup, sides: Mapping[str, Side], world: World) -> list[ObstacleSeen]:
+    opponents = [
+        ObstacleSeen(robot.x, robot.y, robot.vx, robot.vy, setup.robot.radius)
+        for name, robot in world.robots.items()
+        if robot.off_field is None and sides.get(name) is side.opponent
+    ]
+    return opponents + [ObstacleSeen(body.x, body.y, 0.0, 0.0, body.radius) for body in world.obstacles.values()]
 
 
 def _robot(number: int, truth: RobotTruth, belief: Belief | None, attack: int) -> RobotSeen:

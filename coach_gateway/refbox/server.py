@@ -1,18 +1,21 @@
 """Our referee in place of the league's box: sends its commands to team software, and receives world states from it.
 
 Each command goes to all base stations, with the address of the team that it is for; WELCOME has each one's own address.
-A base station that does not read is dropped before much waits for it; none waits for another.
+Base stations of the years before 2020 read single characters instead, by their port or by their hello; they get no
+addresses and no robots' numbers. A base station that does not read is dropped before much waits for it; none waits for
+another.
 """
 
 import asyncio
 import contextlib
-from collections.abc import Callable, Sequence
+import socket
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, cannot_listen
-from coach_gateway.refbox import DEFAULT_PORT, commands
+from coach_gateway.ports import LOOPBACK, bound_socket
+from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.commands import BoxCommand
 from coach_gateway.refbox.framing import BoxProtocol, Framer
@@ -41,6 +44,8 @@ class ServerAddress:
     port: int = DEFAULT_PORT
     side: Side | None = None
     host: str = LOOPBACK
+    protocol: BoxProtocol = BoxProtocol.JSON
+    """Protocol of the commands that are sent there."""
 
 
 @dataclass(eq=False)
@@ -50,6 +55,8 @@ class _Peer:
     writer: asyncio.StreamWriter
     name: str
     side: Side | None = None
+    protocol: BoxProtocol = BoxProtocol.JSON
+    """Protocol of the commands that are sent to it; its own messages are JSON in any case."""
     framer: Framer = field(default_factory=lambda: Framer(BoxProtocol.JSON))
 
 
@@ -62,14 +69,26 @@ class RefBoxServer:
         server_addresses: Sequence[ServerAddress],
         log: Callable[[str], None],
         of_token: Callable[[str], Side | None] = lambda _token: None,
+        addresses: Mapping[Side, str] | None = None,
+        bound: Sequence[socket.socket] = (),
     ) -> None:
-        """`log` is called with lines for people; `of_token` returns the side whose coach has a token."""
+        """Serves on these server addresses.
+
+        Args:
+            live: the match.
+            server_addresses: where to listen.
+            log: called with lines for people.
+            of_token: the side whose coach has a token.
+            addresses: what the sides are called in commands, unless a base station's hello asks for another address;
+                by default their names.
+            bound: the sockets of the server addresses where they are bound already.
+        """
         self._live = live
-        self._server_addresses = server_addresses
+        self._server_addresses, self._bound = server_addresses, bound
         self._log = log
         self._of_token = of_token
         self._call_generator = CallGenerator()
-        self._addresses: dict[Side, str] = {}
+        self._addresses: dict[Side, str] = dict(addresses or {})
         self._peers: list[_Peer] = []
         self.ports: list[int] = []
         """Ports that it listens on, once it does."""
@@ -84,36 +103,40 @@ class RefBoxServer:
             TouchlineError: a port is taken.
         """
         async with contextlib.AsyncExitStack() as stack:
-            for address in self._server_addresses:
-                server = await stack.enter_async_context(await self._open(address))
+            sockets = self._bound or [
+                bound_socket("--refbox-server", address.host, address.port, socket.SOCK_STREAM)
+                for address in self._server_addresses
+            ]
+            for address, bound in zip(self._server_addresses, sockets, strict=True):
+                server = await stack.enter_async_context(await self._open(address, bound))
                 self.ports.append(server.sockets[0].getsockname()[1])
                 whom = f"{address.side}'s base station" if address.side is not None else "base stations"
-                self._log(f"referee box for {whom} on {address.host}:{self.ports[-1]}")
+                how = ", in characters" if address.protocol is BoxProtocol.CHARACTERS else ""
+                self._log(f"referee box for {whom} on {address.host}:{self.ports[-1]}{how}")
             await stop.wait()
             for peer in self._peers:
                 peer.writer.transport.abort()
 
-    async def _open(self, address: ServerAddress) -> asyncio.Server:
-        try:
-            return await asyncio.start_server(
-                lambda r, w: self._run_connection(r, w, address), address.host, address.port
-            )
-        except OSError as error:
-            raise cannot_listen("--refbox-server", address.host, address.port, error) from None
+    async def _open(self, address: ServerAddress, bound: socket.socket) -> asyncio.Server:
+        return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound)
 
     def send(self, calls: Sequence[Call]) -> None:
         """Send these commands to all base stations."""
         if calls and self._live.setup is not None:
             called = self._targets()
             numbers = numbers_of(self._live.sides)
-            text = b"".join(
+            json_text = b"".join(
                 commands.write(
                     BoxCommand(call.signal, called[call.side] if call.side else "", numbers.get(call.robot or ""))
                 )
                 for call in calls
             )
+            text = {
+                BoxProtocol.JSON: json_text,
+                BoxProtocol.CHARACTERS: b"".join(characters.write(call.signal, call.side) for call in calls),
+            }
             for peer in tuple(self._peers):
-                self._send(peer, text)
+                self._send(peer, text[peer.protocol])
 
     def _send_calls(self, state: GameState) -> None:
         self.send(self._call_generator.next_calls(state, self._live.sides))
@@ -130,7 +153,7 @@ class RefBoxServer:
     ) -> None:
         """Serve one connection from its beginning to its end."""
         host, port = (writer.get_extra_info("peername") or ("gone", 0))[:2]
-        peer = _Peer(writer, f"{host}:{port}")
+        peer = _Peer(writer, f"{host}:{port}", protocol=address.protocol)
         if len(self._peers) >= MOST and not self._make_room():
             self._log(f"base station {peer.name} turned away: {MOST} are connected")
             writer.transport.abort()
@@ -177,8 +200,9 @@ class RefBoxServer:
         for other in [other for other in self._peers if other is not peer and other.side is identity.side]:
             self._log(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
             self._drop(other)
-        changed = peer.side is not identity.side
-        peer.side = identity.side
+        protocol = identity.protocol or peer.protocol
+        changed = (peer.side, peer.protocol) != (identity.side, protocol)
+        peer.side, peer.protocol = identity.side, protocol
         if identity.address is not None:
             changed = changed or self._addresses.get(peer.side) != identity.address
             self._addresses[peer.side] = identity.address
@@ -192,14 +216,17 @@ class RefBoxServer:
 
     def _welcome(self, peer: _Peer) -> None:
         """Send its own address, and whether the game runs: a team that connects late must know of a stop."""
-        address = self._targets()[peer.side] if peer.side is not None else ""
         state = self._live.state
         running = START if state is not None and state.running else STOP
+        if peer.protocol is BoxProtocol.CHARACTERS:
+            self._send(peer, characters.write(_WELCOME) + characters.write(running))
+            return
+        address = self._targets()[peer.side] if peer.side is not None else ""
         self._send(peer, commands.write(BoxCommand(_WELCOME, address)) + commands.write(BoxCommand(running)))
 
     def _send(self, peer: _Peer, text: bytes) -> None:
         transport = peer.writer.transport
-        if transport.is_closing():
+        if not text or transport.is_closing():
             return
         peer.writer.write(text)
         if transport.get_write_buffer_size() > UNREAD:

@@ -125,6 +125,8 @@ class Ack(Part):
     """Of an order: robots that have acknowledged it so far; later ones are in the frames."""
     missing: list[Name] = []
     """Of an order: robots that have not acknowledged it yet."""
+    refused: dict[Name, str] = {}
+    """Of an order: robot that does not carry it out → the reason, as far as is known; later ones are in the frames."""
 
 
 class SideOrder(Part):
@@ -132,6 +134,21 @@ class SideOrder(Part):
 
     order: int
     acknowledged: dict[Name, bool]
+    refused: dict[Name, str] = {}
+    """Robot that does not carry it out → the reason."""
+
+
+class BelievedObstacle(Part):
+    """An opponent or another body that is no robot of the team, as the team believes it, in its team frame."""
+
+    x: float
+    """x in the team frame, in m."""
+    y: float
+    """y in the team frame, in m."""
+    age: float
+    """Simulated time since it was sent, in s."""
+    seen_by: list[Name]
+    """The robots that believe it, the nearest first."""
 
 
 class Frame(Part):
@@ -149,6 +166,8 @@ class Frame(Part):
     """Number of events so far."""
     orders: dict[Side, SideOrder] = {}
     """The order of the coach's own side; of both sides for the referee."""
+    obstacles: dict[Side, list[BelievedObstacle]] = {}
+    """Opponents and other bodies as the coach's own side believes them; as both sides do for the referee."""
 
 
 class BeliefUpdate(Part):

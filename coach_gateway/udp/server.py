@@ -1,25 +1,26 @@
 """The socket that coach programs use. No program waits for another; lost datagrams show as gaps in the numbers."""
 
 import asyncio
+import socket
 from collections.abc import Callable
 from typing import Any
 
 from coach_gateway.access.rights import sides_shown
 from coach_gateway.access.roles import Role
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, cannot_listen
+from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.service import pause
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
-from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, SessionEnd, SideOrder
+from coach_gateway.udp.protocol import Ack, BeliefUpdate, BelievedObstacle, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import SILENCE_S, Session
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
 from schemas.side import Side
 from schemas.wire.message import Part
 
-_LOOK_S = 0.01
+_POLL_S = 0.01
 """s of wall time between two looks at which program is due."""
 _EVENTS_AT_ONCE = 50
 """Events sent at most with one frame, or for one request for events: more would be lost in a full buffer."""
@@ -35,11 +36,15 @@ class UdpServer(asyncio.DatagramProtocol):
         log: Callable[[str], None],
         port: int = DEFAULT_PORT,
         host: str = LOOPBACK,
+        bound: socket.socket | None = None,
     ) -> None:
-        """`role_of` returns the role of a token; `log` is called with lines for people."""
+        """`role_of` returns the role of a token; `log` is called with lines for people.
+
+        `bound` is the socket where it is bound already, in place of port and host.
+        """
         self._live = live
         self._log = log
-        self._at = (host, port)
+        self._at, self._bound = (host, port), bound
         self._coaches = CoachPrograms(role_of, live.now)
         self._transport: asyncio.DatagramTransport | None = None
         self._full = False
@@ -54,22 +59,20 @@ class UdpServer(asyncio.DatagramProtocol):
         Raises:
             TouchlineError: the port is taken.
         """
+        bound = self._bound or bound_socket("--udp", *self._at, socket.SOCK_DGRAM)
         loop = asyncio.get_running_loop()
-        try:
-            transport, _ = await loop.create_datagram_endpoint(lambda: self, local_addr=self._at)
-        except OSError as error:
-            raise cannot_listen("--udp", *self._at, error) from None
+        transport, _ = await loop.create_datagram_endpoint(lambda: self, sock=bound)
         self._transport = transport
-        self.port = transport.get_extra_info("sockname")[1]
-        self._log(f"coach programs over UDP on {self._at[0]}:{self.port}")
+        host, self.port = transport.get_extra_info("sockname")[:2]
+        self._log(f"coach programs over UDP on {host}:{self.port}")
         try:
-            while not await pause(stop, _LOOK_S):
+            while not await pause(stop, _POLL_S):
                 self._send_due()
         finally:
             for task in tuple(self._tasks):
                 task.cancel()
             for address in self._coaches.sessions:
-                self._send(SessionEnd(reason="the gateway ends"), address)
+                self._send(SessionEnd(reason="the gateway is shutting down"), address)
             transport.close()
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
@@ -123,7 +126,8 @@ class UdpServer(asyncio.DatagramProtocol):
         had = [name for receipt in receipts for name in receipt.acknowledged]
         robots = [name for name, its in self._live.sides.items() if its in request.sides]
         missing = [name for name in robots if name not in had]
-        return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing)
+        refused = {name: why for receipt in receipts for name, why in receipt.refused.items()}
+        return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing, refused=refused)
 
     def _send_due(self) -> None:
         """Send frames to sessions that are due, and end those that have fallen silent."""
@@ -148,8 +152,10 @@ class UdpServer(asyncio.DatagramProtocol):
                 if session.beliefs_sent.get(robot) != belief.time:
                     session.beliefs_sent[robot] = belief.time
                     self._send(BeliefUpdate(number=session.frames, side=side, belief=belief), address)
-        sent = min(session.events_sent, len(self._live.events)) if session.hosts == self._live.hosts else 0
-        session.hosts = self._live.hosts
+        sent = (
+            min(session.events_sent, len(self._live.events)) if session.host_changes == self._live.host_changes else 0
+        )
+        session.host_changes = self._live.host_changes
         session.events_sent = min(len(self._live.events), sent + _EVENTS_AT_ONCE)
         for number in range(sent, session.events_sent):
             self._send_event(number, address)
@@ -164,14 +170,18 @@ class UdpServer(asyncio.DatagramProtocol):
         for side in own:
             active = live.orders.active(side)
             if active is not None:
-                orders[side] = SideOrder(order=active.order.sequence, acknowledged=active.acknowledged)
+                orders[side] = SideOrder(
+                    order=active.order.sequence, acknowledged=active.acknowledged, refused=active.refused
+                )
+        obstacles = {side: [BelievedObstacle(**one._asdict()) for one in live.obstacles(side)] for side in own}
         return Frame(
             number=session.frames,
-            host=live.there,
+            host=live.host_present,
             match_mode=modes,
             state=state,
             events=len(live.events),
             orders=orders,
+            obstacles=obstacles,
         )
 
     def _send_event(self, number: int, address: Address) -> None:

@@ -46,7 +46,7 @@ class Session:
     due_at: float = 0.0
     """Wall time of the next frame."""
     events_sent: int = 0
-    hosts: int = 0
+    host_changes: int = 0
     """Number of the host whose events these are: they are counted anew with each."""
     beliefs_sent: dict[str, float] = field(default_factory=dict)
     """Robot → simulated time of its belief that was sent last."""

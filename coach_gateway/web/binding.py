@@ -37,11 +37,13 @@ class PageBinding:
             yield f"{role.value}: {page_address(self.origin, self.tokens.of(role))}"
 
 
-def bind_page(settings: WebSettings, tokens: Tokens, tokens_file: Path | None = None) -> PageBinding:
-    """Open the page's socket and listen on it; `tokens_file` holds the tokens, if a file does.
+def bind_page(
+    settings: WebSettings, tokens: Tokens, tokens_file: Path | None = None, listener: socket.socket | None = None
+) -> PageBinding:
+    """Listen on the page's port, unless there is a `listener` already; `tokens_file` holds the tokens, if a file does.
 
     Raises:
         TouchlineError: the port is taken, or an origin is invalid.
     """
     origins = Origins(settings.allow_origin)
-    return PageBinding(settings, listen(settings.listen_web, settings.port), tokens, tokens_file, origins)
+    return PageBinding(settings, listener or listen(settings.listen_web, settings.port), tokens, tokens_file, origins)

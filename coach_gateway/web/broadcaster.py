@@ -5,6 +5,7 @@ import asyncio
 from coach_gateway.access import rights
 from coach_gateway.access.roles import Role
 from coach_gateway.web.frame_pace import FramePace
+from coach_gateway.web.match_result import ResultReader
 from coach_gateway.web.page_feed import PageFeed
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import (
@@ -25,12 +26,16 @@ from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.side import Side
 
-_LOOK_S = 0.01
+_POLL_S = 0.01
 """s of wall time between two looks at the bus."""
 _STATUS_S = 0.2
 """s of wall time between two queries of a replay's status."""
-_SWEEP_S = 1.0
+_SWEEP_S = 0.5
 """s of wall time between two checks for pages that do not read, and between two signs of life to each page."""
+_RESULT_S = 0.2
+"""s of wall time between two looks for a result."""
+RELOAD_S = 3.0
+"""s of wall time in which a page that was closed may come again, as a page that is loaded anew does."""
 _BEGINNING_S = 1.0
 """s of simulated time from a recording's start in which its first tick is looked for."""
 _AGAIN_S = 0.5
@@ -40,7 +45,15 @@ _AGAIN_S = 0.5
 class PageBroadcaster:
     """Sends one match to all pages."""
 
-    def __init__(self, bus: Bus, pages: Pages, requests: RequestHandler, beliefs: BeliefsFor | None) -> None:
+    def __init__(
+        self,
+        bus: Bus,
+        pages: Pages,
+        requests: RequestHandler,
+        beliefs: BeliefsFor | None,
+        result: ResultReader | None = None,
+    ) -> None:
+        self._result = result or ResultReader(None)
         self._bus, self._pages, self._requests = bus, pages, requests
         self._beliefs = beliefs
         self._pace = FramePace()
@@ -48,8 +61,8 @@ class PageBroadcaster:
         self.feed = PageFeed(bus)
 
     async def follow(self, stop: asyncio.Event) -> None:
-        """Send all pages what is new until `stop` is set."""
-        works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._sweep())
+        """Send all pages what is new until `stop` is set, or until the match has a result and its pages are closed."""
+        works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._sweep(), self._follow_result())
         tasks = [asyncio.create_task(work) for work in works]
         stopped = asyncio.create_task(stop.wait())
         try:
@@ -77,6 +90,8 @@ class PageBroadcaster:
         page.queue.restart(welcome.model_dump_json())
         for text in feed.snapshot():
             page.queue.put(text)
+        if self._result.result is not None:
+            page.queue.put(self._result.result.model_dump_json())
         page.queue.put(feed.orders(self._orders_of(role)))
         frame = feed.frame(self._beliefs_of(role))
         if frame is not None:
@@ -92,7 +107,7 @@ class PageBroadcaster:
         """Why no role can do this now; None when it can be done."""
         if isinstance(request, PageTokenCheck):
             return None
-        if not self.feed.there:
+        if not self.feed.host_present:
             return "the host is gone; wait until it is back"
         if self.feed.setup is None:
             return "the match is not known yet; try again"
@@ -128,7 +143,7 @@ class PageBroadcaster:
         while True:
             now = clock.now()
             if sent_at is not None:
-                self._pace.took(max(0.0, now - sent_at - _LOOK_S))
+                self._pace.took(max(0.0, now - sent_at - _POLL_S))
                 sent_at = None
             for text in feed.update():
                 pages.send(text)
@@ -140,10 +155,10 @@ class PageBroadcaster:
                 feed.frame_changed = False
                 sent_at = now
                 self._show()
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
 
     def _show(self) -> None:
-        """Send everybody the newest frame, put together once for all roles that see the same."""
+        """Send the newest frame to all pages; it is encoded once for all roles with the same view."""
         made: dict[tuple[Side, ...], str | None] = {}
         for role in self._pages.roles():
             sides = tuple(self._beliefs_of(role))
@@ -161,12 +176,12 @@ class PageBroadcaster:
                 try:
                     await self._ask_host()
                 except TouchlineError:
-                    self.feed.host_changed = self.feed.there
+                    self.feed.host_changed = self.feed.host_present
                     await asyncio.sleep(_AGAIN_S)
                     continue
                 for page in self._pages:
                     self.welcome(page)
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
 
     async def _ask_host(self) -> None:
         """Query how the match is set up and whether it is a replay, and the events of a replay's recording.
@@ -186,7 +201,7 @@ class PageBroadcaster:
     async def _follow_replay(self) -> None:
         """Send all pages the status of a replay, several times a second."""
         while True:
-            if self.feed.there and not self.feed.live and len(self._pages):
+            if self.feed.host_present and not self.feed.live and len(self._pages):
                 try:
                     self.send_replay(await asyncio.to_thread(self._ask_replay))
                 except TouchlineError:
@@ -203,6 +218,18 @@ class PageBroadcaster:
         if status.paused and not self.feed.has_picture and status.time <= status.start + _BEGINNING_S:
             return self._requests.client.replay(ReplayRequest(operation=ReplayOperation.STEP))
         return status
+
+    async def _follow_result(self) -> None:
+        """Send all pages the result of the match; returns when it is known and its pages have been closed."""
+        clock, seen_at = self._bus.clock, -RELOAD_S
+        while True:
+            if len(self._pages):
+                seen_at = clock.now()
+            if self._result.update() and self._result.result is not None:
+                self._pages.send(self._result.result.model_dump_json())
+            if self._result.result is not None and clock.now() - seen_at > RELOAD_S:
+                return
+            await asyncio.sleep(_RESULT_S)
 
     async def _sweep(self) -> None:
         """Drop pages that do not read, and send a sign of life to the others."""

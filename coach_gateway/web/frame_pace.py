@@ -1,6 +1,6 @@
-"""How often a frame is sent: 50 times a second, less often if sending to all pages takes long. Pure."""
+"""How often a frame is sent: 25 times a second, less often if sending to all pages takes long. Pure."""
 
-_LEAST_S = 0.02
+_LEAST_S = 0.04
 _SHARE = 0.25
 """Share of its time that the server spends on frames, at most: the host may run on the same machine."""
 _NEW = 0.2

@@ -3,7 +3,6 @@
 import socket
 
 from coach_gateway.web.pages import STUCK_S
-from schemas.bus.endpoint import reserve_port
 from schemas.errors import TouchlineError
 
 _ROOM_BYTES = 65_536
@@ -36,17 +35,12 @@ def listen(address: str, port: int) -> socket.socket:
     return listener
 
 
-def free_port(address: str, port: int) -> int:
-    """The port itself after a check that it can be listened on; for 0, a free port that is reserved.
-
-    Raises:
-        TouchlineError: the port cannot be listened on.
-    """
-    listen(address, port).close()
-    return port or reserve_port(address)
+def listening_address(address: str) -> str:
+    """The address at which a program on this machine reaches what listens there."""
+    return _HERE.get(address, address)
 
 
 def origin_of(address: str, port: int) -> str:
     """The origin of what is served there, for a browser on this machine."""
-    near = _HERE.get(address, address)
+    near = listening_address(address)
     return f"http://[{near}]:{port}" if ":" in near else f"http://{near}:{port}"

@@ -1,12 +1,14 @@
 """What is new of a match as messages of the page: the newest state, health and frame, and every event.
 
-Payloads are validated by the follower and handed on as they came, and a frame is put together once for all pages.
+Payloads are validated by the follower. State and health are handed on as they came; the numbers of a frame are rounded,
+and it is put together once for all pages that see the same.
 """
 
 from collections.abc import Iterable
 
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
+from coach_gateway.web.rounding import rounded_json
 from schemas.bus.contract import Bus
 from schemas.messages.game import GameEvent
 from schemas.messages.setup import Setup
@@ -27,7 +29,8 @@ class PageFeed:
         self._events_sent: dict[str, None] = {}
         self._world: World | None = None
         self._roster: tuple[int | str, ...] | None = None
-        self._beliefs: dict[Side, dict[str, str]] = {side: {} for side in Side}
+        self._world_text: tuple[World, str] | None = None
+        self._beliefs: dict[Side, dict[str, bytes | str]] = {side: {} for side in Side}
         self.setup: Setup | None = None
         """How the match is set up; set by `begin`."""
         self.live = True
@@ -40,9 +43,9 @@ class PageFeed:
         """There is news of orders since the owner last reset this."""
 
     @property
-    def there(self) -> bool:
-        """The host is there."""
-        return self._match.there
+    def host_present(self) -> bool:
+        """The host is present."""
+        return self._match.host_present
 
     def update(self) -> list[str]:
         """Take in what has come, without waiting; returns the messages for all pages, in order."""
@@ -51,7 +54,7 @@ class PageFeed:
             self._reset()
         messages: list[str] = []
         if news.presence_changed:
-            self.host_changed = self.host_changed or self.there
+            self.host_changed = self.host_changed or self.host_present
             messages.append(self._host())
         if news.refboxes_changed:
             messages.append(self._refbox())
@@ -84,8 +87,9 @@ class PageFeed:
         """The newest tick with the beliefs of the robots of these sides; None before the setup is known."""
         if self._world is None or self.setup is None:
             return None
-        tick, time, world = self._world.tick, self._world.time, self._match.payloads[WORLD.key].decode()
-        shown = ",".join(text for side in beliefs for text in self._beliefs[side].values())
+        tick, time = self._world.tick, round(self._world.time, 3)
+        shown = ",".join(text for side in beliefs for text in self._belief_texts(side))
+        world = self._text_of(self._world)
         return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{world},"beliefs":{{{shown}}}}}'
 
     def orders(self, sides: Iterable[Side]) -> str:
@@ -93,12 +97,15 @@ class PageFeed:
         shown: dict[str, SideOrders] = {}
         for side in sides:
             active = self._match.orders.active(side)
-            known = SideOrders(order=active.order, acknowledged=active.acknowledged) if active else SideOrders()
-            shown[side.value] = known
+            shown[side.value] = SideOrders()
+            if active is not None:
+                shown[side.value] = SideOrders(
+                    order=active.order, acknowledged=active.acknowledged, refused=active.refused
+                )
         return OrdersUpdate.model_validate(shown).model_dump_json()
 
     def _host(self) -> str:
-        return f'{{"kind":"host","there":{"true" if self.there else "false"}}}'
+        return f'{{"kind":"host","there":{"true" if self.host_present else "false"}}}'
 
     def _refbox(self) -> str:
         connected = self._match.refboxes
@@ -126,7 +133,21 @@ class PageFeed:
             payload, chunks = self._match.payloads.get(key), BELIEF.match(key) or {}
             if payload is not None and chunks["side"] in self._beliefs:
                 robot = chunks["robot"]
-                self._beliefs[Side(chunks["side"])][robot] = f'"{robot}":{payload.decode()}'
+                self._beliefs[Side(chunks["side"])][robot] = payload
+
+    def _text_of(self, world: World) -> str:
+        """The newest tick as JSON, rounded once for all roles."""
+        if self._world_text is None or self._world_text[0] is not world:
+            self._world_text = world, rounded_json(self._match.payloads[WORLD.key])
+        return self._world_text[1]
+
+    def _belief_texts(self, side: Side) -> list[str]:
+        """The newest belief of each robot of a side; most are replaced before a frame shows them."""
+        beliefs = self._beliefs[side]
+        for robot, belief in beliefs.items():
+            if isinstance(belief, bytes):
+                beliefs[robot] = f'"{robot}":{rounded_json(belief)}'
+        return [str(text) for text in beliefs.values()]
 
     def _watch_roster(self, world: World) -> None:
         """Have the host queried again where a scene or an operator has let other robots take part in a match."""

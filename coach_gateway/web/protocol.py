@@ -10,7 +10,7 @@ Messages of the host are passed on whole, below a field that names them: an even
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, StringConstraints, TypeAdapter
+from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
 
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
@@ -25,6 +25,7 @@ from schemas.messages.scene import SceneRequest
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.wire.faults import fault_of
 from schemas.wire.message import Name, Part
 
 MAX_BYTES = 65_536
@@ -36,7 +37,7 @@ class Welcome(Part):
 
     kind: Literal["welcome"] = "welcome"
     role: Role
-    match: Name
+    match: Name | None
     setup: Setup | None
     """None until the host has replied; then another welcome has it."""
     live: bool
@@ -60,7 +61,10 @@ class HostUpdate(Part):
 
 
 class Frame(Part):
-    """The newest tick, at most 50 times per second of wall time; ticks in between are left out."""
+    """The newest tick, at most 25 times per second of wall time; ticks in between are left out.
+
+    Numbers are rounded to three decimals: mm, mm/s, mrad, ms.
+    """
 
     kind: Literal["frame"] = "frame"
     tick: int
@@ -97,6 +101,8 @@ class SideOrders(Part):
     order: CoachOrder | None = None
     acknowledged: dict[Name, bool] = {}
     """Robot of the side → whether it has acknowledged this order."""
+    refused: dict[Name, str] = {}
+    """Robot that does not carry it out → the reason."""
 
 
 class OrdersUpdate(Part):
@@ -123,8 +129,20 @@ class RefBoxUpdate(Part):
     """Side whose base station is connected; None where both are, or where it is not known."""
 
 
+class ResultUpdate(Part):
+    """What is left of a match that is over; sent again when more of it is known."""
+
+    kind: Literal["result"] = "result"
+    figures: list[tuple[str, str, str]] = []
+    """Name of a figure, its value for cyan and for magenta; empty until they are known, and without a recording."""
+    statistics: str | None = None
+    """Address of replay and statistics, relative to the page; None until they are known, and without a recording."""
+    replay: str | None = None
+    """The command that plays the recording again; None without one."""
+
+
 class Alive(Part):
-    """Sent every second. A page that receives nothing for several seconds has lost the connection."""
+    """Sent twice a second. A page that receives nothing for several seconds has lost the connection."""
 
     kind: Literal["alive"] = "alive"
 
@@ -159,6 +177,7 @@ ServerMessage = (
     | OrdersUpdate
     | ReplayUpdate
     | RefBoxUpdate
+    | ResultUpdate
     | Alive
     | Reply
     | Refusal
@@ -235,5 +254,19 @@ PageRequest = Annotated[
 
 PAGE_REQUEST: TypeAdapter[PageRequest] = TypeAdapter(PageRequest)
 """Reads a message of the page."""
+_ENVELOPE = {"action": "action", "order": "order", "scene": "request", "parameters": "request", "replay": "request"}
+_ENVELOPE |= {"drive": "manual", "token": ""}
+"""Deed → the field of its message that holds what people have entered."""
+
+
+def fault_sentence(error: ValidationError) -> str:
+    """What is wrong with a message of the page, without the names of what is around the value that was entered."""
+    fault = fault_of(error)
+    steps = fault.path[1:] if fault.path and fault.path[0] in _ENVELOPE else fault.path
+    if len(fault.path) > 1 and steps[:1] == (_ENVELOPE.get(str(fault.path[0])),):
+        steps = steps[1:]
+    return fault._replace(path=steps).sentence()
+
+
 SERVER_MESSAGE: TypeAdapter[ServerMessage] = TypeAdapter(Annotated[ServerMessage, Field(discriminator="kind")])
 """Reads a message of the server."""

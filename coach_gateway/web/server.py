@@ -2,9 +2,11 @@
 
 import asyncio
 from collections.abc import Callable
+from pathlib import Path
 
 from coach_gateway.web.binding import PageBinding
 from coach_gateway.web.broadcaster import PageBroadcaster
+from coach_gateway.web.match_result import ResultReader
 from coach_gateway.web.pages import Pages
 from coach_gateway.web.requests import RequestHandler
 from coach_gateway.web.site import site
@@ -16,19 +18,26 @@ from schemas.bus.contract import Bus, PresenceKind
 class WebServer:
     """Serves the page of one match."""
 
-    def __init__(self, bus: Bus, binding: PageBinding, log: Callable[[str], None] = lambda _: None) -> None:
+    def __init__(
+        self, bus: Bus, binding: PageBinding, log: Callable[[str], None] = lambda _: None, result: Path | None = None
+    ) -> None:
+        """`result` is the folder in which the result of the match will be written."""
         self._bus, self._binding, self._log = bus, binding, log
+        self._result = result
         settings = binding.settings
         self.pages = Pages(settings.pages, settings.pages_per_address)
         requests = RequestHandler(bus)
-        self._broadcaster = PageBroadcaster(bus, self.pages, requests, settings.beliefs)
+        self._broadcaster = PageBroadcaster(bus, self.pages, requests, settings.beliefs, ResultReader(result))
         self._endpoint = SocketEndpoint(
             self._broadcaster, self.pages, requests, binding.tokens, binding.origins, bus.clock
         )
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Serve until `stop` is set, then log what was refused; pages reconnect by themselves later."""
-        server = web_server(site(self._endpoint.enter), self._binding.settings.pages)
+        """Serve until `stop` is set, then log what was refused; pages reconnect by themselves later.
+
+        A server that is given the result of its match ends by itself after it, once no page is open any more.
+        """
+        server = web_server(site(self._endpoint.enter, result=self._result), self._binding.settings.pages)
         self._bus.declare_alive(PresenceKind.COACH, "page")
         serving = asyncio.create_task(server.serve([self._binding.listener]))
         following = asyncio.create_task(self._broadcaster.follow(stop))

@@ -27,13 +27,13 @@ class WebSettings(Settings):
     """How the page is served."""
 
     port: Annotated[int, Field(ge=0, le=65_535)] = DEFAULT_PORT
-    """Port of the page; 0 takes a free one."""
+    """Port of the page; 0 selects a free one."""
     listen_web: str = LOOPBACK
     """Address to serve the page on; 0.0.0.0 lets other machines see it."""
     allow_origin: list[str] = Field(default_factory=list)
     """A further origin that the page may come from: https://cup.example.org."""
     beliefs: BeliefsFor | None = None
-    """Who is shown what robots believe; by default all in a friendly and in a replay, else each team its own."""
+    """The roles that are shown beliefs; by default all in a friendly and in a replay, otherwise each team its own."""
     pages: Annotated[int, Field(ge=1)] = DEFAULT_PAGES
     """Number of pages that may be open at once."""
     pages_per_address: Annotated[int, Field(ge=1)] = DEFAULT_PAGES_EACH

@@ -19,6 +19,8 @@ PAGE = Path(__file__).parent / "page"
 SHARED = Path(schemas.__file__).parent / "page"
 """Modules that the page of a match's statistics uses too; served below `/shared`."""
 
+_RESULT = "/result"
+
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'; "
@@ -36,14 +38,24 @@ _TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html", ".
 """Media types that some machines map differently."""
 
 
-def site(enter: Callable[[WebSocket], Awaitable[None]], folder: Path = PAGE) -> Starlette:
-    """The whole site; `enter` handles the WebSocket of a page."""
+RESULT_HEADERS = HEADERS | {
+    "Content-Security-Policy": (
+        "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+        "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
+}
+"""Headers of the statistics: one file with its scripts in it, which reaches neither the page nor its server."""
+
+
+def site(enter: Callable[[WebSocket], Awaitable[None]], folder: Path = PAGE, result: Path | None = None) -> Starlette:
+    """The whole site; `enter` handles the WebSocket of a page, `result` is the folder of a match's result."""
     for ending, kind in _TYPES.items():
         mimetypes.add_type(kind, ending)
     return Starlette(
         routes=[
             WebSocketRoute("/ws", enter),
             Mount("/shared", _Files(directory=SHARED)),
+            *([Mount(_RESULT, _Files(directory=result, check_dir=False))] if result is not None else []),
             Mount("/", _Files(directory=folder, html=True)),
         ],
         middleware=[Middleware(_Strict)],
@@ -70,9 +82,11 @@ class _Strict:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one request."""
 
+        headers = RESULT_HEADERS if scope.get("path", "").startswith(f"{_RESULT}/") else HEADERS
+
         async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
-                MutableHeaders(scope=message).update(HEADERS)
+                MutableHeaders(scope=message).update(headers)
             await send(message)
 
         await self._app(scope, receive, with_headers if scope["type"] == "http" else send)

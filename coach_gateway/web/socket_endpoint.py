@@ -10,7 +10,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from coach_gateway.access.client_network import client_network
 from coach_gateway.access.origins import Origins
 from coach_gateway.access.roles import Role
-from coach_gateway.access.tokens import Tokens
+from coach_gateway.access.tokens import UNKNOWN_TOKEN, Tokens
 from coach_gateway.web.broadcaster import PageBroadcaster
 from coach_gateway.web.manual_control import ManualControl
 from coach_gateway.web.pages import Page, Pages
@@ -22,10 +22,10 @@ from coach_gateway.web.protocol import (
     PageTokenCheck,
     Refusal,
     Reply,
+    fault_sentence,
 )
 from coach_gateway.web.requests import RequestHandler, is_stop, refusal
 from schemas.process.clock import Clock
-from schemas.wire.faults import fault_of
 
 _MOST_PENDING = 8
 """Requests of one page that may wait for their replies."""
@@ -33,7 +33,6 @@ _POLICY, _TRY_AGAIN = 1008, 1013
 """WebSocket close codes: policy violation, and try again later."""
 _CLOSING_S = 1.0
 """s of wall time that closing a connection may take."""
-_UNKNOWN_TOKEN = "unknown token; open the page with the address that was given out"
 
 
 class SocketEndpoint:
@@ -127,7 +126,7 @@ class SocketEndpoint:
             try:
                 return PAGE_REQUEST.validate_json(text)
             except ValidationError as error:
-                number, why = _number(text), fault_of(error).sentence()
+                number, why = _number(text), fault_sentence(error)
         self._pages.counts["bad"] += 1
         page.note_bad()
         _reply(page, Reply(id=number, accepted=False, reason=why))
@@ -139,7 +138,7 @@ class SocketEndpoint:
         if role is None:
             self._pages.counts["wrong token"] += 1
             page.note_wrong_token()
-            _reply(page, Reply(id=request.id, accepted=False, reason=_UNKNOWN_TOKEN))
+            _reply(page, Reply(id=request.id, accepted=False, reason=UNKNOWN_TOKEN))
             return
         why = (
             refusal(role, request, self._broadcaster.robots())

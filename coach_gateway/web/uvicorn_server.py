@@ -30,7 +30,7 @@ def web_server(app: ASGIApp, pages: int) -> uvicorn.Server:
             proxy_headers=False,
             server_header=False,
             ws_max_size=4 * MAX_BYTES,
-            ws_per_message_deflate=False,
+            ws_per_message_deflate=True,
             ws_ping_interval=_PING_S,
             ws_ping_timeout=_PING_S,
             limit_concurrency=pages + _SPARE,

@@ -7,6 +7,7 @@ from typing import IO
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
+from mcap.opcode import Opcode
 from mcap.records import Chunk
 from mcap.stream_reader import get_chunk_data_stream
 
@@ -14,8 +15,16 @@ BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct
 """Exceptions that reading truncated or damaged bytes raises."""
 RECORD_HEADER = struct.Struct("<BQ")
 """Header of a record: opcode, and length of the content."""
+_LAST_OPCODE = max(Opcode)
+PRIVATE = 0x80
+"""Readers ignore records with this opcode or a higher one."""
 MESSAGE = struct.Struct("<HIQQ")
 """Beginning of a message's content: channel, sequence, log time and publish time in ns. The payload follows."""
+
+
+def is_known(opcode: int) -> bool:
+    """Whether a record with this opcode is one of MCAP, or private."""
+    return 0 < opcode <= _LAST_OPCODE or opcode >= PRIVATE
 
 
 def read_chunk(file: IO[bytes], at: int) -> bytes:

@@ -5,6 +5,7 @@ Foxglove and Lichtblick support a small subset of JSON Schema: every field has o
 channel keeps to this subset. The full schema, with limits and defaults, is attached to the file.
 """
 
+from collections.abc import Iterable
 from functools import cache
 from typing import Any
 
@@ -12,6 +13,9 @@ from schemas.wire.message import WireMessage
 
 _KEPT = ("title", "description", "enum", "contentEncoding")
 """Keywords that a viewer may show for a field, besides its type."""
+
+_BY_ROBOT = frozenset({"robots", "inputs"})
+"""Fields that are mappings from robots, in all messages."""
 
 
 @cache
@@ -23,10 +27,19 @@ def whole_schema(model: type[WireMessage]) -> dict[str, Any]:
     return model.json_schema()
 
 
-def flat_schema(model: type[WireMessage]) -> dict[str, Any]:
-    """The schema without `$ref`, `$defs` and unions; a field that may be None has the type of its other values."""
+def flat_schema(model: type[WireMessage], robots: Iterable[str] = ()) -> dict[str, Any]:
+    """The schema without `$ref`, `$defs` and unions; a field that may be None has the type of its other values.
+
+    Mappings from robots have a property for each of `robots`, so that viewers can complete `robots.cyan1.x`; others are
+    allowed, too.
+    """
     schema = whole_schema(model)
-    return _flat(schema, schema.get("$defs", {}))
+    flat = _flat(schema, schema.get("$defs", {}))
+    for name in _BY_ROBOT & flat["properties"].keys():
+        mapping = flat["properties"][name]
+        if "additionalProperties" in mapping:
+            mapping["properties"] = dict.fromkeys(robots, mapping["additionalProperties"])
+    return flat
 
 
 def _flat(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:

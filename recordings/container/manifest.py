@@ -4,7 +4,7 @@ from datetime import UTC, datetime
 from enum import StrEnum
 from typing import Any, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -19,6 +19,10 @@ from schemas.wire.message import VERSION, Name, Part
 MANIFEST = "manifest"
 RESULT = "result"
 """Names of the two metadata records."""
+RECOVERED = "recovered"
+"""Name of the metadata record that a repair adds."""
+DAMAGED_RECORDS = "damaged_records"
+"""Field of that record: the number of damaged records that were left out."""
 
 
 class Manifest(Part):
@@ -47,7 +51,7 @@ class Manifest(Part):
     """Key expressions of the keys that were left out."""
     part: int = 1
     """Number of this file in a split recording, from 1."""
-    standing: int = 0
+    latched_count: int = Field(default=0, alias="standing")
     """Number of latched messages at the beginning of the file, which are in the files before it, too."""
     attached: dict[str, str] = {}
     """Attachment → blake2b of its content, hex."""
@@ -89,11 +93,15 @@ class KeyCount(Part):
     late: int = 0
     """Messages received after a message that was sent later."""
     restarts: int = 0
-    """How often a sender restarted its sequence numbers."""
+    """How often a sender restarted its sequence numbers, or another sender began to count its own."""
     unstamped: int = 0
     """Messages without a sequence number, from a sender that does not use this library: their losses are unknown."""
     left_out: int = 0
     """Messages received while the recorder was paused."""
+
+    def plus(self, other: "KeyCount") -> "KeyCount":
+        """The counts of both."""
+        return KeyCount(**{name: getattr(self, name) + getattr(other, name) for name in KeyCount.model_fields})
 
     def since(self, before: "KeyCount") -> Self:
         """The counts since `before`. None of them is negative, although a late message reduces the losses."""

@@ -18,6 +18,7 @@ from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in
+from recordings.container.sealed_metadata import is_sealed
 from schemas.errors import TouchlineError
 
 DAMAGED = "damaged inside ({}); use another copy of it, or leave out the damaged parts with `touchline recover`"
@@ -64,6 +65,16 @@ class McapFile:
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     channels: dict[int, ChannelRecord] = field(default_factory=dict)
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file."""
+        return self.path.stat().st_size
+
+    def add_metadata(self, record: Metadata) -> None:
+        """Add a metadata record; of several with one name, the last intact one counts."""
+        if record.name not in self.metadata or is_sealed(record.metadata):
+            self.metadata[record.name] = record.metadata
 
     def messages(
         self, keys: set[str], start_ns: int | None = None, end_ns: int | None = None
@@ -139,16 +150,17 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
     try:
         reader = SeekingReader(file, record_size_limit=size)
         mcap_file = McapFile(path, library=reader.get_header().library)
-        mcap_file.metadata = {record.name: record.metadata for record in reader.iter_metadata()}
+        for record in reader.iter_metadata():
+            mcap_file.add_metadata(record)
         mcap_file.attachments = {record.name: record.data for record in reader.iter_attachments()}
         counts = summary.statistics.channel_message_counts
         chunks: dict[int, dict[int, list[int]]] = {}
         for number, channel in summary.channels.items():
-            record = ChannelRecord(channel.topic, channel.metadata, channel.message_encoding)
-            record.schema = summary.schemas.get(channel.schema_id)
-            record.messages = counts.get(number, 0)
-            record.first_ns, record.last_ns = _extent(file, summary, number, chunks)
-            mcap_file.channels[number] = record
+            known = ChannelRecord(channel.topic, channel.metadata, channel.message_encoding)
+            known.schema = summary.schemas.get(channel.schema_id)
+            known.messages = counts.get(number, 0)
+            known.first_ns, known.last_ns = _extent(file, summary, number, chunks)
+            mcap_file.channels[number] = known
     except BROKEN as error:
         raise TouchlineError(f"{path}: {DAMAGED.format(error)}") from None
     return mcap_file
@@ -234,7 +246,7 @@ def _from_records(path: Path, file: IO[bytes]) -> McapFile:
             case Header():
                 mcap_file.library = record.library
             case Metadata():
-                mcap_file.metadata[record.name] = record.metadata
+                mcap_file.add_metadata(record)
             case Attachment():
                 mcap_file.attachments[record.name] = record.data
             case Schema():

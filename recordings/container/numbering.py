@@ -16,9 +16,24 @@ def files_at(path: Path) -> list[Path]:
     return [path] if path.exists() else numbered_files(path)
 
 
+def unfinished_at(path: Path) -> list[Path]:
+    """The unfinished files of the recording at this path."""
+    part = path.with_name(path.name + ".part")
+    return [part] if part.exists() else unfinished_files(path)
+
+
 def numbered_files(path: Path) -> list[Path]:
     """The numbered files beside a path, in order."""
-    pattern = re.compile(re.escape(path.stem) + r"\.\d{4,}" + re.escape(path.suffix))
+    return _numbered_files(path, path.suffix)
+
+
+def unfinished_files(path: Path) -> list[Path]:
+    """The numbered files beside a path that are named `*.part`, in order."""
+    return _numbered_files(path, path.suffix + ".part")
+
+
+def _numbered_files(path: Path, suffix: str) -> list[Path]:
+    pattern = re.compile(re.escape(path.stem) + r"\.\d{4,}" + re.escape(suffix))
     if not path.parent.is_dir():
         return []
     return sorted(file for file in path.parent.iterdir() if pattern.fullmatch(file.name))

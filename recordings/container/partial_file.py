@@ -24,13 +24,16 @@ class NotWritableError(TouchlineError):
     def __init__(self, path: Path, reason: str, remedy: str = "give a path that can be written") -> None:
         super().__init__(f"{path}: {reason}; {remedy}")
         self.reason = reason
+        self.remedy = remedy
 
 
 class PartialFile:
     """A file that is being written, and locked."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, resume: bool = False) -> None:
         """`path` is the name of the finished file. A file left by a killed writer is renamed to `*.part.old`.
+
+        With `resume` it is kept, to be appended to.
 
         Raises:
             NotWritableError: another writer has locked the file, which is left unchanged; or it cannot be written.
@@ -40,13 +43,15 @@ class PartialFile:
         """Name of the file until it is finished."""
         if path.is_dir():
             raise NotWritableError(path, "is a folder")
+        if not path.parent.exists():
+            folder = path.parent
+            raise NotWritableError(path, f"the folder {folder} does not exist", f"make it with: mkdir -p {folder}")
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            file = _acquire(self.path)
+            file = _acquire(self.path, resume=resume)
         except OSError as error:
             raise NotWritableError(path, error.strerror or "cannot be written") from None
         if file is None:
-            raise NotWritableError(path, "is being written by another recorder", "give another --out, or end that one")
+            raise NotWritableError(path, "is being written by another recorder", "name another file, or end that one")
         self.file = file
 
     def finish(self) -> None:
@@ -91,8 +96,8 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
-def _acquire(part: Path) -> BinaryIO | None:
-    """Open and lock an empty file of this name; None if another process has locked it."""
+def _acquire(part: Path, *, resume: bool) -> BinaryIO | None:
+    """Open and lock an empty file of this name, or, to `resume`, any; None if another process has locked it."""
     while True:
         file = part.open("ab")  # must not truncate a file that may be another writer's
         try:
@@ -101,7 +106,7 @@ def _acquire(part: Path) -> BinaryIO | None:
                 return None
             ours = os.fstat(file.fileno())
             is_there = _is_at(part, ours)
-            if is_there and ours.st_size == 0:
+            if is_there and (resume or ours.st_size == 0):
                 return file
             if is_there:
                 part.replace(part.with_name(part.name + ".old"))

@@ -14,18 +14,19 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, MessageIndex, Schema
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, records_in
+from recordings.container.chunks import BROKEN, MESSAGE, PRIVATE, RECORD_HEADER, is_known, records_in
 from recordings.container.mcap_file import bytes_of, stream_of
 
-PRIVATE = 0x80
-"""Readers ignore records with this opcode or a higher one."""
 DAMAGED = 0x100
 """Stands for the opcode of a record whose header is damaged; no record has it."""
 _CHUNK = struct.Struct("<QQQII")
 """First and last log time, size and checksum of the uncompressed content, length of the compression's name."""
+EXTENT = struct.Struct("<QQ")
+"""First and last log time, at the beginning of a chunk's content."""
+_ENTRY = struct.Struct("<QQ")
+"""An entry of an index: log time of a message, and its offset in the chunk."""
 _INDEX = struct.Struct("<HI")
 """Channel, and size of its entries in bytes."""
-_LAST_OPCODE = max(Opcode)
 _IN_DATA = frozenset({Opcode.CHUNK, Opcode.MESSAGE_INDEX, Opcode.ATTACHMENT, Opcode.METADATA})
 """Records between header and end of the data section; all others are in chunks, or after the data section."""
 _DATA_END_BYTES = 4
@@ -87,7 +88,7 @@ def raw_records_of(content: mmap.mmap, known: list[int]) -> Iterator[RawRecord]:
             place = next(places, None)
         opcode, length = RECORD_HEADER.unpack_from(content, at)
         end = at + RECORD_HEADER.size + length
-        sound = 0 < opcode <= _LAST_OPCODE or opcode >= PRIVATE
+        sound = is_known(opcode)
         if place is not None and (not sound or end > place):
             opcode, end = DAMAGED, place
         elif not sound or end > size:
@@ -187,6 +188,12 @@ class ChunkContent(NamedTuple):
     indexes: dict[int, MessageIndex]
     """Channel → times and offsets of its messages, as in the indexes that follow a chunk."""
 
+    @property
+    def extent(self) -> tuple[int, int] | None:
+        """Log times of the first and the last message; None without messages."""
+        times = [log_ns for index in self.indexes.values() for log_ns, _ in index.records]
+        return (min(times), max(times)) if times else None
+
 
 def content_of(data: bytes) -> ChunkContent:
     """Schemas, channels and the offsets of all messages in the uncompressed records of a chunk.
@@ -216,6 +223,17 @@ def index_counts(content: mmap.mmap, chunk: RawChunk) -> dict[int, tuple[int, in
         channel, length = _INDEX.unpack_from(content, raw.content)
         found[channel] = length // 16, raw.at
     return found
+
+
+def index_extent(content: mmap.mmap, chunk: RawChunk) -> tuple[int, int] | None:
+    """Log times of the first and the last message, from the indexes that follow a chunk; None if they are damaged."""
+    times: list[int] = []
+    for raw in chunk.indexes:
+        begin = raw.content + _INDEX.size
+        if (raw.end - begin) % _ENTRY.size:
+            return None
+        times += (log_ns for log_ns, _ in _ENTRY.iter_unpack(content[begin : raw.end]))
+    return (min(times), max(times)) if times else None
 
 
 def index_bytes(indexes: dict[int, MessageIndex], at: int) -> tuple[bytes, dict[int, int]]:

@@ -54,7 +54,8 @@ def from_metadata(model: type[P], metadata: dict[str, str]) -> P:
     Raises:
         TouchlineError: the metadata is not a valid part of this kind.
     """
-    known = {name: field.annotation for name, field in model.model_fields.items() if name in metadata}
+    written = {field.alias or name: field.annotation for name, field in model.model_fields.items()}
+    known = {name: kind for name, kind in written.items() if name in metadata}
     try:
         fields = {name: metadata[name] if _is_text(kind) else from_json(metadata[name]) for name, kind in known.items()}
         return model.model_validate_json(to_json(fields))

@@ -21,13 +21,8 @@ from mcap.records import (
 )
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.environment import library
 from recordings.container.mcap_file import bytes_of, is_derived
 from recordings.container.raw_records import ChunkHeader, RawRecord
-from recordings.container.sealed_metadata import sealed
-
-RECOVERED = "recovered"
-"""Name of the metadata record that a repair adds."""
 
 
 class SummaryBuilder:
@@ -103,14 +98,16 @@ class SummaryBuilder:
             )
         )
 
-    def tail(self, at: int, checksum: int, note: dict[str, str]) -> bytes:
+    def tail(self, at: int, checksum: int, metadata: dict[str, dict[str, str]]) -> bytes:
         """Build everything from offset `at`, where the messages end, to the end of the file.
 
-        `checksum` is the checksum of the file up to there; `note` describes what the repair did.
+        `checksum` is the checksum of the file up to there; `metadata` are records to be added, by name.
         """
         builder = RecordBuilder()
-        Metadata(RECOVERED, sealed({**note, "library": library()})).write(builder)
-        self._metadata.append(MetadataIndex(at, builder.count, RECOVERED))
+        for name, fields in metadata.items():
+            begin = builder.count
+            Metadata(name, fields).write(builder)
+            self._metadata.append(MetadataIndex(at + begin, builder.count - begin, name))
         data = bytes_of(builder)
         DataEnd(zlib.crc32(data, checksum)).write(builder)
         data += bytes_of(builder)

@@ -43,7 +43,7 @@ class CopyWriter:
         if viz and manifest.setup is not None:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
         attached = {name: digest(content) for name, content in attachments.items()}
-        manifest = manifest.model_copy(update={"attached": attached, "standing": latched})
+        manifest = manifest.model_copy(update={"attached": attached, "latched_count": latched})
         with self._disk_errors_explained():
             self._mcap.start(profile="", library=library())
             self._mcap.add_metadata(MANIFEST, to_metadata(manifest))
@@ -51,6 +51,7 @@ class CopyWriter:
                 self._mcap.add_attachment(
                     0, 0, name, MEDIA_TYPES.get(Path(name).suffix, "application/octet-stream"), data
                 )
+            self._mcap.add_metadata(MANIFEST, to_metadata(manifest))  # again, as every recording has it
 
     def add(self, copy: MessageCopy, *, counted: bool = True) -> None:
         """Write a message; one that is not `counted` is in the counts of another file."""

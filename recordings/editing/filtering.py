@@ -16,6 +16,7 @@ from recordings.editing.message_copies import (
 from recordings.reading.recording import RecordedMessage, Recording
 from recordings.recorder.latched_messages import LatchedMessages
 from schemas.bus.contract import ReceivedMessage
+from schemas.errors import TouchlineError
 
 
 def filter_recording(
@@ -30,13 +31,15 @@ def filter_recording(
     A copy that begins later than the recording begins with the latched messages of that time.
 
     Raises:
-        TouchlineError: the recording is damaged inside, or the copy cannot be written.
+        TouchlineError: no message is selected, the recording is damaged inside, or the copy cannot be written.
     """
     check_output(out, [recording])
+    if not any(selection.includes(channel.key) for channel in recording.channels):
+        raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
     start_ns, end_ns = _ns(start), _ns(end)
     entries = message_copies(recording, selection, end_ns)
     if start_ns is None:
-        repeated = islice(entries, recording.manifest.standing)
+        repeated = islice(entries, recording.manifest.latched_count)
         latched, rest = [entry for entry in repeated if selection.includes(entry.channel.key)], entries
     else:
         latched, rest = _latched_at(recording, selection, start_ns), _from(entries, start_ns)
@@ -45,9 +48,18 @@ def filter_recording(
         writer.begin(manifest, recording.attachments, len(latched), viz=bool(recording.drawn))
         for entry in latched:
             writer.add(entry, counted=False)
+        selected = 0
         for entry in rest:
             if selection.includes(entry.channel.key):
                 writer.add(entry)
+                selected += 1
+        if not selected:
+            begin = min(channel.start for channel in recording.channels)
+            finish = max(channel.end for channel in recording.channels)
+            raise TouchlineError(
+                f"{recording.path}: has no message of the selected keys and times; "
+                f"it lasts from {begin:.2f} to {finish:.2f} s of simulated time"
+            )
         return CopySummary(out, writer.finish(recording.result), 0)
 
 

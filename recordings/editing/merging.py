@@ -31,7 +31,7 @@ def merge_recordings(recordings: list[Recording], out: Path) -> CopySummary:
     first = recordings[0]
     seen = _WrittenMessages(out)
     streams = [message_copies(recording, EVERYTHING, None) for recording in recordings]
-    repeated = list(islice(streams[0], first.manifest.standing))
+    repeated = list(islice(streams[0], first.manifest.latched_count))
     dropped = 0
     with CopyWriter(out) as writer:
         is_drawn = any(recording.drawn for recording in recordings)

@@ -38,7 +38,9 @@ def message_copies(recording: Recording, selection: KeySelection, end_ns: int | 
     channels = {
         channel.key: channel for channel in recording.mcap_file.channels.values() if not is_derived(channel.metadata)
     }
-    wanted = {key for key in channels if selection.includes(key)} if not recording.manifest.standing else set(channels)
+    wanted = (
+        {key for key in channels if selection.includes(key)} if not recording.manifest.latched_count else set(channels)
+    )
     for key, message in recording.mcap_file.messages(wanted, None, end_ns):
         yield MessageCopy(message.log_time, channels[key], message.data, message.publish_time, message.sequence)
 

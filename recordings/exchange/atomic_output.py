@@ -18,6 +18,8 @@ class ExportSummary:
     """File or topic → rows or messages."""
     unreadable: dict[str, int] = field(default_factory=dict)
     """Key → payloads of the recording that were skipped because they are not valid messages."""
+    omitted: dict[str, int] = field(default_factory=dict)
+    """Key expression → messages of the recording for which the format has no place."""
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.exchange.omissions import omitted_messages
 from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.messages.command import Command
@@ -20,6 +21,7 @@ from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import COMMAND, EVENT, STATE, WORLD
 
+_TOPICS = (WORLD, STATE, EVENT, COMMAND)
 Row = tuple[Any, ...]
 Sides = dict[str, Side]
 
@@ -48,12 +50,12 @@ def export(recording: Recording, out: Path) -> ExportSummary:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(table.header)
             writers.setdefault(table.key, []).append((name, writer, table))
-        for recorded, message in recording.decoded(*(topic.fill() for topic in (WORLD, STATE, EVENT, COMMAND))):
+        for recorded, message in recording.decoded(*(topic.fill() for topic in _TOPICS)):
             for name, writer, table in writers[recorded.topic.key]:
                 for row in table.rows(recorded, message, sides):
                     writer.writerow([_plain(value) for value in row])
                     written[name] += 1
-    return ExportSummary(out, written, dict(recording.unreadable))
+    return ExportSummary(out, written, dict(recording.unreadable), omitted_messages(recording, *_TOPICS))
 
 
 def _plain(value: Any) -> Any:

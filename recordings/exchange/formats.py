@@ -1,33 +1,65 @@
-"""The tables of exporters and importers: a new format is a module and a row."""
+"""The tables of exporters and importers: a new format is a module and a row.
+
+A module is imported when it is used, so that the command line reads the tables at no cost.
+"""
 
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from recordings.exchange import csv_files, ros2
-from recordings.exchange.atomic_output import ExportSummary
-from recordings.exchange.msl import export as msl_log
-from recordings.exchange.msl.import_log import ImportSummary, import_log
-from recordings.exchange.protobuf import export as protobuf
-from recordings.reading.recording import Recording
+if TYPE_CHECKING:
+    from recordings.exchange.atomic_output import ExportSummary
+    from recordings.exchange.msl.import_log import ImportSummary
+    from recordings.reading.recording import Recording
 
 
 class Exporter(NamedTuple):
     """One format that recordings can be exported to."""
 
-    export: Callable[[Recording, Path], ExportSummary]
+    module: str
+    """Its module, with a function `export(recording, out)`."""
     suffix: str
     """Replaces `.mcap` in the default name of the output."""
     description: str
 
+    def export(self, recording: "Recording", out: Path) -> "ExportSummary":
+        """Write a recording in this format to `out`.
 
-EXPORTERS: dict[str, Exporter] = {
-    "csv": Exporter(csv_files.export, "-csv", "a folder of tables: robots, ball, events, states, commands"),
-    "msl-log": Exporter(msl_log.export, ".msl.zip", "the log of the league's referee box, in its own axes"),
-    "protobuf": Exporter(protobuf.export, "-protobuf.mcap", "MCAP with typed messages"),
-    "ros2": Exporter(ros2.export, "-ros2", "a ROS 2 bag: clock, transforms, odometry and twists"),
+        Raises:
+            TouchlineError: `out` cannot be written, or the format requires a package that is missing.
+        """
+        export: Callable[[Recording, Path], ExportSummary] = import_module(self.module).export
+        return export(recording, out)
+
+
+class Importer(NamedTuple):
+    """One format of logs that can be converted to recordings."""
+
+    module: str
+    """Its module, with a function `import_log(log, out, profile, team_a)`."""
+
+    def import_log(self, log: list[Path], out: Path, profile: str | None, team_a: str | None) -> "ImportSummary":
+        """Convert the files of a log to the recording `out`.
+
+        `profile` is that of the pitch, recognised if None, `team_a` the name of team A in the log.
+
+        Raises:
+            TouchlineError: the log cannot be read, or the recording cannot be written.
+        """
+        convert: Callable[[list[Path], Path, str | None, str | None], ImportSummary] = import_module(
+            self.module
+        ).import_log
+        return convert(log, out, profile, team_a)
+
+
+EXPORTERS = {
+    "csv": Exporter("recordings.exchange.csv_files", "-csv", "tables of robots, ball, events, states and commands"),
+    "msl-log": Exporter("recordings.exchange.msl.export", ".msl.zip", "the log of the league's referee box"),
+    "protobuf": Exporter("recordings.exchange.protobuf.export", "-protobuf.mcap", "MCAP with typed messages"),
+    "ros2": Exporter("recordings.exchange.ros2", "-ros2", "a ROS 2 bag of clock, transforms, odometry and twists"),
 }
 """Format → its exporter."""
 
-IMPORTERS: dict[str, Callable[[list[Path], Path, str, str | None], ImportSummary]] = {"msl-log": import_log}
-"""Format → its importer, called with files of the log, the recording to write, profile of the pitch, name of team A."""
+IMPORTERS = {"msl-log": Importer("recordings.exchange.msl.import_log")}
+"""Format → its importer."""

@@ -13,13 +13,19 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.exchange.omissions import omitted_messages
+from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
-from schemas.frames import to_body
+from schemas.frames import Pose, to_body
 from schemas.messages.command import Command
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.radio import Belief
 from schemas.messages.world import BallTruth, RobotTruth, World
-from schemas.topics import COMMAND, WORLD
+from schemas.side import Side
+from schemas.topics import BELIEF, COMMAND, EVENT, STATE, WORLD
 
+_TOPICS = (WORLD, COMMAND, BELIEF, STATE, EVENT)
 MAP = "map"
 BALL = "ball"
 _EXACT = np.zeros(36)
@@ -38,13 +44,18 @@ CLOCK = TopicType("rosgraph_msgs/msg/Clock", False, 1)
 TF = TopicType("tf2_msgs/msg/TFMessage", True, 100)
 ODOMETRY = TopicType("nav_msgs/msg/Odometry", True, 10)
 TWIST = TopicType("geometry_msgs/msg/Twist", True, 10)
+POSE = TopicType("geometry_msgs/msg/PoseStamped", True, 10)
+POINT = TopicType("geometry_msgs/msg/PointStamped", True, 10)
+NUMBER = TopicType("std_msgs/msg/Int32", True, 10)
+TEXT = TopicType("std_msgs/msg/String", True, 100)
 """As offered by the usual publishers of these topics: the clock best effort with depth 1, the others reliable."""
 
 
 def export(recording: Recording, out: Path) -> ExportSummary:
-    """Write `/clock`, `/tf`, `/<robot>/odom` and `/<robot>/cmd_vel` of every robot, and `/ball/odom`.
+    """Write the topics of docs/recordings.md: truth, commands, beliefs, events and the state of the game.
 
-    `cmd_vel` is the velocity that the robot's program commanded, in its body frame.
+    `cmd_vel` is the velocity that the robot's program commanded, in its body frame. Beliefs are turned from the team
+    frame to the field frame. What no usual ROS message holds is JSON in a `std_msgs/String`, as on the bus.
 
     Raises:
         TouchlineError: rosbags is missing, `out` already exists or cannot be written, or the recording is damaged.
@@ -60,21 +71,30 @@ def export(recording: Recording, out: Path) -> ExportSummary:
         writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
         writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         with writer:
-            bag = _Bag(writer)
-            for recorded, message in recording.decoded(WORLD.key, COMMAND.fill()):
-                if isinstance(message, World):
-                    bag.world(recorded.log_ns, message)
-                elif isinstance(message, Command):
-                    bag.command(recorded.log_ns, recorded.key.split("/")[1], message)
-    return ExportSummary(out, bag.written, dict(recording.unreadable))
+            bag = _Bag(writer, sides_of(recording))
+            for recorded, message in recording.decoded(*(topic.fill() for topic in _TOPICS)):
+                match message:
+                    case World():
+                        bag.world(recorded.log_ns, message)
+                    case Command():
+                        bag.command(recorded.log_ns, recorded.key.split("/")[1], message)
+                    case Belief():
+                        bag.belief(recorded.log_ns, message, recorded.current_payload())
+                    case GameState():
+                        bag.state(recorded.log_ns, message, recorded.current_payload())
+                    case GameEvent():
+                        bag.text("/game/event", recorded.log_ns, recorded.current_payload())
+    return ExportSummary(out, bag.written, dict(recording.unreadable), omitted_messages(recording, *_TOPICS))
 
 
 class _Bag:
     """Writes the messages of a recording to a bag."""
 
-    def __init__(self, writer: Any) -> None:
+    def __init__(self, writer: Any, sides: dict[str, Side]) -> None:
         from rosbags.typesys import Stores, get_typestore
 
+        self._sides = sides
+        self._cyan_attacks = 1
         self._writer = writer
         self._store = get_typestore(Stores.ROS2_JAZZY)
         self._connections: dict[str, Any] = {}
@@ -83,7 +103,7 @@ class _Bag:
 
     def world(self, log_ns: int, world: World) -> None:
         """Write clock, transforms and odometry of one tick."""
-        stamp = self._make("builtin_interfaces/msg/Time", *divmod(log_ns, 1_000_000_000))
+        stamp = self._stamp(log_ns)
         self._write("/clock", CLOCK, log_ns, self._make(CLOCK.message, stamp))
         transforms = list(self._transforms(stamp, world))
         self._write("/tf", TF, log_ns, self._make(TF.message, transforms))
@@ -95,6 +115,38 @@ class _Bag:
         """Write the velocities of a command."""
         drive = command.drive
         self._write(f"/{robot}/cmd_vel", TWIST, log_ns, self._twist(drive.vx, drive.vy, 0.0, drive.omega))
+
+    def belief(self, log_ns: int, belief: Belief, payload: bytes) -> None:
+        """Write a radio message, and where the robot believes itself and the ball to be, in the field frame."""
+        robot, radio, header = belief.robot, belief.radio, self._header(self._stamp(log_ns))
+        self.text(f"/{robot}/belief", log_ns, payload)
+        side = self._sides.get(robot)
+        if side is None:
+            return
+        attack = side.attack(self._cyan_attacks)
+        if radio.self is not None:
+            own = Pose(radio.self.x, radio.self.y, radio.self.heading).team(attack)
+            turn = self._quaternion(own.heading)
+            pose = self._make("geometry_msgs/msg/Pose", self._point(own.x, own.y, 0.0), turn)
+            self._write(f"/{robot}/belief/pose", POSE, log_ns, self._make(POSE.message, header, pose))
+        if radio.ball is not None:
+            point = self._point(attack * radio.ball.x, attack * radio.ball.y, 0.0)
+            self._write(f"/{robot}/belief/ball", POINT, log_ns, self._make(POINT.message, header, point))
+
+    def state(self, log_ns: int, state: GameState, payload: bytes) -> None:
+        """Write the state of the game, and the score as numbers."""
+        self._cyan_attacks = state.cyan_attacks
+        self.text("/game/state", log_ns, payload)
+        for side in Side:
+            goals = self._make(NUMBER.message, getattr(state.score, side.value))
+            self._write(f"/game/score/{side.value}", NUMBER, log_ns, goals)
+
+    def text(self, topic: str, log_ns: int, payload: bytes) -> None:
+        """Write a message as JSON."""
+        self._write(topic, TEXT, log_ns, self._make(TEXT.message, payload.decode()))
+
+    def _stamp(self, log_ns: int) -> Any:
+        return self._make("builtin_interfaces/msg/Time", *divmod(log_ns, 1_000_000_000))
 
     def _transforms(self, stamp: Any, world: World) -> Iterator[Any]:
         for name, robot in world.robots.items():

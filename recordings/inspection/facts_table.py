@@ -28,16 +28,18 @@ def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "rules": facts.rules,
         "seed": str(facts.seed) if facts.seed is not None else None,
         "started": facts.started,
-        "duration": f"{facts.duration:.2f} s simulated, {facts.tick + 1} ticks",
+        "duration": f"{facts.duration:.2f} s simulated, from {facts.start:.2f} to {facts.end:.2f} s",
+        "last tick": f"{facts.tick} at {facts.time:.2f} s" if facts.tick >= 0 else None,
         "messages": f"{facts.messages}, {facts.lost} lost, {facts.missed_before_start} sent before it began",
         "paused": f"{facts.left_out} messages left out meanwhile" if facts.left_out else None,
         "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
         "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
         "made": facts.made if facts.made != "recorded" else None,
-        "part": f"{facts.part}, begins with {facts.standing} repeated messages" if facts.standing else None,
+        "part": f"{facts.part}, begins with {facts.latched_count} repeated messages" if facts.latched_count else None,
         "for viewers": " ".join(facts.drawn) or None,
         "damaged": ", ".join(facts.damaged) or None,
         "events": str(facts.events),
         "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),
     }
-    return [(name, value) for name, value in values.items() if value is not None]
+    facts_lines = [(name, value) for name, value in values.items() if value is not None]
+    return facts_lines + [("contradiction", sentence) for sentence in facts.contradictions]

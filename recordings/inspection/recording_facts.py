@@ -3,9 +3,11 @@
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
-from recordings.container.manifest import KeyCount
+from recordings.container.manifest import EndReason, KeyCount
+from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.sequence_tracker import SequenceTracker
@@ -48,9 +50,15 @@ class RecordingFacts:
     started: str
     """Wall time, ISO 8601, UTC."""
     duration: float
-    """Simulated time in s."""
+    """Simulated time from the first to the last message, in s."""
+    start: float
+    """Simulated time of the first message, in s, without latched messages repeated at the beginning."""
+    end: float
+    """Simulated time of the last message, in s."""
     tick: int
-    """The last tick whose inputs were recorded."""
+    """The last tick whose inputs were recorded, before the recording was filtered; −1 if there is none."""
+    time: float
+    """Simulated time of that tick, in s."""
     phase: str | None
     score: dict[str, int] | None
     ended: str
@@ -62,7 +70,7 @@ class RecordingFacts:
     """Messages received while the recorder was paused."""
     part: int
     """Number of this file in a split recording, from 1."""
-    standing: int
+    latched_count: int
     """Number of latched messages repeated at the beginning of the file."""
     made: str
     """`recorded`, or how it was made from other recordings."""
@@ -77,6 +85,8 @@ class RecordingFacts:
     size: int
     """Bytes of the file."""
     keys: list[KeyFacts]
+    contradictions: list[str]
+    """Sentences on where result, manifest and attachments do not fit the messages and each other."""
 
     def to_json(self) -> dict[str, Any]:
         """The facts as plain lists, numbers and strings."""
@@ -87,6 +97,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
     """The facts of a recording; those of a truncated file are collected from its messages."""
     manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
     ending = _ending(recording)
+    start, end = _extent(recording)
     described = setup or config
     teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
     return RecordingFacts(
@@ -99,8 +110,11 @@ def facts_of(recording: Recording) -> RecordingFacts:
         seed=config.seed if config is not None else None,
         teams=teams,
         started=manifest.started,
-        duration=ending.time,
+        duration=end - start,
+        start=start,
+        end=end,
         tick=ending.tick,
+        time=ending.time,
         phase=ending.phase.value if ending.phase is not None else None,
         score=ending.score.model_dump() if ending.score is not None else None,
         ended=ending.ended,
@@ -110,15 +124,26 @@ def facts_of(recording: Recording) -> RecordingFacts:
         missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
         left_out=sum(count.left_out for count in ending.keys.values()),
         part=manifest.part,
-        standing=manifest.standing,
+        latched_count=manifest.latched_count,
         made=manifest.made,
         include=manifest.include,
         exclude=manifest.exclude,
         damaged=recording.damaged,
         drawn=recording.drawn,
-        size=recording.path.stat().st_size,
+        size=recording.mcap_file.size,
         keys=list(_key_facts(recording, ending.keys)),
+        contradictions=contradictions(recording),
     )
+
+
+def _extent(recording: Recording) -> tuple[float, float]:
+    """Simulated times of the first and the last message, in s."""
+    channels = [channel for channel in recording.channels if channel.messages]
+    start = min((channel.start for channel in channels), default=0.0)
+    latched_count = recording.manifest.latched_count
+    if latched_count:
+        start = next((recorded.time for recorded in islice(recording.messages(), latched_count, None)), start)
+    return start, max(start, max((channel.end for channel in channels), default=0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,24 +158,27 @@ class _Ending:
 
 def _ending(recording: Recording) -> _Ending:
     result = recording.result
-    if result is not None:
+    if result is not None and result.keys:
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
     progress = MatchProgress()
     trackers: dict[str, SequenceTracker] = {}
     for number, recorded in enumerate(recording.messages()):
         received = recorded.received()
         progress.update([received])
-        if number >= recording.manifest.standing:
+        if number >= recording.manifest.latched_count:
             trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
+    keys = {key: tracker.count() for key, tracker in trackers.items()}
+    if result is not None:  # of a repaired file, whose recorder counted messages that are lost
+        return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, keys)
     state, applied = progress.state, progress.applied
     return _Ending(
-        ended=CUT_OFF,
+        ended=EndReason.FULL_TIME.value if progress.finished else CUT_OFF,
         phase=state.phase if state is not None else None,
         score=state.score if state is not None else None,
         tick=applied.tick if applied is not None else -1,
         time=applied.time if applied is not None else 0.0,
-        keys={key: tracker.count() for key, tracker in trackers.items()},
+        keys=keys,
     )
 
 

@@ -102,7 +102,7 @@ class PictureData:
         return max((state.time for state in self._states if state.phase is Phase.PLAY), default=self.end)
 
     def in_play(self) -> list[World]:
-        """The worlds in which the ball was in play; all worlds if no game state says so."""
+        """The worlds in which the ball was in play; all worlds if there is no game state."""
         worlds = [world for _, world in self._worlds(self.start, self.end)]
         playing = [world for world in worlds if (state := self._state_at(world.time)) and state.phase is Phase.PLAY]
         return playing or worlds

@@ -1,6 +1,8 @@
 """Checks that the inputs a host reports in `host/applied` are the recorded commands of the robots' programs."""
 
 from collections.abc import Container, Iterable
+from contextlib import suppress
+from itertools import islice
 from typing import Any, NamedTuple
 
 from pydantic_core import from_json
@@ -12,16 +14,19 @@ from schemas.wire.message import BadMessageError
 
 _KEPT = 1000
 """Ticks whose commands are kept for each robot: longer than any command stays in force."""
+_RADIO_COMMANDS = 10
+"""Newest commands of a robot among which the one with a published belief is searched."""
 
 
 class CommandMismatch(NamedTuple):
-    """A difference between an applied input and the command that it claims to be."""
+    """A difference between an applied input, or a belief, and the command that it claims to be."""
 
     tick: int
-    """Tick at which the input was applied."""
+    """Tick at which the input was applied, or the belief published."""
     robot: str
     field: str
-    """Field that differs, `drive.vx`; `command` if no such command was recorded."""
+    """Field that differs, `drive.vx`; `command` if no such command was recorded; `belief` for a belief that no command
+    of the robot sent."""
     applied: object
     sent: object
 
@@ -32,11 +37,18 @@ class _SentCommand(NamedTuple):
     """Fields of the payload, not validated."""
 
 
+class _PendingBelief(NamedTuple):
+    tick: int
+    recorded: RecordedMessage
+    radio: Any
+    """The radio message, not validated."""
+
+
 class CommandCheck:
-    """Collects commands and applied inputs of a segment of a match."""
+    """Collects commands, applied inputs and beliefs of a segment of a match."""
 
     def __init__(self, checked: Container[str], complete: Container[str], first_tick: int) -> None:
-        """`checked`: robots moved by recorded commands only; `complete`: those of them without lost commands.
+        """`checked`: robots moved by recorded commands only; `complete`: robots without lost commands.
 
         The answers to sights of `first_tick` and later must have been recorded.
         """
@@ -45,6 +57,8 @@ class CommandCheck:
         self._first_tick = first_tick
         self._sent: dict[str, dict[int, list[_SentCommand]]] = {}
         self._pending: dict[tuple[str, int], tuple[int, AppliedInput]] = {}
+        self._unsent: dict[str, list[_PendingBelief]] = {}
+        """Robot → beliefs whose command may still come."""
         self._mismatches: list[CommandMismatch] = []
 
     def add_command(self, recorded: RecordedMessage) -> None:
@@ -56,7 +70,12 @@ class CommandCheck:
         except (ValueError, KeyError, TypeError):
             return  # the host ignored it, too
         kept = self._sent.setdefault(robot, {})
-        kept.setdefault(answers, []).append(_SentCommand(recorded, fields))
+        sent = _SentCommand(recorded, fields)
+        kept.setdefault(answers, []).append(sent)
+        unsent = self._unsent.get(robot)
+        if unsent:
+            radio = fields.get("radio")
+            self._unsent[robot] = [one for one in unsent if one.radio != radio]
         if len(kept) > _KEPT:
             del kept[next(iter(kept))]
 
@@ -71,6 +90,35 @@ class CommandCheck:
             elif robot in self._complete and input_.answers_tick >= self._first_tick:
                 self._pending[robot, input_.answers_tick] = applied.tick, input_
 
+    def add_belief(self, recorded: RecordedMessage, tick: int, fields: dict[str, Any]) -> None:
+        """Add a belief, published at this tick, that a robot has sent with a command before."""
+        robot = recorded.key.rsplit("/", 1)[1]
+        if robot not in self._complete or tick <= self._first_tick:
+            return
+        radio = fields.get("radio")
+        newest = islice(reversed(self._sent.get(robot, {}).values()), _RADIO_COMMANDS)
+        if any(one.fields.get("radio") == radio for commands in newest for one in commands):
+            return
+        unsent = self._unsent.setdefault(robot, [])
+        unsent.append(_PendingBelief(tick, recorded, radio))
+        if len(unsent) > _KEPT // 2:
+            self._resolve_beliefs(robot)
+
+    def _resolve_beliefs(self, robot: str) -> None:
+        """Compare beliefs with commands as messages, whatever JSON the program writes that sent them."""
+        radios = []
+        for one in [one for commands in self._sent.get(robot, {}).values() for one in commands]:
+            if one.fields.get("radio") is not None:
+                with suppress(BadMessageError):
+                    radios.append(one.recorded.message().radio)
+        for belief in self._unsent.pop(robot, []):
+            try:
+                was_sent = belief.recorded.message().radio in radios
+            except BadMessageError:
+                was_sent = False
+            if not was_sent:
+                self._mismatches.append(CommandMismatch(belief.tick, robot, "belief", belief.radio, None))
+
     def mismatches(self) -> list[CommandMismatch]:
         """All mismatches by tick, after the last command and the last applied inputs were added."""
         for (robot, answers), (tick, input_) in self._pending.items():
@@ -80,6 +128,8 @@ class CommandCheck:
             else:
                 self._mismatches += _compare(tick, robot, input_, sent)
         self._pending = {}
+        for robot in list(self._unsent):
+            self._resolve_beliefs(robot)
         return sorted(self._mismatches, key=_tick_of)
 
 

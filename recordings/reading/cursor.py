@@ -17,7 +17,7 @@ from mcap.opcode import Opcode
 from mcap.records import Channel
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, read_chunk, records_in
+from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, is_known, read_chunk, records_in
 from recordings.container.mcap_file import DAMAGED, channel_version
 from recordings.reading.recording import RecordedMessage
 from schemas.errors import TouchlineError
@@ -27,7 +27,6 @@ from schemas.topics import TOPICS
 _CHUNK = struct.Struct("<QQ")
 """Times of a chunk's first and last message, in ns."""
 _ID = struct.Struct("<H")
-_OPCODES = frozenset(int(opcode) for opcode in Opcode)
 
 
 class _IndexedChunk(NamedTuple):
@@ -96,13 +95,16 @@ class Cursor:
             if len(head) < RECORD_HEADER.size:
                 break
             opcode, length = RECORD_HEADER.unpack(head)
-            if opcode not in _OPCODES or self._scanned_to + RECORD_HEADER.size + length > size:
+            if not is_known(opcode) or self._scanned_to + RECORD_HEADER.size + length > size:
                 break
             try:
                 self._index_record(opcode, length)
             except BROKEN as error:
                 raise self._damaged(error) from None
             self._scanned_to += RECORD_HEADER.size + length
+        for chunk in self._chunks[before:]:
+            if not chunk.channels:  # a repair has left its indexes out
+                chunk.channels.update(self._channels_in(chunk))
         for number in self._introducing:
             self._read(number)  # a channel is defined in the first chunk with messages of it
         self._introducing.clear()
@@ -206,6 +208,20 @@ class Cursor:
         if any(not chunk_index.start_ns <= message.log_ns <= chunk_index.end_ns for _, message in messages):
             raise self._damaged("times of a chunk")
         return messages
+
+    def _channels_in(self, chunk: _IndexedChunk) -> set[int]:
+        """The channels of a chunk's messages."""
+        try:
+            data = read_chunk(self._file, chunk.offset)
+            channels = set()
+            for opcode, begin, end in records_in(data):
+                if opcode == Opcode.MESSAGE:
+                    channels.add(MESSAGE.unpack_from(data, begin)[0])
+                elif opcode == Opcode.CHANNEL:
+                    self._add_channel(Channel.read(ReadDataStream(BytesIO(data[begin:end]))))
+        except BROKEN as error:
+            raise self._damaged(error) from None
+        return channels
 
     def _damaged(self, why: object) -> TouchlineError:
         return TouchlineError(f"{self._path}: {DAMAGED.format(why)}")

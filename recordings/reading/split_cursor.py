@@ -133,7 +133,7 @@ class SplitCursor:
         self._at = at
         cursor = self._cursors[at]
         cursor.rewind()
-        for _ in range(self._recordings[at].manifest.standing if at else 0):
+        for _ in range(self._recordings[at].manifest.latched_count if at else 0):
             if cursor.peek() is not None:
                 cursor.skip()
 
@@ -176,7 +176,7 @@ class SplitCursor:
             raise TouchlineError(f"{path}: truncated file, and {after.name} comes after it; recover it first")
 
     def _goes_on_in_another(self) -> bool:
-        """Whether the result of the last file, which is finished, says that another follows."""
+        """Whether another file follows, by the result of the last file, which is finished."""
         if self._ended is None:
             self._recordings[-1] = _reopen(self._recordings[-1].path)
             result = self._recordings[-1].result

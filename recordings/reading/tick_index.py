@@ -28,6 +28,8 @@ class StartTick(NamedTuple):
     """Number of the kick-off, from 1; None if the tick is not a kick-off."""
     changes: tuple[Applied, ...]
     """Earlier changes of parameters, robots and obstacles."""
+    has_referee: bool = False
+    """The state of the referee was recorded."""
 
 
 class SkipReason(StrEnum):
@@ -128,7 +130,8 @@ def tick_index_of(recording: Recording) -> TickIndex:
         if tick == 0 or (summary.checkpoint and is_next and before is not None and before.log_ns in worlds):
             is_kick_off = tick - 1 in began
             kick_offs += is_kick_off
-            index.starts.append(StartTick(tick, kick_offs if is_kick_off else None, tuple(changes)))
+            kick_off = kick_offs if is_kick_off else None
+            index.starts.append(StartTick(tick, kick_off, tuple(changes), summary.has_referee))
         if summary.changes is not None:
             changes.append(summary.changes)
         index.times[tick] = summary.time
@@ -138,7 +141,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
 
 def _latched_ticks(recording: Recording) -> set[int]:
     """Ticks whose `host/applied` is among the latched messages at the beginning of the file."""
-    repeated = islice(recording.messages(), recording.manifest.standing)
+    repeated = islice(recording.messages(), recording.manifest.latched_count)
     summaries = [_summary_of(recorded) for recorded in repeated if recorded.topic is APPLIED]
     return {summary.tick for summary in summaries if summary is not None}
 
@@ -148,6 +151,7 @@ class _AppliedSummary(NamedTuple):
     time: float
     log_ns: int
     checkpoint: bool
+    has_referee: bool
     changes: Applied | None
 
 
@@ -161,7 +165,9 @@ def _summary_of(recorded: RecordedMessage) -> _AppliedSummary | None:
         changes = recorded.message() if any(name in fields for name in _CHANGES) else None
     except (BadMessageError, ValueError, KeyError, TypeError):
         return None
-    return _AppliedSummary(tick, time, recorded.log_ns, bool(fields.get("checkpoint")), changes)
+    return _AppliedSummary(
+        tick, time, recorded.log_ns, bool(fields.get("checkpoint")), bool(fields.get("referee")), changes
+    )
 
 
 def _kick_offs(recording: Recording) -> set[int]:

@@ -1,4 +1,4 @@
-"""The recorded messages of each tick of a segment: `host/applied`, `world`, and the commands."""
+"""The recorded messages of each tick of a segment: `host/applied`, `world`, the game, and the commands."""
 
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -7,12 +7,13 @@ from pydantic_core import from_json
 
 from recordings.container.manifest import KeyCount
 from recordings.reading.command_check import CommandCheck
+from recordings.reading.record_order import RecordOrder
 from recordings.reading.recording import RecordedMessage, Recording
 from recordings.reading.tick_index import Segment
 from schemas.game import EventKind
 from schemas.messages.applied import Applied
 from schemas.messages.game import GameEvent
-from schemas.topics import APPLIED, COMMAND, EVENT, WORLD
+from schemas.topics import APPLIED, BELIEF, COMMAND, EVENT, STATE, WORLD
 from schemas.wire.message import BadMessageError
 
 _BEFORE_S = 0.5
@@ -20,6 +21,9 @@ _AFTER_S = 2.0
 """Simulated time before and after a segment that is searched for its messages: some are recorded late."""
 _SETTLED_NS = 200_000_000
 """Simulated time, in ns, after which the world of a tick has been recorded, if at all."""
+
+_MANUAL_CONTROL = ("manual_control", "hand")
+"""Rule of the events on manual control, now and in older recordings."""
 
 
 class TickRecord(NamedTuple):
@@ -31,6 +35,10 @@ class TickRecord(NamedTuple):
     """The message `host/applied`; None if it is not valid."""
     world: dict[str, Any] | None
     """The fields of `schemas.messages.world.World`; None if it is missing."""
+    states: tuple[RecordedMessage, ...] = ()
+    """The messages `game/state` of this tick."""
+    events: tuple[RecordedMessage, ...] = ()
+    """The messages `game/event` of this tick."""
 
 
 def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
@@ -39,48 +47,76 @@ def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
     A robot that was ever under manual control is left out: manual commands are not recorded.
     """
     keys = [channel.key for channel in recording.channels if channel.topic == "command"]
-    driven_manually = {event.robot for _, event in recording.decoded(EVENT.key) if _is_manual_control(event)}
-    checked = {key.split("/")[1]: key for key in keys if key.split("/")[1] not in driven_manually}
+    driven = manually_driven(recording)
+    checked = {key.split("/")[1]: key for key in keys if key.split("/")[1] not in driven}
     counts = recording.result.keys if recording.result is not None else {}
-    complete = [robot for robot, key in checked.items() if _none_missing(counts.get(key))]
-    return CommandCheck(checked, complete, segment.answers_from)
+    without_loss = [key.split("/")[1] for key in keys if _none_missing(counts.get(key))]
+    return CommandCheck(checked, without_loss, segment.answers_from)
+
+
+def manually_driven(recording: Recording) -> set[str]:
+    """The robots that were under manual control at any time."""
+    events = (event for _, event in recording.decoded(EVENT.key) if _is_manual_control(event))
+    return {event.robot for event in events if event.robot is not None}
 
 
 def _is_manual_control(event: GameEvent) -> bool:
-    return event.kind is EventKind.AGENT and event.rule == "hand"
+    return event.kind is EventKind.AGENT and event.rule in _MANUAL_CONTROL
 
 
 def _none_missing(count: KeyCount | None) -> bool:
     return count is not None and count.lost == count.missed_before_start == count.restarts == 0
 
 
-def tick_records(recording: Recording, segment: Segment, check: CommandCheck) -> Iterator[TickRecord]:
-    """Yield the records of the tick before a segment and of the ticks in it, in order.
+def tick_records(
+    recording: Recording, segment: Segment, check: CommandCheck, order: RecordOrder
+) -> Iterator[TickRecord]:
+    """Yield the records of the tick before a segment, of the ticks in it, and of the tick after it, in order.
 
-    The commands of that time are added to `check`.
+    The commands and beliefs of that time are added to `check`, and all messages of the host to `order`.
     """
     held: list[TickRecord] = []
     worlds: dict[int, dict[str, Any]] = {}
-    keys = (APPLIED.key, WORLD.key, COMMAND.fill(robot="*"))
-    ticks = range(segment.ticks.start - 1, segment.ticks.stop)
+    states: dict[int, list[RecordedMessage]] = {}
+    events: dict[int, list[RecordedMessage]] = {}
+
+    def complete(record: TickRecord) -> TickRecord:
+        tick = record.tick
+        return record._replace(
+            world=worlds.pop(tick, None), states=tuple(states.pop(tick, ())), events=tuple(events.pop(tick, ()))
+        )
+
+    keys = (APPLIED.key, WORLD.key, STATE.key, EVENT.key, BELIEF.fill(), COMMAND.fill(robot="*"))
+    ticks = range(segment.ticks.start - 1, segment.ticks.stop + 1)
     start, end = segment.seconds[0] - _BEFORE_S, segment.seconds[1] + _AFTER_S
     for recorded in recording.messages(*keys, start=max(0.0, start), end=end):
         if recorded.topic is COMMAND:
             check.add_command(recorded)
-        elif recorded.topic is WORLD:
-            fields = _fields(recorded.current_payload())
-            tick = fields.get("tick")
-            if isinstance(tick, int) and tick in ticks:
-                worlds[tick] = fields
-        else:
+            continue
+        if recorded.topic is APPLIED:
             record = _tick_record(recorded)
             if record.tick in ticks:
+                order.add(recorded, record.tick)
                 held.append(record)
+        else:
+            fields = _fields(recorded.current_payload())
+            tick = fields.get("tick")
+            if not isinstance(tick, int):
+                order.add_unreadable(recorded)
+                continue
+            order.add(recorded, tick)
+            if tick not in ticks:
+                continue
+            if recorded.topic is WORLD:
+                worlds.setdefault(tick, fields)
+            elif recorded.topic is BELIEF:
+                check.add_belief(recorded, tick, fields)
+            else:
+                (states if recorded.topic is STATE else events).setdefault(tick, []).append(recorded)
         while held and recorded.log_ns - held[0].recorded.log_ns > _SETTLED_NS:
-            record = held.pop(0)
-            yield record._replace(world=worlds.pop(record.tick, None))
+            yield complete(held.pop(0))
     for record in held:
-        yield record._replace(world=worlds.pop(record.tick, None))
+        yield complete(record)
 
 
 def _tick_record(recorded: RecordedMessage) -> TickRecord:

@@ -1,4 +1,4 @@
-"""Puts a host's batches into the order of their numbers, and knows which of them are missing. Knows no bus."""
+"""Sorts a host's batches by their numbers, and finds the missing ones. Uses no bus."""
 
 from collections import deque
 from collections.abc import Iterable
@@ -8,36 +8,36 @@ from schemas.messages.record_batch import Batch
 
 
 class MissingBatches(NamedTuple):
-    """Batches to ask the host for, from `first` to `last`, both included."""
+    """Batches to request from the host, from `first` to `last`, both included."""
 
     stream: int
     first: int
     last: int
     since_ns: int
-    """Those that the host published before this wall time, ns since 1970, are not wanted."""
+    """Batches that the host published before this wall time, in ns since 1970, are not requested."""
 
 
 class BatchSequence:
-    """Follows the batches of one host, and of the next one after that."""
+    """The batches of one host, and of the host that follows it."""
 
     def __init__(self, since_ns: int) -> None:
-        """Before the first batch that comes, those published before `since_ns` (wall time) are not missed."""
+        """Batches before the first received one are only missing if published after `since_ns` (wall time)."""
         self.since_ns = since_ns
         self.ready: deque[Batch] = deque()
-        """Batches in their order, to be taken from the left."""
+        """Batches in order, to be removed from the left."""
         self.lost = 0
-        """Batches that are missing for good."""
+        """Batches that were given up."""
         self.stream: int | None = None
-        """Which host is followed; None before the first batch."""
+        """The stream of the host whose batches are read; None before the first batch."""
         self.expected = 0
         """Number of the next batch."""
         self._first = 0
-        """Number of the first batch that came of this host: what is missing before it may be from before `since_ns`."""
+        """Number of the first received batch of this host: missing ones before it may be older than `since_ns`."""
         self._held: dict[int, Batch | None] = {}
         """Batches behind a gap; None for one that cannot be read."""
 
-    def take(self, batch: Batch) -> None:
-        """A batch has come."""
+    def add(self, batch: Batch) -> None:
+        """Add a received batch."""
         if batch.stream != self.stream:
             self._follow(batch)
         if batch.number >= self.expected:
@@ -51,10 +51,10 @@ class BatchSequence:
         since_ns = self.since_ns if self.expected < self._first else 0
         return MissingBatches(self.stream, self.expected, min(self._held) - 1, since_ns)
 
-    def take_again(self, batches: Iterable[tuple[int, Batch | None]], oldest: int) -> None:
-        """The host has sent batches again: number, and batch or None where it cannot be read.
+    def add_requested(self, batches: Iterable[tuple[int, Batch | None]], oldest: int) -> None:
+        """Add requested batches: number, and batch, or None if it is not valid.
 
-        It keeps none with a number below `oldest`: what is missing there is missing for good.
+        The host keeps none with a number below `oldest`: missing ones there are given up.
         """
         for number, batch in batches:
             if number >= self.expected:
@@ -64,7 +64,7 @@ class BatchSequence:
             self._skip_to(min(oldest, min(self._held)))
 
     def skip_missing(self) -> None:
-        """Wait no longer for what is missing."""
+        """Give up all missing batches."""
         while self._held:
             self._skip_to(min(self._held))
 

@@ -32,6 +32,11 @@ class LossCounts:
                 counts[key] = count
         return counts
 
+    def forget_missed_before_start(self) -> None:
+        """Do not count what was sent before the first message: it is in files that are read no more."""
+        for tracker in self._trackers.values():
+            tracker.missed_before_start = 0
+
     def start_file(self) -> None:
         """Begin another file."""
         self._before = {key: tracker.count() for key, tracker in self._trackers.items()}

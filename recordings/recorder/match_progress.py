@@ -1,4 +1,4 @@
-"""What the recorder itself reads of what it records: how far the match is, its score, its phase."""
+"""The part of the recorded messages that the recorder itself reads: time, phase, score and roster of the match."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable
@@ -15,14 +15,14 @@ from schemas.wire.message import BadMessageError
 
 
 class MatchProgress:
-    """Follows a match by a few of its messages; one that cannot be read is counted and passed over."""
+    """Follows a match by a few of its messages; an invalid one is counted and skipped."""
 
     def __init__(self) -> None:
         self.applied: Applied | None = None
         self.state: GameState | None = None
         self.goals = 0
         self.unreadable: Counter[str] = Counter()
-        """Payloads that could not be read, by key."""
+        """Key → payloads that could not be read."""
         self._newest_applied: ReceivedMessage | None = None
         self._roster_changed: Callable[[list[RosterEntry]], None] = _ignore_roster
         self._handlers = {
@@ -37,11 +37,11 @@ class MatchProgress:
         return self.state is not None and self.state.phase is Phase.FULL_TIME
 
     def on_roster_change(self, callback: Callable[[list[RosterEntry]], None]) -> None:
-        """Tell `callback` who takes part, whenever that has changed."""
+        """Call `callback` with the new roster at each change."""
         self._roster_changed = callback
 
     def update(self, messages: Iterable[ReceivedMessage]) -> None:
-        """Look at messages; most are none of ours."""
+        """Process messages; most are of other topics."""
         handlers = self._handlers
         for received in messages:
             handler = handlers.get(received.key)
@@ -49,13 +49,13 @@ class MatchProgress:
                 handler(received)
 
     def catch_up(self) -> None:
-        """Read the newest inputs that were taken: once for many ticks, for speed."""
+        """Decode the newest inputs: once for many ticks, for speed."""
         if self._newest_applied is not None:
             self.applied = self.read(self._newest_applied) or self.applied
             self._newest_applied = None
 
     def read(self, received: ReceivedMessage) -> Any:
-        """The message, or nothing."""
+        """The message, or None if it is invalid."""
         try:
             return received.message()
         except BadMessageError:
@@ -78,4 +78,4 @@ class MatchProgress:
 
 
 def _ignore_roster(robots: list[RosterEntry]) -> None:
-    """Nobody wants to know."""
+    """Do nothing with the new roster."""

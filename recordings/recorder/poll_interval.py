@@ -1,22 +1,22 @@
-"""How long a recorder waits between two looks: what came in many ticks costs less than what comes in each.
+"""How long a recorder sleeps between two polls: reading the messages of many ticks at once costs less.
 
-A look brings a recorder's code back into caches that host and robots have used meanwhile.
+Each poll loads the recorder's code into caches that host and robots have used since the last one.
 """
 
 from schemas.recovery_window import REST_TICKS
 
 _MAX_S = 0.2
-"""Wall time of a rest when fewer come: progress is told, and the file written, at least so often."""
+"""Longest wall time between two polls: progress is reported and the file written at least this often."""
 
 
 class PollInterval:
-    """Follows how fast the match is."""
+    """Adapts the interval to the speed of the match."""
 
     def __init__(self, now: float) -> None:
         self._tick, self._polled_at = -1, now
 
     def next_poll(self, now: float, tick: int) -> float:
-        """When to look again, wall time in s, after a look at `now` that found the match at this tick."""
+        """Wall time of the next poll in s, after a poll at `now` that has read up to this tick."""
         came, since = tick - self._tick, now - self._polled_at
         self._tick, self._polled_at = tick, now
         return now + (min(_MAX_S, REST_TICKS * since / came) if came > 0 else _MAX_S)

@@ -6,35 +6,44 @@ import sys
 import threading
 
 from recordings.recorder.record import record
-from recordings.recorder.recorder import RecordingSummary
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from schemas.process.scheduling import use_batch_scheduling
 
-_SELDOM = 100_000
-"""Objects made until Python looks for garbage in cycles: messages come by the thousand, and are in none."""
+_GC_THRESHOLD = 100_000
+"""New objects after which Python searches for reference cycles: messages are many, and are in no cycle."""
 
 
 def run(settings: RecorderSettings) -> int:
-    """Record until the host leaves, or SIGINT or SIGTERM comes; the exit status of the process.
+    """Record until the host leaves, or until SIGINT or SIGTERM; returns the exit status, 1 without a recording.
 
     Raises:
         TouchlineError: no host answers, or the file cannot be written.
     """
-    use_batch_scheduling()  # what has come waits for it; nobody else has to
+    use_batch_scheduling()  # no process waits for the recorder
     gc.freeze()
-    gc.set_threshold(_SELDOM)
+    gc.set_threshold(_GC_THRESHOLD)
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
-    sys.stdout.write(_sentence(record(settings, stop.is_set)) + "\n")
+    summary = record(settings, stop.is_set, _report)
+    if summary is None:
+        _report("stopped before there was a host; nothing is recorded")
+        return 1
+    sys.stdout.write(_sentence(summary) + "\n")
     return 0
+
+
+def _report(line: str) -> None:
+    sys.stderr.write(f"{line}\n")
+    sys.stderr.flush()
 
 
 def _sentence(summary: RecordingSummary) -> str:
     result = summary.result
     files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
     if not summary.files:
-        return "nothing was to be kept"
+        return "no file was kept"
     return (
         f"{files}: {result.messages} messages, {result.tick + 1} ticks, {result.lost} lost, "
         f"{summary.size} bytes, ended by {result.ended.value}"

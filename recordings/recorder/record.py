@@ -1,29 +1,62 @@
-"""Records a match from its endpoint into files, as the settings of a recorder ask for."""
+"""Records a match from its endpoint into files, by the settings of a recorder."""
 
 from collections.abc import Callable
 from pathlib import Path
 
 from recordings.container.key_selection import KeySelection
+from recordings.container.manifest import RESULT, Result
+from recordings.container.mcap_file import open_mcap_file
+from recordings.container.sealed_metadata import from_metadata
+from recordings.recorder.file_limits import ONE_FILE, FileLimits
+from recordings.recorder.leftover import Leftover, find_leftover
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.no_match_notice import NoMatchNotice
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
-from recordings.recorder.sink import ONE_FILE, FileLimits, FileSink, Sink
+from recordings.recorder.sink import FileSink, Sink
 from recordings.recorder.snapshot_sink import SnapshotSink
-from schemas.bus.zenoh.bus import open_client
+from schemas.bus.contract import Bus, NoReplyError
+from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.bus.zenoh.waiting_client import open_when_there
+from schemas.messages.record_batch import RecordBatchesRequest, read_reply
 from schemas.process.clock import Clock, WallClock
+from schemas.topics import RECORD_BATCHES
+from schemas.wire.message import BadMessageError
+
+_ASK_S = 2.0
+"""Wall time in which a host answers when it began."""
 
 
-def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda: False) -> RecordingSummary:
-    """Record until the host leaves or `should_stop` returns true.
+def record(
+    settings: RecorderSettings,
+    should_stop: Callable[[], bool] = lambda: False,
+    report: Callable[[str], None] = lambda _: None,
+) -> RecordingSummary | None:
+    """Record until the host leaves or `should_stop` returns true; None if there was no host before that.
+
+    `report` receives a line if there is no host at once, or if it plays another match.
 
     Raises:
         TouchlineError: no host, or a file that cannot be written; what was written so far stays as `*.part`.
     """
     clock, wanted = WallClock(), settings.record
     selection = KeySelection(tuple(wanted.include), tuple(wanted.exclude))
-    with open_client(settings.match, clock, settings.connect, settings.patience) as bus:
-        loss_counts = LossCounts()
-        sink = open_sink(settings.out, clock, settings.match, loss_counts, FileLimits.of(wanted), viz=wanted.viz)
+    limits = FileLimits.of(wanted)
+
+    def connect(patience: float) -> ZenohBus:
+        return open_client(settings.match, clock, settings.connect, patience)
+
+    client = open_when_there(connect, clock, settings.patience, report, should_stop)
+    if client is None:
+        return None
+    with client as bus:
+        leftover = _leftover(bus, settings.out, limits) if settings.resume else None
+        if leftover is not None and leftover.is_finished and not limits.is_split:
+            return _summary_of(leftover.files)
+        known = leftover.for_recorder(limits) if leftover is not None else None
+        loss_counts = known.loss_counts if known is not None else LossCounts()
+        sink = open_sink(settings.out, clock, bus.match, loss_counts, limits, viz=wanted.viz, leftover=leftover)
         try:
             recorder = Recorder(
                 bus,
@@ -33,18 +66,51 @@ def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda:
                 sights=wanted.sights,
                 selection=selection,
                 config=settings.config,
+                leftover=known,
             )
-            return recorder.run(should_stop)
+            return recorder.run(NoMatchNotice(bus, report).around(should_stop))
         finally:
             sink.abandon()
 
 
 def open_sink(
-    path: Path, clock: Clock, match: str, loss_counts: LossCounts, limits: FileLimits = ONE_FILE, *, viz: bool = True
+    path: Path,
+    clock: Clock,
+    match: str,
+    loss_counts: LossCounts,
+    limits: FileLimits = ONE_FILE,
+    *,
+    viz: bool = True,
+    leftover: Leftover | None = None,
 ) -> Sink:
-    """Where a recording goes; with `viz`, what viewers draw is in it.
+    """The sink of a recording; with `viz`, the channels for viewers are written, too. A `leftover` is continued.
 
     Raises:
-        TouchlineError: a file that cannot be written.
+        TouchlineError: the file cannot be written.
     """
-    return (FileSink if limits.snapshot is None else SnapshotSink)(path, clock, match, loss_counts, limits, viz=viz)
+    kind = FileSink if limits.snapshot is None else SnapshotSink
+    return kind(path, clock, match, loss_counts, limits, viz=viz, leftover=leftover)
+
+
+def _leftover(bus: Bus, path: Path, limits: FileLimits) -> Leftover:
+    """What a killed recorder of this host has left; nothing, if what is there is of an earlier host."""
+    leftover = find_leftover(path, limits)
+    if leftover.host_ns >= _host_began_ns(bus):
+        return leftover
+    leftover.release()
+    return Leftover()
+
+
+def _host_began_ns(bus: Bus) -> int:
+    """The host's wall time at which it began, ns since 1970; 0 if it does not answer."""
+    try:
+        payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), _ASK_S).payload(_ASK_S)
+        return read_reply(payload).stream
+    except (NoReplyError, BadMessageError):
+        return 0
+
+
+def _summary_of(files: list[Path]) -> RecordingSummary:
+    """The recording that a recorder had finished before it was killed."""
+    result = from_metadata(Result, open_mcap_file(files[-1]).metadata[RESULT])
+    return RecordingSummary(files, sum(file.stat().st_size for file in files), result)

@@ -1,11 +1,9 @@
-"""The recorder: reads all that the topic table has recorded from the host's batches, in order, and writes it.
+"""The recorder: reads the host's batches in order, and writes the messages in them.
 
-Knows a bus and a file, no process: `recordings.recorder.record` gives it both.
+It needs a bus and a sink, no process: `recordings.recorder.record` opens both.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from pathlib import Path
 
 from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -13,18 +11,20 @@ from recordings.container.manifest import EndReason, Manifest, Result, make_mani
 from recordings.recorder.batch_reader import BatchReader
 from recordings.recorder.control_service import ControlService
 from recordings.recorder.latched_messages import LoggedMessage
+from recordings.recorder.leftover import Leftover, message_id
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.poll_interval import PollInterval
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.roster_metadata import RosterMetadata
+from recordings.recorder.setup_query import SetupQuery
 from recordings.recorder.sink import Sink
 from recordings.recorder.unbatch import Unbatcher
-from schemas.bus.contract import Bus, NoReplyError, PendingReply, PresenceKind
+from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.host_watch import RECONNECT_S, HostWatch
 from schemas.config.match_config import MatchConfig
 from schemas.messages.record_batch import Batch
 from schemas.messages.recorder import RecorderProgress
-from schemas.messages.setup import Setup, SetupRequest
+from schemas.messages.setup import Setup
 from schemas.process.idle_time import run_in_idle_time
 from schemas.recovery_window import REPORT_TICKS
 from schemas.topics import EVENT, RECORD_BATCH, RECORDER_PROGRESS, SETUP
@@ -33,33 +33,17 @@ from schemas.wire.message import BadMessageError
 REPORT_S = 0.05
 """Wall time after which progress is reported in any case."""
 _CHECK_S = 0.05
-"""Wall time after which a recorder that rests looks for questions, and for the end of the match."""
-_RECOVERS_S = 0.01
-"""Wall time between two looks while batches are missing."""
-_ASK_AGAIN_S = (0.1, 1.6)
-"""Pause before the host is asked again: the first, and the longest it doubles to."""
-_SETUP_PATIENCE_S = 10.0
-"""Wall time that a host is given to say how the match is set up; then the recording begins without."""
+"""Wall time between two checks for requests and for the end of the match, while the recorder sleeps."""
+_RECOVERY_POLL_S = 0.01
+"""Wall time between two polls while batches are missing."""
 _QUIET_S = 0.25
-"""Wall time without a message after which nothing more is on its way."""
+"""Wall time without a message after which none is expected any more."""
 _DRAIN_S = 10.0
-"""Wall time that taking in the rest may last after the host has left; a host that goes on would never end it."""
-
-
-@dataclass(frozen=True, slots=True)
-class RecordingSummary:
-    """What was recorded."""
-
-    files: list[Path]
-    """What is left of it, the oldest first."""
-    size: int
-    """Bytes in all of them."""
-    result: Result
-    """Of the last file, or of all that was seen where snapshots were taken."""
+"""Most wall time for reading the last messages after the host has left: a host that continues would never end it."""
 
 
 class Recorder:
-    """Records one match from a seat on its bus. Listens from the moment it is made."""
+    """Records one match. It subscribes when it is constructed."""
 
     def __init__(
         self,
@@ -71,34 +55,41 @@ class Recorder:
         sights: bool = False,
         selection: KeySelection = EVERYTHING,
         config: MatchConfig | None = None,
+        leftover: Leftover | None = None,
     ) -> None:
-        """`loss_counts` is the one that `sink` keeps; keys that `selection` leaves out are read and not written."""
+        """`loss_counts` are updated by `sink`; keys that `selection` leaves out are read and not written.
+
+        With a `leftover`, the recording of a killed recorder is continued with all that the host still keeps.
+        """
         self._bus, self._clock, self._sink, self._loss_counts = bus, bus.clock, sink, loss_counts
         self._name, self._sights, self._selection, self._config = name, sights, selection, config
-        self._batches = BatchReader(bus)
-        self._unbatcher = Unbatcher(sights=sights)
+        left = leftover or Leftover()
+        self._batches = BatchReader(bus, left.host_ns if leftover is not None else None)
+        self._unbatcher = Unbatcher(sights=sights, log_ns=max(0, left.last_ns))
+        self._leftover: Leftover | None = leftover
+        self._written = frozenset(left.newest)
+        """Messages that the killed recorder has written, among the newest."""
         self._waiting: list[LoggedMessage] = []
-        """Messages in order that are not written yet."""
+        """Messages that are not written yet, in order."""
         self._tick = -1
-        """The newest tick that was read to its end."""
-        self._wanted: dict[str, bool] = {}
+        """The newest tick of which all messages were read."""
+        self._included: dict[str, bool] = {}
+        """Key → whether it is recorded."""
         self._roster = RosterMetadata()
         self._setup: Setup | None = None
         self._begun = False
-        self._messages = 0
-        self._match = MatchProgress()
+        self._messages = left.messages
+        self._match = left.match
         self._synced_goals = 0
-        self._answer: PendingReply | None = None
-        self._asked_at = self._unanswered_since = self._clock.now()
-        self._ask_pause = _ASK_AGAIN_S[0]
         self._progress = bus.publisher(RECORDER_PROGRESS, name=name)
         self._reported_tick, self._reported_at = -2, self._clock.now()
         self._poll_interval = PollInterval(self._clock.now())
         self._host = HostWatch(bus)
+        self._setup_query = SetupQuery(bus, self._host)
         self._control_service = ControlService(bus, name, sink)
 
     def run(self, should_stop: Callable[[], bool]) -> RecordingSummary:
-        """Record until the host is gone or somebody says stop, take in what is still on its way, and finish."""
+        """Record until the host has left or `should_stop()` is true, read the last messages, and finish."""
         stopped = False
 
         def poll() -> bool:
@@ -114,7 +105,7 @@ class Recorder:
         return self.finish(stopped)
 
     def pump(self) -> int:
-        """Read what has come, write it, report progress; returns how many messages came."""
+        """Read and write the received messages, and report progress; returns the number of messages."""
         if not self._begun and not self._begin_when_known():
             self._report(idle=True)
             return 0
@@ -126,9 +117,9 @@ class Recorder:
         return count
 
     def drain(self, patience: float) -> None:
-        """Take in all that is still on its way, until nothing has come for a moment, for `patience` s at most.
+        """Read messages until none has arrived for `_QUIET_S`, for at most `patience` s.
 
-        Without a link nothing is on its way but what has come already.
+        Without a link, only messages that have already arrived are read.
         """
         if not self._begun:
             self._begin(None)
@@ -145,11 +136,11 @@ class Recorder:
         self.pump()
 
     def _sleep(self, should_stop: Callable[[], bool]) -> bool:
-        """Sleep until it is time to look again, or there is a reason to; returns whether the recorder is to stop."""
+        """Sleep until the next poll, a request or the end of the match; returns whether the recorder must stop."""
         now = self._clock.now()
         until = self._poll_interval.next_poll(now, self._tick)
         if not self._batches.is_complete:
-            until = min(until, now + _RECOVERS_S)
+            until = min(until, now + _RECOVERY_POLL_S)
         while True:
             self._clock.sleep_until(min(until, now + _CHECK_S))
             now = self._clock.now()
@@ -158,13 +149,13 @@ class Recorder:
                 return stopped
 
     def _is_over(self) -> bool:
-        """Whether the match is over: a host that ends waits until its recorders have everything."""
+        """Whether the match is over; its host waits at its end until the recorders have read everything."""
         if not self._match.finished:
             self._read(self._batches.read())
         return self._match.finished
 
     def finish(self, stopped: bool = False) -> RecordingSummary:
-        """Write what waits, and the result; close the file."""
+        """Write the remaining messages and the result, and close the file."""
         if not self._begun:
             self._begin(None)
         self._write()
@@ -180,18 +171,18 @@ class Recorder:
         return EndReason.STOPPED if stopped else EndReason.HOST_GONE
 
     def _host_is_gone(self) -> bool:
-        """Whether the host was there and will not come back; after a finished match its absence is its farewell."""
+        """Whether the host has left for good: after a finished match at once, otherwise after `RECONNECT_S`."""
         self._host.update()
         if self._host.is_reachable():
             return False
         return self._is_complete() or self._host.unreachable_s() >= RECONNECT_S
 
     def _is_complete(self) -> bool:
-        """Whether the match is over and nothing is known to be missing of it."""
+        """Whether the match is over and no batch is known to be missing."""
         return self._match.finished and self._batches.is_complete
 
     def _read(self, batches: Iterable[Batch]) -> int:
-        """Take batches apart; returns how many messages wait to be written now, beside those that waited before."""
+        """Extract the messages of batches; returns their number."""
         before = self._messages
         for batch in batches:
             self._tick = batch.tick
@@ -200,6 +191,8 @@ class Recorder:
             except BadMessageError:
                 self._match.unreadable[RECORD_BATCH.key] += 1
                 continue
+            if self._written:
+                logged = [one for one in logged if message_id(one[1]) not in self._written]
             self._match.update(received for _, received in logged)
             if self._selection:
                 logged = [one for one in logged if self._includes(one[1].key)]
@@ -208,7 +201,7 @@ class Recorder:
         return self._messages - before
 
     def _write(self) -> None:
-        """Give the output what waits; a goal is kept safe."""
+        """Write the waiting messages; a goal is flushed to the disk."""
         batch, self._waiting = self._waiting, []
         if batch and self._control_service.paused:
             self._sink.skip(batch)
@@ -219,14 +212,14 @@ class Recorder:
             self._sink.sync()
 
     def _includes(self, key: str) -> bool:
-        """Whether the messages of a key are to be written."""
-        wanted = self._wanted.get(key)
-        if wanted is None:
-            wanted = self._wanted[key] = self._selection.includes(key)
-        return wanted
+        """Whether the messages of a key are recorded."""
+        included = self._included.get(key)
+        if included is None:
+            included = self._included[key] = self._selection.includes(key)
+        return included
 
     def _report(self, idle: bool) -> None:
-        """Report progress: after a number of ticks, after a while, and when the host seems to wait for it."""
+        """Report progress after a number of ticks, after `REPORT_S`, and when no more messages arrive."""
         now = self._clock.now()
         new = self._tick - self._reported_tick
         if new >= REPORT_TICKS or (idle and new > 0) or now - self._reported_at >= REPORT_S:
@@ -248,30 +241,23 @@ class Recorder:
         )
 
     def _begin_when_known(self) -> bool:
-        """Ask the host how the match is set up, again and again; begin when it has answered."""
-        now = self._clock.now()
-        if self._answer is None or now - self._asked_at >= self._ask_pause:
-            self._ask_pause = min(2 * self._ask_pause, _ASK_AGAIN_S[1])
-            self._answer, self._asked_at = self._bus.query(SETUP, SetupRequest(), self._ask_pause), now
-        try:
-            self._begin(self._answer.result(0.0))
-        except NoReplyError:
-            if not self._host.seen:
-                self._unanswered_since = now
-            elif now - self._unanswered_since >= _SETUP_PATIENCE_S:
-                self._begin(None)
-        except BadMessageError:
-            self._match.unreadable[SETUP.key] += 1
-            self._begin(None)
+        """Begin when the host has replied with the setup, or has not replied in time; returns whether it has begun."""
+        if self._setup_query.is_over():
+            if self._setup_query.is_unreadable:
+                self._match.unreadable[SETUP.key] += 1
+            self._begin(self._setup_query.setup)
         return self._begun
 
     def _begin(self, setup: Setup | None) -> None:
         self._begun, self._setup, self._roster = True, setup, RosterMetadata(setup)
         self._match.on_roster_change(self._roster.update)
+        if self._leftover is not None:
+            self._match.update(received for _, received in self._leftover.latched.messages())
+            self._match.catch_up()
         self._sink.begin(self._make_header, self._make_result, self._roster)
-        self._bus.declare_alive(PresenceKind.RECORDER, self._name)  # a lockstep host waits for it from now on
+        self._bus.declare_alive(PresenceKind.RECORDER, self._name)  # from now on a lockstep host waits for it
         if self._sights:
-            self._send_progress()  # from now on the host puts sights into its batches
+            self._send_progress()  # from now on the host adds sights to its batches
 
     def _make_header(self) -> tuple[Manifest, dict[str, bytes]]:
         manifest = make_manifest(
@@ -286,7 +272,7 @@ class Recorder:
         return manifest, make_attachments(self._config)
 
     def _make_result(self, ended: EndReason) -> Result:
-        """How the file ends that is being written."""
+        """The result of the current file."""
         state, applied = self._match.state, self._match.applied
         result = Result(
             ended=ended,
@@ -302,7 +288,7 @@ class Recorder:
         return result.counted(self._loss_counts.for_this_file())
 
     def _unreadable(self) -> dict[str, int]:
-        """Payloads that could not be read, by key."""
+        """Key → payloads that could not be read."""
         counts = self._match.unreadable.copy()
         if self._batches.unreadable:
             counts[RECORD_BATCH.key] += self._batches.unreadable

@@ -19,8 +19,10 @@ from recordings.container.json_schema import flat_schema
 from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
+from recordings.container.repair import add_summary
 from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.latched_messages import LoggedMessage
+from recordings.recorder.leftover import SEQUENCES, Leftover
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.viz.drawing import READS
 from recordings.viz.viz_channels import VizChannels
@@ -35,19 +37,26 @@ FLUSH_S = 0.5
 """Wall time in s after which messages are in the file."""
 _BACKLOG = 64
 """Batches that may wait for the thread; adding another one blocks."""
-_SEQUENCES = 0xFFFF_FFFF
-"""MCAP has sequence numbers of 32 bits."""
 
-Batch = list[LoggedMessage]
+LoggedMessages = list[LoggedMessage]
 
 
 class RecordingWriter:
     """One file that is being written. Any method may raise `TouchlineError` if the disk cannot be written."""
 
     def __init__(
-        self, path: Path, clock: Clock, match: str, roster: RosterMetadata | None = None, *, viz: bool = True
+        self,
+        path: Path,
+        clock: Clock,
+        match: str,
+        roster: RosterMetadata | None = None,
+        *,
+        viz: bool = True,
+        leftover: Leftover | None = None,
     ) -> None:
         """`roster` describes the robots in keys; with `viz`, the channels for viewers are written, too.
+
+        The unfinished file of a `leftover` is continued.
 
         Raises:
             TouchlineError: another recorder writes the file, or it cannot be written.
@@ -64,7 +73,9 @@ class RecordingWriter:
         self._schemas: dict[str, int] = {}
         self._jobs: Queue[Callable[[], None] | None] = Queue(_BACKLOG)
         self._error: Exception | None = None
-        self._partial_file = PartialFile(path)
+        self._leftover = leftover if leftover is not None and leftover.partial_file is not None else None
+        left = self._leftover.partial_file if self._leftover is not None else None
+        self._partial_file = left or PartialFile(path)
         self.partial_path = self._partial_file.path
         self._file = self._partial_file.file
         self._mcap = mcap_writer(self._file)
@@ -72,7 +83,7 @@ class RecordingWriter:
         self._flush_at = 0.0
         self.begun = False
 
-    def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: Batch | None = None) -> None:
+    def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: LoggedMessages | None = None) -> None:
         """Write manifest, attachments and latched messages; `attachments` have names with a suffix, `match.json`.
 
         `latched` are the latched messages at the beginning of this file, which are in the files before it, too.
@@ -81,14 +92,17 @@ class RecordingWriter:
         self._flush_at = self._clock.now() + FLUSH_S
         start_thread(self._thread)
         attached = {name: digest(content) for name, content in attachments.items()}
-        manifest = manifest.model_copy(update={"attached": attached, "standing": len(latched or ())})
+        manifest = manifest.model_copy(update={"attached": attached, "latched_count": len(latched or ())})
         if self._viz and manifest.setup is not None:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
-        self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
+        if self._leftover is not None:
+            self._hand_over(partial(self._continue, self._leftover))
+        else:
+            self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
         if latched:
             self.write(latched)
 
-    def write(self, batch: Batch) -> None:
+    def write(self, batch: LoggedMessages) -> None:
         """Add messages in the order of the file; blocks while the thread is far behind."""
         self._hand_over(partial(self._write_batch, batch))
 
@@ -165,17 +179,35 @@ class RecordingWriter:
         for name, data in attachments.items():
             media = MEDIA_TYPES[Path(name).suffix]
             self._mcap.add_attachment(now, 0, name, media, data)
+        self._mcap.add_metadata(MANIFEST, manifest)  # again: without a manifest nothing of the file can be read
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
-    def _write_batch(self, batch: Batch) -> None:
+    def _continue(self, leftover: Leftover) -> None:
+        """Prepare to append to the file of a killed recorder, with the numbers that its channels and schemas have."""
+        assert leftover.content is not None
+        content = leftover.content
+        for schema in content.schemas.values():
+            number = self._mcap.register_schema(schema.name, schema.encoding, schema.data)
+            self._schemas[schema.name.removeprefix("touchline.")] = number
+        for channel in content.channels.values():
+            number = self._mcap.register_channel(
+                channel.topic, channel.message_encoding, channel.schema_id, channel.metadata
+            )
+            self._channels[channel.topic] = number
+        if self._viz_channels is not None:
+            self._viz_channels.resume(self._channels, self._schemas, content.counts)
+            for log_ns, received in leftover.latched.messages():
+                self._viz_channels.catch_up(received, log_ns)
+
+    def _write_batch(self, batch: LoggedMessages) -> None:
         add, channels, viz_channels = self._mcap.add_message, self._channels, self._viz_channels
         for log_ns, received in batch:
             channel = channels.get(received.key) or self._open_channel(received)
             stamp = received.stamp
             if stamp is None:
-                add(channel, log_ns, received.payload, self._clock.unix_ns())
+                add(channel, log_ns, received.payload, received.arrived_ns or self._clock.unix_ns())
             else:
-                add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & _SEQUENCES)
+                add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & SEQUENCES)
             if viz_channels is not None and received.key in READS:
                 viz_channels.draw(received, log_ns)
 
@@ -201,7 +233,7 @@ class RecordingWriter:
         assert model is not None
         name = model.__name__
         if name not in self._schemas:
-            data = to_json(flat_schema(model))
+            data = to_json(flat_schema(model, self._roster.robots))
             self._schemas[name] = self._mcap.register_schema(f"touchline.{name}", "jsonschema", data)
         return self._schemas[name]
 
@@ -212,8 +244,11 @@ class RecordingWriter:
     def _write_tail(self, result: dict[str, str]) -> None:
         self._mcap.flush()  # type: ignore[no-untyped-call]
         self._mcap.add_metadata(RESULT, result)
-        self._mcap.finish()  # type: ignore[no-untyped-call]
+        if self._leftover is None:
+            self._mcap.finish()  # type: ignore[no-untyped-call]
         self._file.flush()
+        if self._leftover is not None:
+            add_summary(self.partial_path)  # the library's writer knows only what it has written itself
         os.fsync(self._file.fileno())
 
 

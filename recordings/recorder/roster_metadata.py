@@ -12,12 +12,17 @@ class RosterMetadata:
         self._lineup = Lineup.of(setup)
         self._teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
 
+    @property
+    def robots(self) -> list[str]:
+        """The names of all robots that take part or did, in the order of the roster."""
+        return list(self._lineup.robots)
+
     def update(self, roster: list[RosterEntry]) -> None:
-        """The roster has changed. Robots that have left are remembered: their messages are in the file."""
+        """Replace the roster. Robots that have left are kept, because the file has messages of them."""
         self._lineup = self._lineup.changed(roster)
 
     def metadata_of(self, chunks: dict[str, str]) -> dict[str, str]:
-        """What is known of the robot or the side that a key names: `side`, `team`, and `model`, the robot's type."""
+        """Metadata on the robot or the side in a key: `side`, `team`, and `model`, the robot's type."""
         robot = self._lineup.robots.get(chunks.get("robot", ""))
         side = robot.side.value if robot is not None else chunks.get("side")
         metadata = dict(chunks)

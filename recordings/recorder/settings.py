@@ -1,4 +1,4 @@
-"""What a recorder process is started with."""
+"""The settings of a recorder process."""
 
 from pathlib import Path
 from typing import Annotated
@@ -16,10 +16,12 @@ class RecorderSettings(ClientSettings):
     out: Path
     """The file, *.mcap."""
     name: str = "recorder"
-    """Name of this recorder; two of one match differ."""
+    """Name of this recorder; the recorders of a match have different names."""
+    resume: bool = False
+    """Continue the recording that a recorder of this match has left unfinished, and fill the gap from the host."""
     record: RecordOptions = RecordOptions()
     """What is recorded, and into which files."""
     patience: Annotated[float, Field(ge=0)] = 30.0
-    """s of wall time to wait for a host that is not there."""
+    """Longest wait for a host, in s of wall time."""
     config: MatchConfig | None = None
-    """The match as it was set up, to be kept in the file."""
+    """The match file, to be stored in the recording."""

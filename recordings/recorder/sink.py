@@ -1,51 +1,23 @@
 """Sinks for a recorder's messages: the protocol, and a sink that writes one file or several in sequence."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, Self
+from typing import Protocol
 
 from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.container.numbering import check_free, drop_oldest, numbered
+from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
+from recordings.recorder.leftover import Leftover
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
-from schemas.config.settings import RecordOptions
 from schemas.process.clock import Clock
 
 MakeHeader = Callable[[], tuple[Manifest, dict[str, bytes]]]
 """Makes the manifest and the attachments of a file that begins now."""
 MakeResult = Callable[[EndReason], Result]
 """Makes the result of a file that ends now."""
-
-
-@dataclass(frozen=True, slots=True)
-class FileLimits:
-    """When a file is finished and the next one begun, and how much is kept."""
-
-    size: int | None = None
-    """Bytes of a file."""
-    duration: float | None = None
-    """Simulated s in a file."""
-    keep: int | None = None
-    """Finished files that are kept, the newest; all where nothing is said."""
-    snapshot: float | None = None
-    """Simulated s that are held in memory and written when there is a goal, or on request; nothing else is."""
-
-    @classmethod
-    def of(cls, options: RecordOptions) -> Self:
-        """The limits that a recorder was started with, where sizes are in MB."""
-        size = round(options.split_size * 1e6) if options.split_size is not None else None
-        return cls(size, options.split_duration, options.keep, options.snapshot)
-
-    @property
-    def is_split(self) -> bool:
-        """Several files may come of it."""
-        return any(limit is not None for limit in (self.size, self.duration, self.snapshot))
-
-
-ONE_FILE = FileLimits()
 
 
 class Sink(Protocol):
@@ -95,8 +67,11 @@ class FileSink:
         limits: FileLimits = ONE_FILE,
         *,
         viz: bool = True,
+        leftover: Leftover | None = None,
     ) -> None:
         """Opens the first file; with `viz`, the channels for viewers are written, too.
+
+        With a `leftover`, the recording of a killed recorder is continued.
 
         Raises:
             TouchlineError: the file cannot be written.
@@ -105,14 +80,20 @@ class FileSink:
         self._base, self._clock, self._match, self._loss_counts, self._limits = path, clock, match, loss_counts, limits
         self._part = 1
         self._is_split = limits.is_split
-        if self._is_split:
-            check_free(path)
-        self.files: list[Path] = []
-        self._roster = RosterMetadata()
-        self._writer = self._open()
         self._latched = LatchedMessages()
         self._first_ns: int | None = None
         self._last_ns = -1
+        self.files: list[Path] = []
+        if leftover is not None:
+            self._part = leftover.part if leftover.partial_file is not None else leftover.part + 1
+            self._latched, self.files = leftover.latched, leftover.files
+            self._first_ns = leftover.first_ns if leftover.partial_file is not None else None
+            self._last_ns = leftover.last_ns
+        elif self._is_split:
+            check_free(path)
+        self._continued = leftover
+        self._roster = RosterMetadata()
+        self._writer = self._open(leftover)
         self._skipped_since_ns: int | None = None
 
     @property
@@ -125,7 +106,10 @@ class FileSink:
         self._make_header, self._make_result = make_header, make_result
         self._writer.set_roster(roster)
         self._roster = roster
-        self._begin_file([])
+        first_ns = self._first_ns
+        is_next = self._continued is not None and self._continued.partial_file is None
+        self._begin_file(self._latched.messages() if is_next else [])
+        self._first_ns = first_ns
 
     def write(self, batch: list[LoggedMessage]) -> None:
         """Write messages, and begin new files at the limits."""
@@ -178,9 +162,9 @@ class FileSink:
         """Close the last file as it is."""
         self._writer.abandon()
 
-    def _open(self) -> RecordingWriter:
+    def _open(self, leftover: Leftover | None = None) -> RecordingWriter:
         path = numbered(self._base, self._part) if self._is_split else self._base
-        return RecordingWriter(path, self._clock, self._match, self._roster, viz=self._viz)
+        return RecordingWriter(path, self._clock, self._match, self._roster, viz=self._viz, leftover=leftover)
 
     def _begin_file(self, latched: list[LoggedMessage]) -> None:
         manifest, attachments = self._make_header()

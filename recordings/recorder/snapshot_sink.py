@@ -5,11 +5,13 @@ from pathlib import Path
 
 from recordings.container.manifest import EndReason, Result
 from recordings.container.numbering import check_free, drop_oldest, numbered
+from recordings.recorder.file_limits import FileLimits
 from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
+from recordings.recorder.leftover import Leftover
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
-from recordings.recorder.sink import FileLimits, MakeHeader, MakeResult
+from recordings.recorder.sink import MakeHeader, MakeResult
 from schemas.game import EventKind
 from schemas.messages.game import GameEvent
 from schemas.process.clock import Clock
@@ -21,11 +23,20 @@ class SnapshotSink:
     """Keeps the last seconds in memory, and writes them to a new file at a goal, or on request."""
 
     def __init__(
-        self, path: Path, clock: Clock, match: str, loss_counts: LossCounts, limits: FileLimits, *, viz: bool = True
+        self,
+        path: Path,
+        clock: Clock,
+        match: str,
+        loss_counts: LossCounts,
+        limits: FileLimits,
+        *,
+        viz: bool = True,
+        leftover: Leftover | None = None,
     ) -> None:
-        """Locks the name of the first snapshot against other recorders.
+        """Locks the name of the next snapshot against other recorders.
 
-        With `viz`, the channels for viewers are written, too.
+        With `viz`, the channels for viewers are written, too. With a `leftover`, the snapshots of a killed recorder
+        are continued: goals that it has written are not written again.
 
         Raises:
             TouchlineError: another recorder has locked it, or the file cannot be written.
@@ -44,8 +55,15 @@ class SnapshotSink:
         self._latched_before = LatchedMessages()
         """The latched messages before the oldest one in memory."""
         self._number = 0
+        self._written_to_ns = -1
         self.files: list[Path] = []
-        check_free(path)
+        if leftover is None:
+            check_free(path)
+        else:
+            self._number, self.files, self._written_to_ns = leftover.part, leftover.files, leftover.last_ns
+            if leftover.partial_file is not None:
+                leftover.partial_file.discard()  # its messages come from the host again, and so does its goal
+                self._number -= 1
         self._roster = RosterMetadata()
         self._next = self._open()
 
@@ -65,7 +83,7 @@ class SnapshotSink:
         self._held.extend(batch)
         if batch:
             self._drop_older(batch[-1][0] - self._horizon_ns)
-        if any(_is_goal(logged) for logged in batch):
+        if any(_is_goal(logged) for logged in batch if logged[0] > self._written_to_ns):
             self.snapshot("goal")
 
     def skip(self, batch: list[LoggedMessage]) -> None:

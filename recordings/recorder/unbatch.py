@@ -1,4 +1,4 @@
-"""The messages in a host's batches, each as it came from its own sender, with its log time."""
+"""Extracts the messages of a host's batches, each as its sender published it, with its log time."""
 
 from functools import lru_cache
 
@@ -14,24 +14,24 @@ _RECORDED = tuple(topic for topic in TOPICS.values() if topic.recorded or topic 
 
 @lru_cache(1024)
 def _topic_of(key: str) -> Topic | None:
-    """The row that a key belongs to."""
+    """The topic of a key; None if it is not recorded."""
     return next((topic for topic in _RECORDED if topic.match(key) is not None), None)
 
 
 class Unbatcher:
-    """Takes batches apart, one after the other.
+    """Extracts the messages of batches, in order.
 
-    The log time of a message is the host's simulated time when it published the message or took it in; it never runs
+    The log time of a message is the host's simulated time when it published or received the message; it never runs
     backward.
     """
 
-    def __init__(self, *, sights: bool = False) -> None:
-        """Without `sights`, those are passed over."""
+    def __init__(self, *, sights: bool = False, log_ns: int = 0) -> None:
+        """Without `sights`, sights are skipped. No log time is before `log_ns`."""
         self._sights = sights
-        self._log_ns = 0
+        self._log_ns = log_ns
 
     def messages_of(self, batch: Batch) -> list[LoggedMessage]:
-        """The messages that a batch holds, in their order; keys of no recorded topic are passed over.
+        """The messages of a batch, in order; keys of no recorded topic are skipped.
 
         Raises:
             BadMessageError: an entry cannot be read.

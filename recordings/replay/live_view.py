@@ -10,6 +10,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 from recordings.container.json_schema import flat_schema
+from recordings.container.lineup import Lineup
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.player import Player
 from recordings.viz.drawing import SCHEMAS, Drawing
@@ -127,7 +128,7 @@ class LiveView:
 
         model = recorded.topic.message
         assert model is not None
-        data = json.dumps(flat_schema(model)).encode()
+        data = json.dumps(flat_schema(model, Lineup.of(self._setup).robots)).encode()
         return Schema(name=f"touchline.{model.__name__}", encoding="jsonschema", data=data)
 
     def _send(self, topic: str, payload: bytes, log_ns: int) -> None:

@@ -1,7 +1,7 @@
 """One tick of a recording: the world, the game state before and after, inputs, events."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import itemgetter
 from typing import Any
@@ -74,12 +74,13 @@ def match_ticks(setup: Setup, messages: Iterable[tuple[int, Any]]) -> Iterator[M
     """Join messages of the keys `KEYS`, given with their log times in recorded order, to ticks.
 
     A tick whose world is missing, or not newer than the one before, is left out; its other messages count for the next
-    tick.
+    tick, and messages after the last world for the last tick.
     """
     lineup, state, before = Lineup.of(setup), None, None
     events: list[GameEvent] = []
     placed: set[str] = set()
     newest: GameState | None = None
+    last: MatchTick | None = None
     for _, together in groupby(messages, key=itemgetter(0)):
         world: World | None = None
         applied: Applied | None = None
@@ -101,9 +102,13 @@ def match_ticks(setup: Setup, messages: Iterable[tuple[int, Any]]) -> Iterator[M
             continue
         if before is not None and (world.episode != before.episode or world.time - before.time > GAP):
             before = None
-        yield MatchTick(world, before, newest, state, lineup, tuple(events), frozenset(placed), _kick(world, applied))
+        if last is not None:
+            yield last
+        last = MatchTick(world, before, newest, state, lineup, tuple(events), frozenset(placed), _kick(world, applied))
         before, state, events = world, newest, []
         placed.clear()
+    if last is not None:
+        yield replace(last, state=newest, events=(*last.events, *events))
 
 
 def _kick(world: World, applied: Applied | None) -> Kick | None:

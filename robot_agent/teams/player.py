@@ -14,15 +14,15 @@ from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
 from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
+from robot_agent.teams.reports import radio_message, why_refused
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
 from schemas.config.rolling import Rolling
 from schemas.config.roster import goalkeeper_of
 from schemas.game import GameStage, TeamPhase
-from schemas.messages.coach import CoachMode, CoachOrder
+from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command, Drive
 from schemas.messages.game import GameView
-from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.messages.sight import Sight
 
 RADIO_EVERY = 5
@@ -58,6 +58,10 @@ class Player(ABC):
 
     plays_alone: ClassVar[bool] = False
     """Whether a robot without teammates plays in the field rather than keeps the goal."""
+    tests: ClassVar[frozenset[CoachTest]] = frozenset({CoachTest.STOP, *coach_tests.STEPS})
+    """The coach's tests that its robots carry out."""
+    tactics: ClassVar[frozenset[str]] = frozenset()
+    """The tactics that its robots know."""
 
     def __init__(self, briefing: Briefing) -> None:
         self.briefing = briefing
@@ -146,8 +150,9 @@ class Player(ABC):
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
             kick=action.kick,
-            radio=self._radio(belief, action) if sends or action.pass_to is not None else None,
+            radio=radio_message(belief, action) if sends or action.pass_to is not None else None,
             acknowledges_order=order.sequence if order else None,
+            refuses_order=why_refused(order, self.tests, self.tactics) if order else "",
         )
 
     def _act(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
@@ -276,17 +281,6 @@ class Player(ABC):
         blocked = circles(belief.others, 2.0 * self.setup.robot.reach + _AIR)
         return go_around(belief.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
 
-    def _radio(self, belief: WorldBelief, action: Action) -> Radio:
-        """The radio message to the teammates."""
-        me, ball = belief.me, belief.ball
-        return Radio(
-            self=Motion(x=me.x, y=me.y, heading=me.heading, vx=me.vx, vy=me.vy, omega=me.omega),
-            ball=BallBelief(x=ball.now.x, y=ball.now.y, vx=ball.now.vx, vy=ball.now.vy, age=ball.age) if ball else None,
-            role=action.role,
-            intention=action.intention,
-            pass_to=action.pass_to,
-        )
-
 
 def _away(game: GameView) -> list[str]:
     """Own robots that are off the field."""
@@ -296,5 +290,9 @@ def _away(game: GameView) -> list[str]:
 def _repeated(last: Command, tick: int) -> Command:
     """The last command as the answer to one more sight, without kick and radio message."""
     return Command(
-        answers_tick=tick, drive=last.drive, dribble=last.dribble, acknowledges_order=last.acknowledges_order
+        answers_tick=tick,
+        drive=last.drive,
+        dribble=last.dribble,
+        acknowledges_order=last.acknowledges_order,
+        refuses_order=last.refuses_order,
     )

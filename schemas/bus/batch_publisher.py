@@ -22,16 +22,16 @@ from schemas.topic import Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 from schemas.wire.message import BadMessageError
 
-_MOST = 1000
+_MAX_PAYLOADS_PER_TICK = 1000
 """Most payloads of other processes that are recorded in one tick, as protection from a flood. Those beyond it show as a
 gap in their sender's sequence numbers."""
-_LONGEST = 65_536
+_MAX_PAYLOAD_BYTES = 65_536
 """Most bytes of a payload of another process that is recorded: longer payloads are not valid messages."""
-_AT_ONCE = 256 * 1024
+_FULL_BATCH_BYTES = 256 * 1024
 """Bytes at which a batch is published at once."""
-_REPLY = 512 * 1024
+_MAX_REPLY_BYTES = 512 * 1024
 """Most bytes of the batches in a reply with more than one batch: small enough to fit on a busy link soon."""
-_REPLIES = 4
+_MAX_REPLIES_PER_TICK = 4
 """Most replies between two ticks, so that recorders with many requests do not delay the host."""
 
 
@@ -66,7 +66,7 @@ class BatchPublisher:
     def add_received(self, received: ReceivedMessage) -> None:
         """Add a message of another process."""
         payload = received.payload
-        if self._count >= _MOST or len(payload) > _LONGEST:
+        if self._count >= _MAX_PAYLOADS_PER_TICK or len(payload) > _MAX_PAYLOAD_BYTES:
             return
         self._count += 1
         numbers = {} if received.stamp is None else received.stamp._asdict()
@@ -111,7 +111,7 @@ class BatchPublisher:
 
     def process(self) -> None:
         """Reply to requests for earlier batches."""
-        for query in islice(iter(self._requests.receive, None), _REPLIES):
+        for query in islice(iter(self._requests.receive, None), _MAX_REPLIES_PER_TICK):
             try:
                 request: RecordBatchesRequest = query.message()
             except BadMessageError as error:
@@ -123,7 +123,7 @@ class BatchPublisher:
     def _enter(self, entry: Entry, size: int) -> None:
         self._entries.append(entry)
         self._size += size
-        if self._size > _AT_ONCE:
+        if self._size > _FULL_BATCH_BYTES:
             self.send()
 
     def _keep(self, kept: _Kept) -> None:
@@ -140,7 +140,7 @@ class BatchPublisher:
         size = 0
         for kept in islice(self._kept, start - self._next + len(self._kept), None):
             size += len(kept.payload)
-            if start + len(batches) >= end or (batches and size > _REPLY):
+            if start + len(batches) >= end or (batches and size > _MAX_REPLY_BYTES):
                 break
             batches.append(kept.payload)
         return write_reply(self._stream, oldest, batches)

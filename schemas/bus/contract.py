@@ -27,6 +27,10 @@ class BusError(TouchlineError):
     """The bus could not be opened, or is closed."""
 
 
+class EndpointInUseError(BusError):
+    """Another process listens on the endpoint."""
+
+
 class NoReplyError(Exception):
     """No reply arrived in time, or the server reported that there is none."""
 
@@ -78,6 +82,8 @@ class PresenceKind(StrEnum):
     """In addition to `host`: this host replays a recording."""
     AGENT = "agent"
     """Its name is that of its robot."""
+    SESSION = "session"
+    """An agent that claims a robot; its name is no other agent's."""
     RECORDER = "recorder"
     COACH = "coach"
     """A page or a terminal that shows the match."""

@@ -8,7 +8,10 @@ import sys
 from schemas.bus.contract import BusError
 
 DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
-"""The default endpoint of hosts and clients: on loopback, reachable only from this machine."""
+"""The first choice of a host without `--listen`: on loopback, reachable only from this machine."""
+FREE_ENDPOINT = "tcp/127.0.0.1:0"
+"""Its second choice, where another process listens on the first: a free port."""
+_CONNECTIONLESS = ("udp", "quic")
 
 
 def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
@@ -42,10 +45,17 @@ def local_endpoint(listen: str) -> str:
 
 
 def with_free_port(endpoint: str) -> str:
-    """The endpoint, with a reserved free port in place of `:0`."""
+    """The endpoint, with a reserved free port in place of `:0`.
+
+    Raises:
+        BusError: the protocol uses UDP, whose ports cannot be reserved for a listener.
+        OSError: the address is none of this machine.
+    """
     protocol, host, port = parse_endpoint(endpoint)
     if port:
         return endpoint
+    if protocol in _CONNECTIONLESS:
+        raise BusError(f"--listen {endpoint}: {protocol} has no free port to take; name a port, or use tcp")
     free = reserve_port(host)
     return f"{protocol}/[{host}]:{free}" if ":" in host else f"{protocol}/{host}:{free}"
 

@@ -11,11 +11,10 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.recovery_window import GIVE_UP_S
 
 RETRY_S = 0.2
 """Wall time between an incomplete reply and the next request."""
-GIVE_UP_S = 20.0
-"""Wall time after which missing messages are given up: longer than a link takes to recover."""
 LOOKBACK = 100
 """Messages of a key that are requested before the first that arrived: as many as are lost while a link is busy."""
 
@@ -119,15 +118,15 @@ class GapRecovery:
         if stream is None or stream.writer != gap.writer:
             return
         stream.requested, stream.retry_at = False, now + RETRY_S
-        expected, whole = stream.expected, False
+        expected, reply_complete = stream.expected, False
         for received in found:
             if received.stamp is not None:
                 number = received.stamp.sequence
-                whole = whole or number == gap.last
+                reply_complete = reply_complete or number == gap.last
                 if self._is_wanted(received.stamp, stream):
                     stream.held.setdefault(number, received)
         self._advance(gap.key, stream)
-        if whole and stream.expected < gap.last:
+        if reply_complete and stream.expected < gap.last:
             self._skip(gap.key, stream)  # no longer in the cache, or older than wanted
         if stream.expected > expected:
             stream.give_up_at = now + GIVE_UP_S

@@ -10,7 +10,7 @@ LINK_GRACE_S = LEASE_S + 0.5
 """Wall time for which watchers tolerate a broken link."""
 RECONNECT_S = 10.0
 """Wall time for which agents and recorders wait for an unreachable host before they give up the match."""
-_LOOK_S = 0.02
+_POLL_S = 0.02
 """Wall time between two checks while waiting for a host."""
 
 
@@ -69,7 +69,7 @@ class HostWatch:
         deadline = clock.now() + patience
         self.update()
         while not self.seen and clock.now() < deadline:
-            clock.sleep_until(clock.now() + _LOOK_S)
+            clock.sleep_until(clock.now() + _POLL_S)
             self.update()
         return self.seen
 

@@ -22,14 +22,14 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
-from schemas.bus.mailbox import EveryMailbox, Mailbox, NewestMailbox
+from schemas.bus.mailbox import FifoMailbox, Mailbox, NewestMailbox
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.wire.message import WireMessage
 
 
 @dataclass(eq=False)
-class Medium:
+class SharedState:
     """The shared state of the buses of one process, in place of a network."""
 
     lock: threading.Lock = field(default_factory=threading.Lock)
@@ -71,17 +71,17 @@ class _Publisher(Publisher):
         stamp = Stamp(self._sequence, bus.clock.unix_ns(), bus.clock.sim_ns)
         self._sequence += 1
         received = ReceivedMessage(self.topic, self.key, payload, stamp, stamp.sent_ns)
-        with bus.medium.lock:
+        with bus.shared_state.lock:
             if self._kept is not None:
                 self._kept.append(received)
-            for subscription in bus.medium.subscriptions.get(bus.prefix + self.topic.key, ()):
+            for subscription in bus.shared_state.subscriptions.get(bus.prefix + self.topic.key, ()):
                 subscription.deliver(self.key, received)
         return stamp
 
     def has_subscribers(self) -> bool:
         if self.topic.delivery is Delivery.RECOVERED:
             return True
-        readers = self._bus.medium.subscriptions.get(self._bus.prefix + self.topic.key, ())
+        readers = self._bus.shared_state.subscriptions.get(self._bus.prefix + self.topic.key, ())
         return any(reader.wants(self.key) for reader in readers)
 
 
@@ -91,7 +91,7 @@ class _Subscription(Subscription):
         self._topic = topic
         self._bus = bus
         one = newest or topic.delivery is Delivery.NEWEST
-        self._mailbox: Mailbox[ReceivedMessage] = NewestMailbox() if one else EveryMailbox()
+        self._mailbox: Mailbox[ReceivedMessage] = NewestMailbox() if one else FifoMailbox()
 
     def wants(self, key: str) -> bool:
         chunks = self._topic.match(key) or {}
@@ -105,8 +105,8 @@ class _Subscription(Subscription):
         return self._mailbox.get(timeout)
 
     def close(self) -> None:
-        with self._bus.medium.lock:
-            readers = self._bus.medium.subscriptions.get(self._bus.prefix + self._topic.key, [])
+        with self._bus.shared_state.lock:
+            readers = self._bus.shared_state.subscriptions.get(self._bus.prefix + self._topic.key, [])
             if self in readers:
                 readers.remove(self)
         self._mailbox.close()
@@ -129,7 +129,7 @@ class _Query(Query):
 
 class _Server(Server):
     def __init__(self) -> None:
-        self.mailbox: EveryMailbox[Query] = EveryMailbox()
+        self.mailbox: FifoMailbox[Query] = FifoMailbox()
 
     def receive(self, timeout: float | None = 0.0) -> Query | None:
         return self.mailbox.get(timeout)
@@ -138,7 +138,7 @@ class _Server(Server):
 class _PendingReply(PendingReply):
     def __init__(self, topic: Topic) -> None:
         super().__init__(topic)
-        self.mailbox: EveryMailbox[bytes | str] = EveryMailbox()
+        self.mailbox: FifoMailbox[bytes | str] = FifoMailbox()
 
     def payload(self, timeout: float) -> bytes:
         reply = self.mailbox.get(timeout)
@@ -152,7 +152,7 @@ class _PendingReply(PendingReply):
 class _Watch(PresenceWatch):
     def __init__(self, match: str) -> None:
         self.match = match
-        self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+        self.mailbox: FifoMailbox[Presence] = FifoMailbox()
         self.is_empty = self.mailbox.is_empty
 
     def receive(self, timeout: float | None = 0.0) -> Presence | None:
@@ -160,23 +160,23 @@ class _Watch(PresenceWatch):
 
 
 class InProcessBus(Bus):
-    """A bus on a `Medium`; payloads are encoded and validated as over a network."""
+    """A bus on a `SharedState`; payloads are encoded and validated as over a network."""
 
-    def __init__(self, match: str, clock: Clock, medium: Medium) -> None:
+    def __init__(self, match: str, clock: Clock, shared_state: SharedState) -> None:
         super().__init__(match, clock)
-        self.medium = medium
+        self.shared_state = shared_state
         self.prefix = f"{match}/"
         self._tokens: list[tuple[str, str]] = []
         self._served: list[str] = []
         self._subscriptions: list[_Subscription] = []
-        self._mailboxes: list[EveryMailbox[Any]] = []
+        self._mailboxes: list[FifoMailbox[Any]] = []
         self._kept: list[tuple[str, str]] = []
 
     def keep(self, topic: Topic, key: str) -> deque[ReceivedMessage]:
         """The cache of a publisher of this key, for as long as its bus is open."""
         kept: deque[ReceivedMessage] = deque(maxlen=topic.cache_size)
-        with self.medium.lock:
-            self.medium.caches.setdefault(self.prefix + topic.key, {})[key] = kept
+        with self.shared_state.lock:
+            self.shared_state.caches.setdefault(self.prefix + topic.key, {})[key] = kept
         self._kept.append((self.prefix + topic.key, key))
         return kept
 
@@ -195,11 +195,11 @@ class InProcessBus(Bus):
         check_publishable(topic)
         topic.fill(**chunks)
         subscription = _Subscription(topic, chunks, self, newest)
-        with self.medium.lock:
-            for kept in self.medium.caches.get(self.prefix + topic.key, {}).values() if history else ():
+        with self.shared_state.lock:
+            for kept in self.shared_state.caches.get(self.prefix + topic.key, {}).values() if history else ():
                 for received in kept:
                     subscription.deliver(received.key, received)
-            self.medium.subscriptions.setdefault(self.prefix + topic.key, []).append(subscription)
+            self.shared_state.subscriptions.setdefault(self.prefix + topic.key, []).append(subscription)
         self._subscriptions.append(subscription)
         return subscription
 
@@ -207,8 +207,8 @@ class InProcessBus(Bus):
         self.check_open()
         server = _Server()
         key = self.prefix + full_key(topic, chunks)
-        with self.medium.lock:
-            self.medium.servers[key] = server
+        with self.shared_state.lock:
+            self.shared_state.servers[key] = server
         self._served.append(key)
         self._mailboxes.append(server.mailbox)
         return server
@@ -220,7 +220,7 @@ class InProcessBus(Bus):
         del timeout, droppable  # a request waits with its server or is refused at once
         answer = _PendingReply(topic)
         key = full_key(topic, chunks)
-        server = self.medium.servers.get(self.prefix + key)
+        server = self.shared_state.servers.get(self.prefix + key)
         if server is None:
             answer.mailbox.put("", f"no process answers {key}")
         else:
@@ -231,21 +231,21 @@ class InProcessBus(Bus):
         self.check_open()
         token = (self.prefix + kind, name)
         self._tokens.append(token)
-        self.medium.count_token(self.match, token, +1)
+        self.shared_state.count_token(self.match, token, +1)
 
     def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         self.check_open()
         token = (self.prefix + kind, name)
         if token in self._tokens:
             self._tokens.remove(token)
-            self.medium.count_token(self.match, token, -1)
+            self.shared_state.count_token(self.match, token, -1)
 
     def watch_alive(self) -> PresenceWatch:
         self.check_open()
         watch = _Watch(self.match)
-        with self.medium.lock:
-            self.medium.watches.append(watch)
-            for (kind, name), count in self.medium.alive.items():
+        with self.shared_state.lock:
+            self.shared_state.watches.append(watch)
+            for (kind, name), count in self.shared_state.alive.items():
                 if count and kind.startswith(self.prefix):
                     watch.mailbox.put("", Presence(PresenceKind(kind.removeprefix(self.prefix)), name, True))
         self._mailboxes.append(watch.mailbox)
@@ -258,14 +258,14 @@ class InProcessBus(Bus):
         if self._closed:
             return
         for token in self._tokens:
-            self.medium.count_token(self.match, token, -1)
+            self.shared_state.count_token(self.match, token, -1)
         self._closed = True
         for subscription in self._subscriptions:
             subscription.close()
         for key in self._served:
-            self.medium.servers.pop(key, None)
+            self.shared_state.servers.pop(key, None)
         for mailbox in self._mailboxes:
             mailbox.close()
-        with self.medium.lock:
+        with self.shared_state.lock:
             for topic, key in self._kept:
-                self.medium.caches.get(topic, {}).pop(key, None)
+                self.shared_state.caches.get(topic, {}).pop(key, None)

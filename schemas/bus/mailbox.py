@@ -30,7 +30,7 @@ class _End:
 _END = _End()
 
 
-class EveryMailbox(Generic[T]):
+class FifoMailbox(Generic[T]):
     """Keeps every item, in order."""
 
     def __init__(self) -> None:

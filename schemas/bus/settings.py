@@ -7,7 +7,7 @@ from pydantic import AfterValidator
 
 from schemas.bus.contract import BusError
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, parse_endpoint
-from schemas.config.settings import DEFAULT_MATCH, CommandLine, Settings
+from schemas.config.settings import CommandLine, Settings
 
 
 def _endpoint(endpoint: str) -> str:
@@ -38,16 +38,16 @@ MatchName = Annotated[str, AfterValidator(match_name)]
 class ClientSettings(Settings):
     """Settings of a process that joins a match."""
 
-    connect: Annotated[Endpoint, CommandLine(environment="TOUCHLINE_CONNECT")] = DEFAULT_ENDPOINT
-    """Endpoint of the host."""
-    match: Annotated[MatchName, CommandLine(environment="TOUCHLINE_MATCH")] = DEFAULT_MATCH
-    """Name of the match."""
+    connect: Annotated[Endpoint | None, CommandLine(environment="TOUCHLINE_CONNECT")] = None
+    """Endpoint of the host; by default that of the running match on this machine."""
+    match: Annotated[MatchName | None, CommandLine(environment="TOUCHLINE_MATCH")] = None
+    """Name of the match; by default the match that the host plays."""
 
 
 class ListenSettings(Settings):
     """Settings of a process that listens for the others of its match."""
 
-    listen: Endpoint = DEFAULT_ENDPOINT
-    """Endpoint of the host; port 0 picks a free one."""
+    listen: Endpoint | None = None
+    """Endpoint of the host; port 0 takes a free one. By default tcp/127.0.0.1:7447, or a free port if it is in use."""
     insecure: bool = False
     """Accept connections of other machines, without authentication."""

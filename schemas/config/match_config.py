@@ -10,13 +10,24 @@ from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
+from schemas.config.match_parts import (
+    NoiseConfig,
+    OfficiatingConfig,
+    Patience,
+    RadioOverride,
+    RecordingConfig,
+    TeamConfig,
+    TeamConfigs,
+    default_cyan,
+    default_magenta,
+)
 from schemas.config.noise import PRESETS
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import SHIPPED, Profile, load_profile, profile_of, profile_tables
 from schemas.config.roster import MAX_ROBOTS, RESERVED
 from schemas.config.scene import REMEDIES as SCENE_REMEDIES
 from schemas.config.scene import Scene, load_scene
-from schemas.config.settings import DEFAULT_MATCH, RecordOptions
+from schemas.config.settings import DEFAULT_MATCH
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import OfficiatingMode
@@ -52,106 +63,6 @@ REMEDIES = {
     "noise.preset": f"one of {', '.join(PRESETS)}",
 }
 """Key → remedy for an invalid value; keys without one get the validator's message."""
-
-
-class TeamConfig(Part):
-    """One team of the match file: its robots and their program."""
-
-    name: str = ""
-    """Name of the team, for display; where it is empty, that of the side."""
-    brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
-    """`module:Class` of a brain in Python; each robot's process constructs one instance."""
-    command: list[str] | None = None
-    """Command line of a program in any language, in place of a brain; environment variables name its robot."""
-    size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
-    """Number of robots, where `robots` does not name them."""
-    robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
-    """Names of the robots, the goalkeeper first; where the list is empty, side and number, as `cyan1`."""
-    types: dict[Name, Name] = Field(default_factory=dict)
-    """Robot → its type, of the profile or of `[types.NAME]`; other robots are of the standard type."""
-
-    @model_validator(mode="after")
-    def _check_brain_or_command(self) -> "TeamConfig":
-        if self.brain is not None and self.command is not None:
-            raise ValueError("brain and command are both given; a team has one or the other")
-        return self
-
-
-def _default_cyan() -> TeamConfig:
-    return TeamConfig(name="Simple", brain="robot_agent.teams.simple:Simple")
-
-
-def _default_magenta() -> TeamConfig:
-    return TeamConfig(name="NuBot", brain="robot_agent.teams.nubot:NuBot")
-
-
-class TeamConfigs(Part):
-    """Both teams."""
-
-    cyan: TeamConfig = Field(default_factory=_default_cyan)
-    """The team in cyan."""
-    magenta: TeamConfig = Field(default_factory=_default_magenta)
-    """The team in magenta."""
-
-
-class NoiseConfig(Part):
-    """Quality of the robots' perception."""
-
-    preset: str = "profile"
-    """Name of a preset of perception noise; `profile` for the numbers of the profile."""
-
-    @field_validator("preset")
-    @classmethod
-    def _check_preset(cls, preset: str) -> str:
-        if preset not in PRESETS:
-            raise ValueError(did_you_mean(preset, PRESETS))
-        return preset
-
-
-class RadioOverride(Part):
-    """Radio numbers that replace those of the profile."""
-
-    delay: Annotated[float, Field(ge=0, le=5)] | None = None
-    """Least simulated time from sending to delivery, in s; None for the profile's."""
-    jitter: Annotated[float, Field(ge=0, le=5)] | None = None
-    """Longest further time until delivery beyond `delay`, in s; None for the profile's."""
-    loss: Annotated[float, Field(ge=0, le=1)] | None = None
-    """Share of deliveries that are lost, from 0 to 1; None for the profile's."""
-    budget: Annotated[float, Field(ge=0)] | None = None
-    """Most bits that a team may send, in bit/s averaged over one second; None for the profile's."""
-
-
-class OfficiatingConfig(Part):
-    """How the match is refereed."""
-
-    kick_off: Side = Side.CYAN
-    """The side that kicks off the first half."""
-    automatic: bool = True
-    """The match starts by itself when all robots are present; otherwise it waits for `touchline coach start`."""
-    mode: OfficiatingMode = OfficiatingMode.AUTOMATIC
-    """Who decides: the referee, people, or the referee with people who may overrule its proposals."""
-    proposal: Annotated[float, Field(ge=0, le=60)] = 3.0
-    """Mixed officiating: simulated time after which a proposal becomes a decision, in s."""
-    winner: bool | None = None
-    """A level match continues with extra time and penalties; None for the rule book's setting."""
-
-
-class RecordingConfig(RecordOptions):
-    """What is recorded, and whether the match waits for a recorder."""
-
-    wait: bool = False
-    """The first tick waits for a recorder, so that the recording is complete."""
-
-
-class Patience(Part):
-    """How long the host waits, in s of wall time."""
-
-    attendance: Annotated[float, Field(ge=0, le=600)] = 30.0
-    """Longest wait for all robots before the first tick, in s."""
-    answer: Annotated[float, Field(gt=0, le=60)] = 1.0
-    """Lockstep: longest wait for a robot's answer to one tick, in s."""
-    recorder: Annotated[float, Field(gt=0, le=600)] = 5.0
-    """Lockstep: longest wait for a recorder that makes no progress or has lost its connection, in s."""
 
 
 class MatchConfig(Part):
@@ -306,7 +217,7 @@ def _set_at_path(content: dict[str, Any], path: list[str], value: Any) -> None:
 
 
 def _validate(content: dict[str, Any], where: str) -> MatchConfig:
-    for side, default in (("cyan", _default_cyan()), ("magenta", _default_magenta())):
+    for side, default in (("cyan", default_cyan()), ("magenta", default_magenta())):
         teams = content.get("teams")
         team = teams.get(side) if isinstance(teams, dict) else None
         if isinstance(team, dict) and not {"brain", "command"} & set(team):

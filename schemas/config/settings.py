@@ -46,7 +46,7 @@ class RecordOptions(Settings):
     keep: Annotated[int | None, Field(ge=1)] = None
     """Number of files that are kept, the newest; by default all."""
     snapshot: Annotated[float | None, Field(gt=0)] = None
-    """Write only the last so many simulated s before each goal and on request, each time into a file of its own."""
+    """Write only this many simulated s before each goal and on request, each time into a file of its own."""
     viz: bool = True
     """Add what Foxglove, Lichtblick and Rerun draw: /tf and /viz/*."""
 

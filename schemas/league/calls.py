@@ -4,16 +4,17 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from schemas.game import GameStage, OffField, Phase
-from schemas.league.signals import BY_NAME, HALF_OF, RESTART_OF, START, STOP, Signal
+from schemas.league.signals import BY_NAME, END_GAME, HALF_OF, HALF_TIME, RESTART_OF, START, STOP, Signal
 from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.side import Side
 
 _PHASES: Mapping[Phase, Signal] = {
     Phase.PARKING: BY_NAME["PARK"],
-    Phase.HALF_TIME: BY_NAME["HALF_TIME"],
-    Phase.FULL_TIME: BY_NAME["END_GAME"],
+    Phase.FULL_TIME: BY_NAME["GAMEOVER"],
 } | {phase: signal for phase, signal in RESTART_OF.items() if phase is not None}
 """Phase → the signal when it begins; STOP comes before goals, these signals after them."""
+_AFTER_HALF = (Phase.PARKING, Phase.HALF_TIME, Phase.FULL_TIME)
+"""Phases after the end of a half."""
 _LEAVES: Mapping[OffField, Signal] = {
     OffField.REPAIR: BY_NAME["REPAIR"],
     OffField.SUBSTITUTION: BY_NAME["SUBSTITUTION"],
@@ -39,18 +40,30 @@ def calls(old: GameState | None, new: GameState, sides: Mapping[str, Side]) -> l
     before = old if old is not None else GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
     found = list(_half(old, new))
     changed = (new.phase, new.side) != (before.phase, before.side)
-    if changed and new.phase is Phase.STOPPED:
+    ends_half = new.phase in _AFTER_HALF and before.phase not in _AFTER_HALF
+    if (changed and new.phase is Phase.STOPPED) or (ends_half and before.running):
         found.append(Call(STOP))
     for side in Side:
         goals = new.score.of(side) - before.score.of(side)
         found += [Call(BY_NAME["GOAL" if goals > 0 else "SUBGOAL"], side)] * abs(goals)
     found += _people(before, new, sides)
+    if ends_half:
+        found.append(Call(_end_of_half(new)))
     if changed and new.phase in _PHASES:
         signal = _PHASES[new.phase]
         found.append(Call(signal, new.side if signal.sided else None))
     if new.running and not before.running:
         found.append(Call(START))
     return found
+
+
+def _end_of_half(new: GameState) -> Signal:
+    """The end of the first half of regular or extra time is half time, every other one the end of the game.
+
+    The box ends the second half so even if extra time follows. The robots park after it.
+    """
+    first = new.half % 2 == 1 and new.stage is not GameStage.SHOOT_OUT and new.phase is not Phase.FULL_TIME
+    return HALF_TIME if first else END_GAME
 
 
 def _half(old: GameState | None, new: GameState) -> Iterator[Call]:

@@ -8,11 +8,15 @@ from pydantic import Field
 
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import Placement, RosterEntry
+from schemas.game import EventKind
 from schemas.messages.command import Drive, Kick
+from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.wire.message import BadMessageError, Message, Name
 from schemas.wire.struct import Struct, encode
 
+_UNCHAINED = ("chain", "changes")
+"""Fields that the chain does not cover: itself, and sentences that depend on the name of an operator."""
 _decode_fields = msgspec.json.Decoder(dict[str, Any]).decode
 
 
@@ -27,6 +31,17 @@ class AppliedInput(Struct, frozen=True):
     """The kick of this tick; None without one."""
     answers_tick: int | None = None
     """Tick of the sight that this input answers; None while the robot is silent."""
+
+
+class OperatorChange(Struct, frozen=True):
+    """A change that an operator made before a tick."""
+
+    kind: EventKind
+    """`scene` or `parameters`."""
+    rule: str
+    """Name of the operation."""
+    text: str
+    """The change as one sentence; the text of its event."""
 
 
 class Applied(Message):
@@ -57,17 +72,28 @@ class Applied(Message):
     episode: int = 1
     """The episode that this tick belongs to: the start of the match is 1, and each scene that is loaded and each reset
     begin another."""
+    actions: list[RefereeAction] = Field(default_factory=list)
+    """Actions of people, coaches and the referee box that the referee judged in this tick, with those it refused."""
+    silent: list[Name] = Field(default_factory=list)
+    """Robots that the referee knew to be without a responding agent in this tick."""
+    referee: str = ""
+    """At a checkpoint, the complete state of the referee before it judged this tick, as JSON; otherwise empty."""
+    refbox: bool = False
+    """A league's referee box was connected in this tick."""
+    changes: list[OperatorChange] = Field(default_factory=list)
+    """The operators' changes before this tick, in their order; the chain does not cover these sentences."""
     chain: str
-    """blake2b over the state of this tick and all other fields of this message, keyed with the chain before it; hex."""
+    """blake2b over the state of this tick and all other fields of this message but `changes`, keyed with the chain
+    before it; hex."""
 
 
 def chained_part(applied: Mapping[str, Any]) -> bytes:
-    """The bytes of an `Applied` that the hash chain covers: all fields but the chain, in their order.
+    """The bytes of an `Applied` that the hash chain covers: all fields but `chain` and `changes`, in their order.
 
     They are JSON without spaces, with the shortest form of each float, without the closing brace. The same fields give
     the same bytes, however the host that published them formats its JSON.
     """
-    return encode({name: value for name, value in applied.items() if name != "chain"})[:-1]
+    return encode({name: value for name, value in applied.items() if name not in _UNCHAINED})[:-1]
 
 
 def chained_part_of(payload: bytes) -> bytes:

@@ -5,7 +5,9 @@ from enum import StrEnum
 from typing import Annotated
 
 from msgspec import Meta
+from pydantic import Field
 
+from schemas.config.sections import Pitch
 from schemas.game import Point
 from schemas.messages.command import KickMode, KickSpeed
 from schemas.wire.faults import Fault, FaultError, FaultKind
@@ -124,6 +126,19 @@ class CoachOrder(StructMessage, frozen=True, kw_only=True):
             return f"sequence {self.sequence} leaves no room for later orders; number them from {before + 1} on"
         return ""
 
+    def refusal_on(self, pitch: Pitch) -> str:
+        """Why this order cannot be carried out on that pitch; empty where it can."""
+        x, y = pitch.goal_line + pitch.border, pitch.touch_line + pitch.border
+        circled = self.radius or 0.0 if self.test is CoachTest.CIRCLE else 0.0
+        for name, point, around in (("point_a", self.point_a, circled), ("point_b", self.point_b, 0.0)):
+            if point is not None and (abs(point.x) + around > x or abs(point.y) + around > y):
+                what = f"a circle of {around:g} m around {name}" if around else name
+                return (
+                    f"{what} at ({point.x:g}, {point.y:g}) is outside the field and its border; "
+                    f"|x| is at most {x:g} m, |y| at most {y:g} m"
+                )
+        return ""
+
     def __post_init__(self) -> None:
         check(self)
         broken = self._broken_rule()
@@ -160,3 +175,5 @@ class ActiveOrder(Message):
     """The order in force."""
     acknowledged: dict[Name, bool]
     """Robot → whether its newest command acknowledges this order; all robots of the side that have an agent."""
+    refused: dict[Name, ShortText] = Field(default_factory=dict)
+    """Robot that has acknowledged this order and does not carry it out → the reason."""

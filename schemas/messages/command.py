@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar
 from msgspec import Meta
 
 from schemas.messages.radio import Radio
+from schemas.wire.message import ShortText
 from schemas.wire.struct import Checked, Struct, StructMessage
 
 MAX_DRIVE = 20.0
@@ -66,3 +67,5 @@ class Command(StructMessage, frozen=True, kw_only=True, metaclass=Checked):
     """Message to all teammates; None without one."""
     acknowledges_order: int | None = None
     """Sequence number of the newest coach order that this robot has received; None before the first."""
+    refuses_order: ShortText = ""
+    """Why this robot does not carry out that order, such as `unknown test: machine`; empty while it does."""

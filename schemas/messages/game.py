@@ -8,7 +8,7 @@ from pydantic import Field
 
 from schemas.game import ActionName, Card, EventKind, GameStage, OffField, Phase, Point, Score, TeamPhase
 from schemas.side import Side
-from schemas.wire.message import Message, Name, Source
+from schemas.wire.message import Message, Name, Part, Source
 from schemas.wire.struct import Struct
 from schemas.wire.units import Seconds
 
@@ -24,6 +24,22 @@ class DisciplinaryRecord(Struct, frozen=True, kw_only=True):
     """Why the robot does not take part; None while it does."""
     left: Seconds | None = None
     """Time until the robot may return, at the next stoppage, in s; None on the field, and where it may not return."""
+
+
+class RobotQuestion(Part):
+    """An action for a robot of a side that names no robot: the side's coach names it with the action `name_robot`."""
+
+    action: ActionName
+    """The action that waits for its robot."""
+    side: Side
+    """The side whose robot it concerns, and whose coach may answer."""
+    left: float
+    """Time to answer in s; then `default` is taken."""
+    robots: list[Name]
+    """The robots that the action was allowed for when the question was opened."""
+    default: Name
+    """The robot that is taken without an answer: the side's last offender, otherwise its highest number that is no
+    goalkeeper."""
 
 
 class GameState(Message):
@@ -64,6 +80,11 @@ class GameState(Message):
     """Mixed officiating: what the referee has proposed and not yet carried out; None without a proposal."""
     episode: int = 1
     """Counts the starts of the world: the match's own, each scene that is loaded, each reset."""
+    refbox: bool = False
+    """A league's referee box officiates: it alone ends halves, breaks and the match, not the clock. Remains true until
+    the box has been gone for 10 s of simulated time."""
+    questions: list[RobotQuestion] = Field(default_factory=list)
+    """Actions that wait for a side to name its robot; of two questions to one side, the first is answered first."""
 
 
 class GameView(Struct, frozen=True, kw_only=True):
@@ -138,7 +159,8 @@ class RefereeAction(Message):
     side: Side | None = None
     """The side that it concerns; None for actions without a side."""
     robot: Name | None = None
-    """The scorer of a goal; the robot that a card, a repair, a substitution or an entry concerns."""
+    """The scorer of a goal; the robot that a card, a repair, a substitution or an entry concerns. Such an action with a
+    side in place of a robot asks the side's coach which robot it concerns."""
     place: Point | None = None
     """Place of the action in the field frame, from which a restart takes its spot; by default where the ball lies."""
     source: Source = "coach"

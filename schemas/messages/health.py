@@ -6,6 +6,9 @@ from pydantic import Field
 
 from schemas.wire.message import Message, Name, Part
 
+MAX_FAULT = 300
+"""Most characters of a fault."""
+
 
 class RobotHealth(Part):
     """State of one robot's agent; counts are since the match began."""
@@ -31,6 +34,8 @@ class RobotHealth(Part):
     """Parts of commands that were refused."""
     latency_ms: float | None = None
     """Median wall time from sight to command over the last second, in ms; None without an answer."""
+    fault: Annotated[str, Field(max_length=MAX_FAULT)] = ""
+    """Why its messages are not answers to the newest sight; empty if it answers, or if nothing comes from it."""
 
 
 class Health(Message):

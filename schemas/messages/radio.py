@@ -5,12 +5,15 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
+from schemas.game import Point
 from schemas.wire.message import Message, Name, ShortText
 from schemas.wire.struct import Checked, Struct
 from schemas.wire.units import Age, Metres, MetresPerSecond, Radians, RadiansPerSecond
 
 MAX_EXTRA = 16
 """Entries in the free part of a radio message."""
+MAX_OBSTACLES = 32
+"""Obstacles in a radio message."""
 
 
 class BallBelief(Struct, frozen=True, kw_only=True, metaclass=Checked):
@@ -65,10 +68,14 @@ class RadioContent(Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class Radio(RadioContent, frozen=True, kw_only=True, metaclass=Checked):
-    """A message to all teammates; the host delivers it with delay and loss, within the team's bit budget.
+    """A message to all teammates and the coach; the host delivers it with delay and loss, within the team's bit budget.
 
     Fields that are null or empty are omitted when it is sent.
     """
+
+    obstacles: Annotated[list[Point], Meta(max_length=MAX_OBSTACLES)] = msgspec.field(default_factory=list)
+    """Where the sender believes opponents and other bodies to be that are no teammates, in the team frame. Only the
+    coach receives them; they count toward the budget."""
 
 
 class Belief(Message):

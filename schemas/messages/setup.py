@@ -7,6 +7,7 @@ from pydantic import Field
 
 from schemas.config.foul_book import Areas, Fouls, Handling, Scoring
 from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
 from schemas.config.rule_book import Periods, Restarts, RuleBook
@@ -73,6 +74,10 @@ class Setup(Message):
     """Which fouls are called; None in recordings that are older than this field."""
     officiating: OfficiatingMode | None = None
     """Who decides: the referee, people, or both; None in recordings that are older than this field."""
+    duration: float | None = None
+    """Playing time of all halves in s, where the match file gives one; None for the rule book's."""
+    referee: OfficiatingConfig | None = None
+    """How the match is refereed; None in recordings that are older than this field."""
     areas: Areas | None = None
     """Which robots may be in goal areas and penalty areas, and for how long; None in recordings that are older than
     this field."""
@@ -84,6 +89,8 @@ class Setup(Message):
     """Fingerprint of what computes the world: version of the engine, results of the maths library."""
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
     """Live parameters that were changed since the match began → value; the numbers above include them."""
+    claims: bool = False
+    """Whether agents claim their robot on `host/claim`; False for hosts that are older than claims."""
     orders: dict[Side, int] = Field(default_factory=dict)
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
 
@@ -115,6 +122,8 @@ class Setup(Message):
             scoring=book.scoring,
             fouls=book.fouls,
             officiating=config.referee.mode,
+            duration=config.duration,
+            referee=config.referee,
             areas=book.areas,
             teams={side: _team(config, side) for side in Side},
             models=types_of(profile.with_types(config.types, f'match "{config.name}"')),

@@ -48,6 +48,11 @@ class ReceivedRadio(RadioContent, frozen=True, kw_only=True):
     age: Seconds
     """Simulated time since it was sent, in s."""
 
+    @classmethod
+    def of(cls, content: RadioContent, age: float = 0.0) -> "ReceivedRadio":
+        """The parts of a radio message that teammates receive, sent `age` s ago."""
+        return cls(age=age, **{name: getattr(content, name) for name in RadioContent.__struct_fields__})
+
 
 class Outcome(Struct, frozen=True, kw_only=True):
     """What became of the robot's last command."""

@@ -1,11 +1,10 @@
 // Robots and ball. Sides differ in shape and brightness, not in hue alone: cyan is round, magenta square.
 
-import { NEUTRAL, SIDES, write } from "./shapes.js";
+import { BALL, NEUTRAL, NOSE, RING, SIDES } from "./palette.js";
+import { write } from "./shapes.js";
 
 const LARGER = 1.35; // than they are, or their numbers could not be read
 const LEAST_PX = 8.5;
-export const HOLDS = "#ffd23f"; // the ring of the robot that holds the ball
-const BALL = { fill: "#ffb000", edge: "#4a3000" };
 
 /** Radius of a robot as it is drawn, in pixels. */
 export const drawnRadius = (projection, radius) => projection.length(LARGER * radius, LEAST_PX);
@@ -15,6 +14,13 @@ export function bodyPath(context, side, radius) {
   context.beginPath();
   if (side === "magenta") context.roundRect(-0.9 * radius, -0.9 * radius, 1.8 * radius, 1.8 * radius, 0.25 * radius);
   else context.arc(0, 0, radius, 0, 2 * Math.PI);
+}
+
+/** Where a body is drawn: one beyond the picture, as a robot on the bench, at its edge. */
+export function inPicture(projection, body, radius) {
+  const margin = drawnRadius(projection, radius) / projection.scale;
+  const most = { x: projection.width / 2 / projection.scale - margin, y: projection.height / 2 / projection.scale - margin };
+  return { ...body, x: Math.min(Math.max(body.x, -most.x), most.x), y: Math.min(Math.max(body.y, -most.y), most.y) };
 }
 
 /** One robot: hull, nose and number; `ring` is the colour of a circle about it, or null. */
@@ -30,15 +36,15 @@ export function drawRobot(context, projection, { x, y, heading }, { side, radius
     context.stroke();
   }
   context.rotate(projection.angle(heading));
-  context.fillStyle = colours.edge;
+  context.fillStyle = NOSE;
   context.beginPath();
   context.moveTo(1.5 * size, 0);
   context.lineTo(0.75 * size, 0.62 * size);
   context.lineTo(0.75 * size, -0.62 * size);
   context.fill();
   context.fillStyle = colours.fill;
-  context.strokeStyle = colours.edge;
-  context.lineWidth = Math.max(1.2, 0.18 * size);
+  context.strokeStyle = RING;
+  context.lineWidth = Math.max(1.2, 0.15 * size);
   bodyPath(context, side, size);
   context.fill();
   context.stroke();

@@ -13,6 +13,18 @@ const ROUTINE = new Set(["stop", "start", "in_play", "restart", "ball_out", "age
 /** Whether an event is listed among the key events. */
 export const isKey = ({ kind }) => !ROUTINE.has(kind);
 
+/**
+ * The text of an event with the teams' names in place of the sides'; names of robots stay. Names that do not tell the teams
+ * apart get their sides.
+ */
+export function withNames(text, { cyan, magenta }) {
+  const names = { cyan: cyan.trim() || "cyan", magenta: magenta.trim() || "magenta" };
+  const [one, other] = [names.cyan.toLowerCase(), names.magenta.toLowerCase()];
+  if (one === other || one === "magenta") names.cyan = `${names.cyan} (cyan)`;
+  if (one === other || other === "cyan") names.magenta = `${names.magenta} (magenta)`;
+  return text.replace(/\b(cyan|magenta)\b/g, (side) => names[side]);
+}
+
 /** Index of the newest of `events`, which are in order of time, at a time; −1 before the first. */
 export const indexAt = (events, time) => events.findLastIndex((event) => event.time <= time + 1e-6);
 

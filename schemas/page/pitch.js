@@ -1,10 +1,8 @@
 // The pitch from the numbers of its setup: grass, lines, areas, marks and goals.
 
-import { INK, circle, line, rectangle } from "./shapes.js";
+import { GRASS, GROUND, INK, PLAIN } from "./palette.js";
+import { circle, line, rectangle } from "./shapes.js";
 
-const GRASS = ["#2c6a4a", "#306f4f"];
-const GROUND = "#235640";
-const PLAIN = "#12241b";
 const STRIPES = 11;
 
 /** Grass, darker around the lines, in mown stripes unless `plain`. */

@@ -5,6 +5,8 @@ export class Projection {
   scale = 20;
   width = 0;
   height = 0;
+  /** Width of the pitch and its margins for each metre of their height. */
+  ratio = 1.5;
   /** Pixels of the canvas for each pixel of the page. */
   density = 1;
   /** −1 where the field is turned by half a turn, otherwise 1. */
@@ -15,7 +17,7 @@ export class Projection {
     const wide = pitch.length + 2 * margin, high = pitch.width + 2 * margin;
     const fits = { width, height: Math.round((width * high) / wide), density: devicePixelRatio || 1, sign, pitch };
     const same = Object.entries(fits).every(([name, value]) => this[name] === value);
-    Object.assign(this, fits, { scale: width / wide });
+    Object.assign(this, fits, { scale: width / wide, ratio: wide / high });
     return !same;
   }
 

@@ -1,12 +1,7 @@
 // Shapes on the canvas, in metres of the field, through a projection.
 
-export const INK = "#eef4ef";
-export const SIDES = {
-  cyan: { fill: "#28b9dc", edge: "#05303a", ink: "#04222a", line: "#7fe3fa" },
-  magenta: { fill: "#c9237b", edge: "#3d0527", ink: "#ffffff", line: "#ff9fd2" },
-};
-/** Colours of a robot that belongs to neither side. */
-export const NEUTRAL = { fill: "#b9c0bc", edge: "#333a36", ink: "#222222", line: "#e3e8e5" };
+import { INK } from "./palette.js";
+
 const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 
 export function line(context, projection, from, to) {

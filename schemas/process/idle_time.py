@@ -10,10 +10,11 @@ import math
 import os
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, suppress
 from queue import SimpleQueue
+
+from schemas.process.clock import WallClock
 
 Step = Callable[[], bool]
 """Does a part of the work; returns whether that was the last."""
@@ -28,6 +29,7 @@ that."""
 _RETRY_S = 30.0
 """Wall time after which idle time is tried again on a machine that was busy."""
 
+_now = WallClock.now
 _thread_state = threading.local()
 
 
@@ -67,10 +69,10 @@ def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, meter: CoreWaitMe
         idles = is_batch_scheduled() and _is_reported(meter)
         if idles:
             done = _IdleWorker(step, meter).work()
-        again_at = time.monotonic() + retry_s if idles else math.inf
+        again_at = _now() + retry_s if idles else math.inf
         while not done:
             done = step()
-            if time.monotonic() >= again_at:
+            if _now() >= again_at:
                 break
 
 

@@ -5,6 +5,7 @@ from schemas.config.roster import Placement
 from schemas.config.rule_book import load_rule_book
 from schemas.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
 from schemas.messages.applied import Applied, AppliedInput
+from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
@@ -123,6 +124,8 @@ def _game() -> tuple[WireMessage, ...]:
 def _host() -> tuple[WireMessage, ...]:
     return (
         SetupRequest(),
+        AgentClaim(robot="cyan2", session="s5f0c6e1d9b3a", source="process 4711 on lab3"),
+        AgentClaimReply(accepted=False, reason="cyan2 has an agent already: process 4703 on lab2"),
         _setup(),
         *_parameters(),
         SceneRequest(operation=SceneOperation.PLACE, place=[Placement(body="ball", x=2.0, y=-1.0, vx=3.0)]),

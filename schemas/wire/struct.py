@@ -19,10 +19,11 @@ from msgspec import Meta
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema, from_json
 
-from schemas.wire.faults import Fault, FaultError, FaultKind, fault_in, hints_of, not_json, validated
+from schemas.wire.faults import Fault, FaultError, FaultKind, hints_of, not_json
 from schemas.wire.field_docstrings import field_docstrings
 from schemas.wire.json_schema import in_one_piece, published
 from schemas.wire.message import VERSION, decode_payload
+from schemas.wire.struct_faults import fault_in, validated
 
 encode = msgspec.json.Encoder(enc_hook=dict).encode
 """Structs, models, dataclasses and mappings of them as UTF-8 JSON; floats keep every bit, and NaN is null."""

@@ -69,7 +69,7 @@ class BallHandling:
         """Per robot: its kicker can kick in this tick."""
         return self._kickers.ready(tick)
 
-    def begin(
+    def decide_possession_and_kick(
         self, tick: int, robots: tuple[RobotState, ...], ball: BallState, inputs: Sequence[AppliedInput]
     ) -> BallReport:
         """Decide possession and carry out kicks, at the beginning of a tick.

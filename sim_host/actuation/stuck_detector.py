@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 SLOW_SHARE = 0.5
 """A robot is held back below this share of its demanded speed, as in simatch."""
 MIN_SPEED = 0.2
-"""m/s; at a smaller demand, a stuck robot cannot be told from a slow one."""
+"""m/s; at a smaller demand, a stuck robot cannot be distinguished from a slow one."""
 MIN_TURN_RATE = 0.8
 """rad/s; the same for a robot that only turns; corresponds to 0.2 m/s at its hull."""
 _AFTER = 0.2

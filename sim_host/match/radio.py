@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
-from msgspec.structs import asdict, replace
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
@@ -107,7 +107,7 @@ class RadioAir:
             return f"radio: the team's budget of {self._air.budget / 1e6:g} Mbit/s is used up"
         team.sent.append((tick, bits))
         team.bits += bits
-        self._deliver(index, _RadioMessage(tick, ReceivedRadio(age=0.0, **asdict(content)), tick))
+        self._deliver(index, _RadioMessage(tick, ReceivedRadio.of(content), tick))
         return None
 
     def _deliver(self, sender: int, message: _RadioMessage) -> None:

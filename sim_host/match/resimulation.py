@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from schemas.config.obstacle import StaticObstacle
-from schemas.config.profile import STANDARD, load_profile
+from schemas.config.profile import STANDARD, Profile, load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import RosterEntry
 from schemas.config.sections import TYPE_SECTIONS
@@ -21,7 +21,7 @@ from schemas.messages.world import World as WorldMessage
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, bodies_fields
-from sim_host.snapshot import BALL, BallState, RobotState, Roster
+from sim_host.snapshot import BALL, BallState, RobotState, Roster, Snapshot
 
 
 class ImpossibleTickError(TouchlineError):
@@ -85,6 +85,9 @@ class ResimulatedTick(NamedTuple):
     bodies: Fields
     """The world, as `sim_host.match.world_fields.bodies_fields` returns it."""
     chain: str
+    snapshot: Snapshot
+    profile: Profile
+    """The numbers in force in this tick."""
 
 
 def parameters_of(setup: Setup) -> LiveParameters:
@@ -172,7 +175,8 @@ class Resimulation:
                 world.make_checkpoint()
             world_tick = world.advance(applied.inputs)
             snapshot, stuck = world_tick.snapshot, world_tick.stuck
-        return ResimulatedTick(bodies_fields(snapshot, stuck), world.chain(unchained))
+        chain, profile = world.chain(unchained), after.live_parameters.profile
+        return ResimulatedTick(bodies_fields(snapshot, stuck), chain, snapshot, profile)
 
     def _new_world(self, conditions: Conditions) -> World:
         """The world before the first tick of the resimulation."""

@@ -13,7 +13,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.rule_book import RuleBook, load_rule_book
 from schemas.game import Phase
-from schemas.messages.applied import AppliedInput, chained_part
+from schemas.messages.applied import AppliedInput, OperatorChange, chained_part
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.game import ActionReply, GameEvent, RefereeAction
@@ -33,6 +33,8 @@ from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, world_fields
 from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.core import Referee, Ruling
+from sim_host.referee.fingerprint import referee_fingerprint
+from sim_host.referee.game.state_json import state_json
 from sim_host.snapshot import Roster, Snapshot
 
 
@@ -70,7 +72,7 @@ class Simulation:
         self.config = config
         live_parameters = LiveParameters.of(config)
         self.book: RuleBook = load_rule_book(config.rules)
-        self._engine = fingerprint()
+        self._engine = {**fingerprint(), "referee": referee_fingerprint()}
         start, began = opening_layout(config, live_parameters, self.book.restarts)
         self._subsystems = Subsystems(config, self.book, live_parameters, began.layout.robots)
         self._operator = OperatorRequests(live_parameters, self._subsystems, start, began)
@@ -121,11 +123,13 @@ class Simulation:
         actions: Sequence[RefereeAction] = (),
         send: Send = _discard_sight,
         silent: Container[str] = (),
+        refbox: bool = False,
     ) -> TickResult:
         """One tick: apply commands, move the world, let the referee decide, make the sights.
 
         `send` is called with each robot's sight as soon as it is encoded, so that robots think while the tick ends.
-        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field.
+        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field. `refbox` is
+        whether a league's referee box is connected, which then decides alone when a part of the match ends.
         """
         changes = self._apply_pending()
         if changes.new_episode:
@@ -141,6 +145,9 @@ class Simulation:
         if silent:
             gone = tuple([name for name in self.roster.names if name in silent and name not in self.roster.still])
             snapshot = replace(snapshot, silent=gone)
+        if refbox:
+            snapshot = replace(snapshot, refbox=True)
+        officiated = self._officiating_inputs(changes, actions, snapshot.silent)
         ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
         self._apply_ruling(ruling)
         sights = self._subsystems.sights.at(
@@ -151,7 +158,7 @@ class Simulation:
             time=snapshot.time,
             world=world_fields(snapshot, world_tick.stuck, self.state, self.episode),
             sights=sights,
-            **self._applied(snapshot, inputs, changes),
+            **self._applied(snapshot, inputs, changes, officiated),
             beliefs=beliefs,
             events=(*self._change_events(changes, snapshot), *ruling.events),
             replies=ruling.replies,
@@ -198,7 +205,7 @@ class Simulation:
             sights=self._subsystems.sights.at(
                 snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _discard_sight
             ),
-            **self._applied(snapshot, {}, changes),
+            **self._applied(snapshot, {}, changes, self._officiating_inputs(changes, (), ())),
         )
 
     def _apply_pending(self) -> PendingChanges:
@@ -240,8 +247,23 @@ class Simulation:
             beliefs.append((self.roster.side_of(name), name, encode(belief)))
         return beliefs
 
+    def _officiating_inputs(
+        self, changes: PendingChanges, actions: Sequence[RefereeAction], silent: Sequence[str]
+    ) -> Fields:
+        """The fields of a `schemas.messages.applied.Applied` on what the referee judges, before it does."""
+        fields: Fields = {}
+        if actions:
+            fields["actions"] = list(actions)
+        if silent:
+            fields["silent"] = list(silent)
+        if changes.events:
+            fields["changes"] = [OperatorChange(kind, rule, text) for kind, rule, text in changes.events]
+        if changes.checkpoint:
+            fields["referee"] = state_json(self.state)
+        return fields
+
     def _applied(
-        self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], changes: PendingChanges
+        self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], changes: PendingChanges, officiated: Fields
     ) -> dict[str, Any]:
         """The fields of a `TickResult` on what was applied."""
         fields: Fields = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, **changes.applied_fields()}
@@ -249,7 +271,10 @@ class Simulation:
             fields["robots"] = self._operator.layout.robots
         if changes.obstacles_changed:
             fields["obstacles"] = self._operator.layout.obstacles
+        if snapshot.refbox:
+            fields["refbox"] = True
         fields["episode"] = self.episode
+        fields |= officiated
         message = {**fields, "inputs": Raw(encode(inputs))}  # encoded once, for the chain and for the bus
         chain = self.world.chain(chained_part(message))
         return {

@@ -9,8 +9,8 @@ from schemas.config.rule_book import RuleBook
 from sim_host.actuation.latest_commands import LatestCommands
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.radio import RadioAir
+from sim_host.match.referee_factory import make_referee
 from sim_host.match.sights import Sights
-from sim_host.match.start_scene import start_poses
 from sim_host.referee.core import Referee
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
@@ -82,17 +82,5 @@ class Subsystems:
 
     def _new_referee(self) -> Referee:
         """A referee; it has no memory of its own, since its state is passed to every step."""
-        profile, config = self._live_parameters.profile, self._config
-        return Referee(
-            self._book,
-            profile.field,
-            profile.ball,
-            self.roster,
-            duration=config.duration,
-            kick_off=config.referee.kick_off,
-            automatic=config.referee.automatic,
-            starts=start_poses(self.roster, profile.field, self._book.restarts),
-            mode=config.referee.mode,
-            proposal=config.referee.proposal,
-            winner=config.referee.winner,
-        )
+        config = self._config
+        return make_referee(self._book, self._live_parameters.profile, self.roster, config.duration, config.referee)

@@ -122,7 +122,7 @@ class World:
         """Simulate one control tick."""
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
-        report = ball.begin(self.tick, self._robots, self._ball_state, ordered)
+        report = ball.decide_possession_and_kick(self.tick, self._robots, self._ball_state, ordered)
         pairs, fixed = self._candidates.find(self._robots)
         for drives in self._chassis.plan(self._robots, ordered):
             free_ball = ball.before_step(drives)

@@ -33,11 +33,15 @@ def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Diffe
         for name in dict.fromkeys([*ours, *theirs]):
             found += _body_differences(name, _table(theirs.get(name)), ours.get(name, {}))
     found += _body_differences(BALL, _table(recorded.get("ball")), simulated["ball"])
-    found += _body_differences("world", recorded, {key: simulated.get(key, _ABSENT.get(key)) for key in _OWN})
+    own = {key: simulated.get(key, _ABSENT.get(key)) for key in _OWN}
+    own |= {key: simulated[key] for key in _OFFICIATED if key in simulated}
+    found += _body_differences("world", recorded, own)
     return found
 
 
 _OWN = ("tick", "time", "possession", "touches", "kicked")
+_OFFICIATED = ("clock", "episode")
+"""Fields of the world that referee and operator determine; compared where the referee is simulated, too."""
 _ABSENT: dict[str, object] = {"touches": []}
 """Value of a field of the world that is left out of a message; None for other fields."""
 

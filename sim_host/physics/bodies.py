@@ -8,12 +8,11 @@ collide with each other, the ball, the goals, the boundary and the obstacles.
 import math
 from collections.abc import Iterator
 
-import pybullet
-
 from schemas.config.obstacle import Shape
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import RobotBody
+from sim_host.physics.bullet import pybullet
 from sim_host.physics.pitch import Box, boundary, goals
 from sim_host.physics.vectors import Quaternion, Vector
 from sim_host.snapshot import ObstacleState

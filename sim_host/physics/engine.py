@@ -9,14 +9,13 @@ from collections.abc import Sequence
 from itertools import chain
 from typing import Any
 
-import pybullet
-
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.frames import wrap
 from sim_host.physics.bodies import NO_TURN, BodyMaker, upright
 from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Gap
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
+from sim_host.physics.bullet import pybullet
 from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster

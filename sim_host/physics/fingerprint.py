@@ -4,7 +4,7 @@ import importlib.metadata
 import math
 import struct
 
-import pybullet
+from sim_host.physics.bullet import pybullet
 
 
 def fingerprint() -> dict[str, str]:

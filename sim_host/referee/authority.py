@@ -4,8 +4,8 @@ In `automatic` officiating every decision is carried out in its tick. In `mixed`
 event of its own, a proposal. It is carried out when it is confirmed, or when the time that the match file sets is up.
 Meanwhile the game goes on, nothing else is judged, and no robot is shown a card for a wrong position. In `manual`
 officiating the referee keeps the clocks and places the ball; people decide, and give START. `undo` restores the state
-before the last decision, with its score and cards, while the clocks go on. A restart that was signalled is signalled
-again; if play was on, the ball is dropped.
+before the last decision, with its score and cards, while the clocks go on; a second `undo` restores the one before
+that. A restart that was signalled is signalled again; if play was on, the ball is dropped.
 
 Section: ours.
 Measures: nothing of its own.
@@ -24,6 +24,9 @@ from sim_host.referee.procedures import penalties, restart
 from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.rules import Rule
 from sim_host.referee.ruling_draft import RulingDraft
+
+_UNDO_DEPTH = 20
+"""Decisions of a half that can be undone, the newest first."""
 
 
 def judge(draft: RulingDraft, found: tuple[Rule, Decision] | None) -> None:
@@ -71,17 +74,18 @@ def is_due(proposal: Proposal | None) -> bool:
 
 
 def save_for_undo(draft: RulingDraft) -> None:
-    """Keep the present state for `undo`; only the last decision can be undone."""
+    """Keep the present state for `undo`, in place of the oldest one where there are many."""
     state = draft.state
-    draft.state = state._replace(before=state._replace(before=None, proposal=None))
+    kept = (*state.history, state._replace(history=(), proposal=None))
+    draft.state = state._replace(history=kept[-_UNDO_DEPTH:])
 
 
 def why_not_undo(draft: RulingDraft) -> str | None:
     """Why the last decision cannot be undone, or None."""
-    before = draft.state.before
-    if before is None:
-        return "no decision can be undone: there was none in this half, or it was undone already"
-    if before.timing.runs and reached(draft.state.clock, before.timing.limit):
+    if not draft.state.history:
+        return "no decision can be undone: there was none in this half, or all were undone already"
+    before = draft.state.history[-1]
+    if not draft.state.refbox_decides and before.timing.runs and reached(draft.state.clock, before.timing.limit):
         return "the half's time is up"
     return None
 
@@ -92,12 +96,19 @@ def undo(draft: RulingDraft) -> None:
     Score, cards, absences and the half are restored. A restart that was signalled is signalled again. If play was on,
     it is halted, and the ball is dropped where it was; in a shoot-out, the penalty is taken again.
     """
-    now, before = draft.state, draft.state.before
-    if before is None:
+    now = draft.state
+    if not now.history:
         return
+    *earlier, before = now.history
     timing = before.timing._replace(clock=now.clock, effective=now.timing.effective, timer=0.0)
     draft.state = before._replace(
-        timing=timing, still=0.0, ball=now.ball, evidence=NO_EVIDENCE, set_piece=None, before=None
+        timing=timing,
+        still=0.0,
+        ball=now.ball,
+        evidence=NO_EVIDENCE,
+        set_piece=None,
+        history=tuple(earlier),
+        refbox_gone=now.refbox_gone,
     )
     _undo_absences(draft, now)
     signalled = before.restart

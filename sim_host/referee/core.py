@@ -11,7 +11,8 @@ from schemas.frames import Pose
 from schemas.game import RESTARTS, OfficiatingMode, Phase
 from schemas.messages.game import ActionReply, GameEvent, RefereeAction
 from schemas.side import Side
-from sim_host.referee.actions import execute
+from sim_host.referee import refbox
+from sim_host.referee.actions import execute, naming
 from sim_host.referee.authority import is_due, judge
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.restart import Restart, Spot
@@ -105,16 +106,23 @@ class Referee:
         match = self._match
         situation = situation_after(match, state, snapshot, dt)
         now = situation.state
+        if now.refbox_gone is not None or state.refbox_gone is not None:
+            situation = refbox.with_offender(situation)
+            now = situation.state
         found = (
             None
             if is_due(now.proposal)
             else first_decision(situation, clocks_alone=match.mode is OfficiatingMode.MANUAL)
         )
-        if found is None and not actions and is_quiet(now):
+        changed = (now.refbox_gone is None) is not (state.refbox_gone is None)
+        if found is None and not actions and not changed and is_quiet(now):
             return Ruling(now)
         draft = RulingDraft(match, snapshot, now)
+        if changed:
+            refbox.change(draft)
         judge(draft, found)
         replies = tuple(execute(draft, action) for action in actions)
+        naming.decide_overdue(draft)
         advance(draft)
         return Ruling(draft.state, tuple(draft.events), tuple(draft.placements), replies, draft.checkpoint)
 
@@ -125,5 +133,6 @@ def is_quiet(state: RefereeState) -> bool:
         state.phase is Phase.PLAY
         and state.set_piece is None
         and not state.participation.silent
+        and not state.questions
         and not is_due(state.proposal)
     )

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from schemas.game import Phase
 from sim_host.referee.evidence import NO_EVIDENCE, evidence_after
+from sim_host.referee.game.refbox_presence import refbox_gone_after
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.set_piece import set_piece_after
 from sim_host.referee.game.shoot_out import ShootOut
@@ -49,14 +50,19 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
         seen = evidence_after(
             match, state.evidence, match.keepers(state.participation.absences), state.cyan_attacks, snapshot, dt
         )
+    refbox_gone = state.refbox_gone
+    if snapshot.refbox or refbox_gone is not None:
+        refbox_gone = refbox_gone_after(refbox_gone, snapshot.refbox, dt)
     now_state = state._replace(
-        timing=state.timing.after(dt, in_play),
+        timing=state.timing.after(dt, in_play, limited=refbox_gone is None),
         set_piece=set_piece_after(state.set_piece, snapshot, in_play, dt),
         participation=state.participation.after(snapshot.silent, dt, state.timing.runs),
         proposal=None if state.proposal is None else state.proposal.after(dt),
         still=state.still + dt if slow else 0.0,
         ball=now,
         evidence=seen,
+        refbox_gone=refbox_gone,
+        questions=tuple([question.after(dt) for question in state.questions]) if state.questions else (),
     )
     if state.shoot_out is not None and state.running:
         now_state = now_state._replace(shoot_out=_with_nearest_ball(match, now_state, snapshot, state.shoot_out))

@@ -28,7 +28,7 @@ class ActiveOrderPublisher:
         self._agent_stats = agent_stats
         self._writers = {side: batches.publisher(ACTIVE_ORDER, side=side.value) for side in Side}
         self._every = round(_PERIOD_S / tick_s)
-        self._published: dict[Side, tuple[int, dict[str, bool]]] = {}
+        self._published: dict[Side, tuple[int, dict[str, bool], dict[str, str]]] = {}
 
     def publish(self, tick: int, time: float, roster: Roster) -> None:
         """Publish what has changed, and once a second what has not. A side without an order has nothing to publish."""
@@ -38,7 +38,14 @@ class ActiveOrderPublisher:
                 for name, own in zip(roster.names, roster.sides, strict=True)
                 if own is side and name not in roster.still
             }
-            if self._published.get(side) == (order.sequence, acknowledged) and tick % self._every:
+            refused = {
+                name: self._agent_stats[name].refused_order
+                for name, has in acknowledged.items()
+                if has and self._agent_stats[name].refused_order
+            }
+            if self._published.get(side) == (order.sequence, acknowledged, refused) and tick % self._every:
                 continue
-            self._published[side] = order.sequence, acknowledged
-            self._writers[side].put(ActiveOrder(tick=tick, time=time, order=order, acknowledged=acknowledged))
+            self._published[side] = order.sequence, acknowledged, refused
+            self._writers[side].put(
+                ActiveOrder(tick=tick, time=time, order=order, acknowledged=acknowledged, refused=refused)
+            )

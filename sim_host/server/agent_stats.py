@@ -4,10 +4,14 @@ from collections import deque
 from dataclasses import dataclass, field
 from statistics import median
 
-from schemas.messages.health import RobotHealth
+from schemas.messages.health import MAX_FAULT, RobotHealth
 
 SILENT_TICKS = 3
 """A robot that has missed this many ticks in a row is not waited for until it sends a valid message."""
+MOST_TICKS_GIVEN_UP = 250
+"""A robot that answers, but always too late, is waited for again after at most this many ticks."""
+QUICK_S = 0.1
+"""A late answer with a shorter latency was late for its tick, not for the time that the agent took."""
 LATENCY_SAMPLES = 50
 """Commands that the median latency is taken over: one second of ticks."""
 
@@ -17,6 +21,8 @@ class AgentStats:
     """Counts of what one agent answered, missed, sent twice, or sent invalid."""
 
     alive: bool = False
+    is_admitted: bool = True
+    """Its commands are accepted."""
     answering: bool = False
     answers: int = 0
     missed: int = 0
@@ -24,7 +30,14 @@ class AgentStats:
     invalid: int = 0
     refused: int = 0
     silent: int = 0
-    """Ticks missed in a row."""
+    """Ticks missed in a row, for which the host waits for the agent; late answers lower it."""
+    missed_in_a_row: int = 0
+    next_chance: int = 0
+    """Ticks missed in a row after which a late answer is a reason to wait for the agent again."""
+    invalid_reason: str = ""
+    """What was wrong with its newest message; empty after a valid one."""
+    late_answer: int | None = None
+    """The earlier tick that its newest message answers; None after an answer to the newest sight."""
     removed: bool = False
     """Its robot was taken off the pitch."""
     still: bool = False
@@ -33,6 +46,8 @@ class AgentStats:
     """Tick of the newest sight it has answered."""
     acknowledged: int | None = None
     """Number of the coach's order that its newest command acknowledges."""
+    refused_order: str = ""
+    """Why it does not carry out that order; empty where it does."""
     latencies: deque[float] = field(default_factory=lambda: deque(maxlen=LATENCY_SAMPLES))
 
     @property
@@ -49,17 +64,49 @@ class AgentStats:
         """Count a tick that ended with or without its command."""
         self.answering = answered
         if answered:
-            self.silent = 0
+            self.silent = self.missed_in_a_row = self.next_chance = 0
         elif not self.idle:
             self.missed += 1
+            self.missed_in_a_row += 1
             self.silent += 1
 
-    def mark_received(self) -> None:
-        """Count a valid command, also a late one: an agent that was given up is waited for one tick more."""
-        self.silent = min(self.silent, SILENT_TICKS - 1)
+    def add_invalid(self, reason: str) -> None:
+        """Count a message that is not a valid command."""
+        self.invalid += 1
+        self.invalid_reason = reason
 
-    def health(self) -> RobotHealth:
-        """The statistics as they are published."""
+    def add_answer(self, answered: int, tick: int) -> bool:
+        """Count a valid command at this tick, which answers the tick `answered`; returns whether it is no repetition.
+
+        An agent that was given up is waited for one tick more. If it is late again, that chance comes less often.
+        """
+        self.invalid_reason = ""
+        self.late_answer = answered if answered < tick else None
+        if answered <= self.newest:
+            self.duplicates += 1
+            return False
+        self.newest = answered
+        self.answers += 1
+        if self.silent >= SILENT_TICKS and self.missed_in_a_row >= self.next_chance:
+            self.next_chance = self.missed_in_a_row + min(self.missed_in_a_row, MOST_TICKS_GIVEN_UP)
+            self.silent = SILENT_TICKS - 1
+        return True
+
+    def fault(self, tick: int) -> str:
+        """Why the messages of an agent that does not answer are no answers at this tick; empty if it sends none."""
+        if self.invalid_reason:
+            return self.invalid_reason
+        if self.late_answer is None or self.latency_s >= QUICK_S:
+            return ""
+        return f"answers tick {self.late_answer}, the match is at {tick}; use sight.tick"
+
+    @property
+    def latency_s(self) -> float:
+        """Median wall time from sight to command; 0 without an answer."""
+        return median(self.latencies) if self.latencies else 0.0
+
+    def health(self, tick: int) -> RobotHealth:
+        """The statistics as they are published at this tick."""
         return RobotHealth(
             alive=self.alive,
             answering=self.answering,
@@ -70,5 +117,6 @@ class AgentStats:
             refused=self.refused,
             removed=self.removed,
             still=self.still,
-            latency_ms=round(median(self.latencies) * 1e3, 3) if self.latencies else None,
+            latency_ms=round(self.latency_s * 1e3, 3) if self.latencies else None,
+            fault="" if self.answering or self.idle else self.fault(tick)[:MAX_FAULT],
         )

@@ -20,14 +20,15 @@ class HealthReporter:
         self._clock = clock
         self._pace = pace
         self._marks: deque[tuple[float, float]] = deque()
-        self._worst: deque[tuple[float, float]] = deque()
+        self._tick_times: deque[tuple[float, float]] = deque()
+        """Wall time of the end of each tick of the last second, and how long the tick took, both in s."""
         self._last_tick = clock.now()
         self._next = 0.0
 
     def end_tick(self, time: float) -> bool:
         """Record the end of a tick at this simulated time in s; returns whether a report is due."""
         now = self._clock.now()
-        self._worst.append((now, now - self._last_tick))
+        self._tick_times.append((now, now - self._last_tick))
         self._last_tick = now
         if now < self._next:
             return False
@@ -35,8 +36,8 @@ class HealthReporter:
         self._marks.append((now, time))
         while now - self._marks[0][0] > _AVERAGING_S and len(self._marks) > 2:
             self._marks.popleft()
-        while self._worst and now - self._worst[0][0] > _AVERAGING_S:
-            self._worst.popleft()
+        while self._tick_times and now - self._tick_times[0][0] > _AVERAGING_S:
+            self._tick_times.popleft()
         return True
 
     def report(self, tick: int, time: float, late: int, inbox: Inbox, presence: PresenceTracker) -> Health:
@@ -48,8 +49,8 @@ class HealthReporter:
             pace=self._pace,
             real_time_factor=round((until - then) / (now - began), 3) if now > began else 0.0,
             late_ticks=late,
-            worst_tick_ms=round(max((took for _, took in self._worst), default=0.0) * 1e3, 3),
-            robots={name: stats.health() for name, stats in inbox.agent_stats.items()},
-            strangers=dict(inbox.strangers),
+            worst_tick_ms=round(max((took for _, took in self._tick_times), default=0.0) * 1e3, 3),
+            robots={name: stats.health(tick) for name, stats in inbox.agent_stats.items()},
+            strangers=dict(inbox.unknown_senders),
             recorders=presence.recorder_lags(tick),
         )

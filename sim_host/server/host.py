@@ -1,9 +1,10 @@
 """The host of one match: steps the simulation on the bus, tick by tick, at the pace of the match."""
 
+import logging
 from collections.abc import Callable
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind
+from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import EventKind
@@ -20,21 +21,27 @@ from sim_host.server.pace import Lockstep, Pace, Realtime
 from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.services import Services
 
+log = logging.getLogger("sim_host")
+
 _FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
-"""Wall time that the host stays after full time for those who watch: what they missed of the end shows with the bus's
-next heartbeat, half a second after it, and can be fetched again as long as the host is there."""
+"""Wall time that the host stays after full time for its watchers: missed messages of the end show with the bus's next
+heartbeat, half a second later, and can be fetched as long as the host is running."""
 
 
 class Host:
     """Connects a simulation to agents, coaches, recorders and watchers."""
 
-    def __init__(self, config: MatchConfig, bus: Bus) -> None:
+    def __init__(self, config: MatchConfig, bus: Bus, launch_token: str | None = None) -> None:
+        """With `launch_token`, only agents that know it may play."""
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
         self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches)
-        self.presence = PresenceTracker(bus, self.inbox.agent_stats, config.patience.recorder)
+        self.presence = PresenceTracker(
+            bus, self.inbox.agent_stats, config.patience.recorder, self._invalid_log, launch_token
+        )
         self._manual = ManualControl(bus, self._invalid_log)
+        self._first = self.simulation.now, self.simulation.state
         self._config = config
         self._clock = bus.clock
         self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self.presence.has_referee_box)
@@ -65,6 +72,10 @@ class Host:
         self.stopping = True
         self.pace.stop_waiting()
 
+    def outcome(self) -> list[ReceivedMessage]:
+        """All events so far, and the newest state of the game."""
+        return self._outbox.outcome()
+
     def wait_for_all(self) -> None:
         """Wait until every robot has an agent, until patience runs out, or until a referee action is requested."""
         deadline = self._clock.now() + self._config.patience.attendance
@@ -73,6 +84,7 @@ class Host:
                 return
             self.presence.update(timeout=0.02)
             self._process_requests()
+            self._report_refusals(self.simulation.now)
             self._report(self.simulation.now)
             self._batches.send_if_due()
             if self._services.actions:
@@ -81,10 +93,10 @@ class Host:
     def begin(self) -> None:
         """Publish tick 0."""
         self._look_for_sight_recorders()
-        first = self.simulation.now
+        first, state = self._first
         for robot, sight in first.sights.items():
             self._send_sight(robot, sight)
-        self._outbox.publish_tick(first, self.simulation.state)
+        self._outbox.publish_tick(first, state)
         self._batches.end_tick(first.tick)
         self.pace.begin()
 
@@ -97,7 +109,9 @@ class Host:
         self._set_sim_time(self.simulation.now.tick + 1)
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
-        tick = self.simulation.step(commands, self._services.actions, self._send_sight, silent)
+        tick = self.simulation.step(
+            commands, self._services.actions, self._send_sight, silent, self.presence.has_referee_box()
+        )
         self._outbox.publish_tick(tick, self.simulation.state)
         self._active_orders.publish(tick.tick, tick.time, self.simulation.roster)
         self._services.reply(tick.replies)
@@ -107,7 +121,7 @@ class Host:
         return tick
 
     def wait_for_recorders(self) -> None:
-        """Give the recorders time to write the last tick, and after full time the watchers time to receive it."""
+        """Wait until the recorders have read the last tick, and after full time until watchers can have received it."""
         last = self.simulation.now.tick
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
@@ -140,8 +154,8 @@ class Host:
         self._roster = roster
 
     def _while_waiting(self) -> None:
-        """While robots or recorders are waited for: what was published must not wait as long to be recorded."""
-        self._services.attend_meanwhile()
+        """While the host waits for robots or recorders: publish batches that are due, and reply to requests."""
+        self._services.serve_while_waiting()
         self._batches.send_if_due()
 
     def _send_sight(self, robot: str, sight: bytes) -> None:
@@ -151,20 +165,21 @@ class Host:
         self._outbox.publish_sight(robot, sight)
 
     def _look_for_sight_recorders(self) -> None:
-        """Sights are recorded if the match file says so, or while a recorder asks for them."""
+        """Record sights if the match file demands it, or while a recorder requests them."""
         self._outbox.sights_recorded = self._config.record.sights or self.presence.wants_sights
 
     def _set_sim_time(self, tick: int) -> None:
-        """Messages that are sent from now on belong to this tick."""
+        """Set the simulated time of messages sent from now on to that of a tick."""
         self._clock.sim_ns = round(tick * self.simulation.profile.time.tick * 1e9)
 
     def _update_stats(self, tick: TickResult) -> None:
         """Count refusals; publish an event when an agent falls silent or answers, and when manual control changes."""
+        self._report_refusals(tick)
         for name, count in tick.refused.items():
             self.inbox.agent_stats[name].refused += count
         for name, driven in self._manual.changes():
-            text = f"{name} is under manual control" if driven else f"{name} is given back to its brain"
-            self._publish_agent_event(tick, name, "hand", text)
+            text = f"{name} is under manual control" if driven else f"{name} is controlled by its brain again"
+            self._publish_agent_event(tick, name, "manual_control", text)
         for name, was_silent in self._silent.items():
             stats = self.inbox.agent_stats[name]
             if stats.idle:
@@ -174,8 +189,15 @@ class Host:
             if silent == was_silent:
                 continue
             self._silent[name] = silent
-            text = f"{name} does not answer, its robot stops" if silent else f"{name} answers"
-            self._publish_agent_event(tick, name, "attendance", text)
+            fault = stats.fault(tick.tick) if stats.alive else ""
+            text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
+            self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
+
+    def _report_refusals(self, tick: TickResult) -> None:
+        """Publish an event for each agent that was refused."""
+        for refusal in self.presence.pop_refusals():
+            log.warning(refusal.text)
+            self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
 
     def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
         if name not in self._roster.names:

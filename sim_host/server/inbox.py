@@ -1,4 +1,4 @@
-"""Receives, validates and counts the robots' commands; nothing that a robot sends can stop the host."""
+"""Receives, validates and counts the robots' commands; no payload can stop the host."""
 
 from collections import deque
 from collections.abc import Container
@@ -13,8 +13,8 @@ from sim_host.server.agent_stats import LATENCY_SAMPLES, AgentStats
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 
-_MAX_STRANGERS = 100
-"""Keys of unknown robots that are counted one by one; a flood of invented names must not fill the memory."""
+_MAX_UNKNOWN_SENDERS = 100
+"""Keys of unknown robots that are counted separately; a flood of invented names must not fill the memory."""
 _MAX_INVALID_IN_A_ROW = 1000
 """Invalid messages read in one call before the host goes on with its work: a flood must not block it."""
 
@@ -23,12 +23,13 @@ class Inbox:
     """Receives the commands of all robots."""
 
     def __init__(self, bus: Bus, roster: Roster, invalid_log: InvalidLog, batches: BatchPublisher) -> None:
-        """`batches` gets everything that comes, for the record."""
+        """All received commands are added to `batches`."""
         self._commands = bus.subscribe(COMMAND)
         self._invalid_log = invalid_log
         self._batches = batches
         self.agent_stats: dict[str, AgentStats] = {}
-        self.strangers: dict[str, int] = {}
+        self.unknown_senders: dict[str, int] = {}
+        """Key → commands received on it, for names that no robot of the match has."""
         self._sent_at: deque[tuple[int, int]] = deque(maxlen=LATENCY_SAMPLES)
         self.set_roster(roster)
 
@@ -69,7 +70,10 @@ class Inbox:
         name = received.key.split("/")[1]
         stats = self.agent_stats.get(name)
         if stats is None:
-            self._count_stranger(received)
+            self._count_unknown_sender(received, "no robot of this match has that name")
+            return None
+        if not stats.is_admitted:
+            self._count_unknown_sender(received, "no agent of this match's launch has claimed that robot")
             return None
         if stats.removed:
             return None  # it answers a sight from before it was removed
@@ -78,23 +82,24 @@ class Inbox:
             if command.answers_tick > tick:
                 raise BadMessageError(f"Command: answers_tick is {command.answers_tick}, the newest sight is {tick}")
         except BadMessageError as error:
-            stats.invalid += 1
+            stats.add_invalid(str(error))
             self._invalid_log.add(received.key, str(error), received.payload)
             return None
-        stats.mark_received()
-        if command.answers_tick <= stats.newest:
-            stats.duplicates += 1
+        if not stats.add_answer(command.answers_tick, tick):
             return None
-        stats.newest = command.answers_tick
         stats.acknowledged = command.acknowledges_order
-        stats.answers += 1
+        stats.refused_order = command.refuses_order
         self._note_latency(stats, command.answers_tick, received.arrived_ns)
         return name, command
 
-    def _count_stranger(self, received: ReceivedMessage) -> None:
-        key = received.key if received.key in self.strangers or len(self.strangers) < _MAX_STRANGERS else "others"
-        self.strangers[key] = self.strangers.get(key, 0) + 1
-        self._invalid_log.add(received.key, "no robot of this match has that name", received.payload)
+    def _count_unknown_sender(self, received: ReceivedMessage, reason: str) -> None:
+        key = (
+            received.key
+            if received.key in self.unknown_senders or len(self.unknown_senders) < _MAX_UNKNOWN_SENDERS
+            else "others"
+        )
+        self.unknown_senders[key] = self.unknown_senders.get(key, 0) + 1
+        self._invalid_log.add(received.key, reason, received.payload)
 
     def _note_latency(self, stats: AgentStats, tick: int, arrived_ns: int) -> None:
         for sent_tick, sent_ns in reversed(self._sent_at):

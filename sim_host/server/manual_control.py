@@ -50,7 +50,7 @@ class ManualControl:
         return overridden
 
     def changes(self) -> Iterator[tuple[str, bool]]:
-        """Robots that came under manual control, or were given back, since the last call."""
+        """Robots whose manual control has begun or ended since the last call."""
         for name in sorted({*self._driven, *self._reported}):
             is_driven = name in self._driven
             if is_driven != (name in self._reported):

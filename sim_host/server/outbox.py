@@ -3,19 +3,18 @@
 from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Publisher
-from schemas.messages.game import GameEvent
+from schemas.bus.contract import Publisher, ReceivedMessage, Stamp
+from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health, Invalid
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from sim_host.match.simulation import TickResult
+from sim_host.match.state_schedule import StateSchedule
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster
 
 _LISTENER_CHECK_TICKS = 50
 """Ticks between two checks for subscribers to single bodies."""
-_STATE_PERIOD_S = 1.0
-"""Simulated time after which the state of the game is published again."""
 
 
 class Outbox:
@@ -23,7 +22,7 @@ class Outbox:
 
     def __init__(self, batches: BatchPublisher, roster: Roster, tick_s: float) -> None:
         self.sights_recorded = False
-        """Sights are recorded, too: ten robots' are four times as much as all the rest."""
+        """Sights are recorded, too: with ten robots they are four times as many bytes as all other messages."""
         self._batches = batches
         self._world = batches.publisher(WORLD)
         self._applied = batches.publisher(APPLIED)
@@ -32,17 +31,18 @@ class Outbox:
         self._health = batches.publisher(HEALTH)
         self._invalid = batches.publisher(INVALID)
         self._ball = batches.publisher(WORLD_BALL)
+        self._events: list[tuple[GameEvent, Stamp]] = []
+        self._newest_state: tuple[GameState, Stamp] | None = None
         self._last_sights: dict[str, bytes] = {}
         self._listeners: list[tuple[Publisher, str | None]] = []
         self._sights: dict[str, Publisher] = {}
         self._robots: dict[str, Publisher] = {}
         self._beliefs: dict[tuple[str, Side], Publisher] = {}
         self.set_roster(roster)
-        self._last_game_state: tuple[Any, ...] = ()
-        self._state_every = round(_STATE_PERIOD_S / tick_s)
+        self._state_schedule = StateSchedule(tick_s)
 
     def set_roster(self, roster: Roster) -> None:
-        """Publish for these robots from now on; an existing publisher goes on with its sequence numbers."""
+        """Publish for these robots from now on; an existing publisher continues its sequence numbers."""
         self._roster = roster
         for name, side in zip(roster.names, roster.sides, strict=True):
             if name not in self._sights:
@@ -66,24 +66,11 @@ class Outbox:
     def publish_tick(self, tick: TickResult, state: RefereeState) -> None:
         """Publish world, inputs, beliefs and events; the game's state on a change, after an action, and each second."""
         for event in tick.events:
-            self._event.put(event)
+            self.publish_event(event)
         episode = tick.world["episode"]
-        game_state = (
-            state.phase,
-            state.side,
-            state.running,
-            state.half,
-            state.score,
-            state.cyan_attacks,
-            state.spot,
-            state.participation.change_key,
-            state.shoot_out,
-            state.proposal is None,
-            episode,
-        )
-        if game_state != self._last_game_state or tick.replies or tick.tick % self._state_every == 0:
-            self._state.put(state.game_state(tick.tick, tick.time, episode))
-            self._last_game_state = game_state
+        if self._state_schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
+            published = state.game_state(tick.tick, tick.time, episode)
+            self._newest_state = (published, self._state.put(published))
         for side, robot, belief in tick.beliefs:
             self._beliefs[robot, side].put_payload(belief)
         self._world.put_fields(tick.world)
@@ -91,8 +78,16 @@ class Outbox:
         self._publish_bodies(tick)
 
     def publish_event(self, event: GameEvent) -> None:
-        """Publish an event that is not the referee's."""
-        self._event.put(event)
+        """Publish an event, which need not be the referee's."""
+        self._events.append((event, self._event.put(event)))
+
+    def outcome(self) -> list[ReceivedMessage]:
+        """All events so far, and the newest state of the game, as they were published."""
+        messages = [ReceivedMessage(EVENT, EVENT.key, event.encode(), stamp) for event, stamp in self._events]
+        if self._newest_state is not None:
+            state, stamp = self._newest_state
+            messages.append(ReceivedMessage(STATE, STATE.key, state.encode(), stamp))
+        return messages
 
     def publish_health(self, health: Health) -> None:
         """Publish the health of the host."""

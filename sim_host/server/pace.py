@@ -1,10 +1,10 @@
-"""The pace of a match: how the host waits between two ticks, for its time alone or for every robot's command."""
+"""The pace of a match: between two ticks the host waits for wall time, or for the command of every robot."""
 
 import math
 from collections.abc import Callable
 from typing import Protocol
 
-from schemas.config.match_config import Patience
+from schemas.config.match_parts import Patience
 from schemas.messages.command import Command
 from schemas.process.clock import Clock
 from schemas.recovery_window import RUN_AHEAD_TICKS
@@ -13,7 +13,7 @@ from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import PresenceTracker
 
 _RESEND_S = 0.05
-"""Wall time after which an unanswered sight is sent again: a lost message is not waited for."""
+"""Wall time after which an unanswered sight is sent again: its command may have been lost."""
 _PRESENCE_CHECK_S = 0.005
 """Wall time between two checks for agents that have joined or left."""
 
@@ -22,7 +22,7 @@ Resend = Callable[[str], None]
 
 
 class Pace(Protocol):
-    """A way of waiting."""
+    """How the host waits between two ticks, and collects the commands of the robots."""
 
     late_ticks: int
     """Ticks that began later than planned."""
@@ -59,7 +59,7 @@ class Realtime:
 
     def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
         """Sleep until the next tick is due, then collect the commands that have arrived."""
-        del resend  # a robot that missed this sight gets the next one soon enough
+        del resend  # a robot that missed this sight receives the next one a period later
         self._next += self._period
         now = self._clock.now()
         if now > self._next:
@@ -84,7 +84,7 @@ class Lockstep:
         patience: Patience,
         while_waiting: Callable[[], None] = lambda: None,
     ) -> None:
-        """`while_waiting` is done now and then while robots or recorders are waited for."""
+        """`while_waiting` is called repeatedly while the host waits for robots or recorders."""
         self._clock = clock
         self._while_waiting = while_waiting
         self._inbox = inbox
@@ -147,7 +147,7 @@ class Lockstep:
         return self._inbox.receive_command(tick, 0.0 if self.step_agents else min(_RESEND_S, self._patience))
 
     def _missing(self, tick: int) -> dict[str, None]:
-        """Robots whose command is missing and waited for, in the order of the roster."""
+        """Robots whose command the host waits for, in the order of the roster."""
         agent_stats = self._inbox.agent_stats.items()
         return {name: None for name, stats in agent_stats if stats.newest < tick and not stats.is_silent}
 

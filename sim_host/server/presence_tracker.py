@@ -1,58 +1,90 @@
-"""Who is there: agents, recorders and referee boxes by their liveliness tokens; recorders tell how far they are."""
+"""Presence of agents, recorders, watchers and referee boxes, by liveliness tokens, and the progress of recorders."""
 
 from schemas.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import AgentStats
+from sim_host.server.claims import Claims
+from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.services.claim_handler import ClaimHandler, Refusal
 
-_REMEMBERED = (PresenceKind.AGENT, PresenceKind.REFBOX, PresenceKind.COACH)
-_MOST = 100
-"""Processes of a kind that are remembered by name; a flood of invented names must not fill the memory."""
+_REMEMBERED = (PresenceKind.REFBOX, PresenceKind.COACH)
+_MAX_NAMES = 100
+"""Most names kept for each kind of process; a flood of invented names must not fill the memory."""
 
 
 class PresenceTracker:
-    """Presence of agents, recorders and referee boxes."""
+    """Follows the presence of all processes of a match, and the progress of its recorders."""
 
-    def __init__(self, bus: Bus, agent_stats: dict[str, AgentStats], patience: float) -> None:
-        """`patience` is how long a recorder whose link broke is expected back, in s of wall time."""
+    def __init__(
+        self,
+        bus: Bus,
+        agent_stats: dict[str, AgentStats],
+        patience: float,
+        invalid_log: InvalidLog,
+        launch_token: str | None = None,
+    ) -> None:
+        """`patience` is the wall time in s after which a recorder with a broken link is dropped."""
         self._clock = bus.clock
         self._patience = patience
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(RECORDER_PROGRESS)
         self._agent_stats = agent_stats
+        self._claims = Claims(launch_token)
+        self._claim_handler = ClaimHandler(bus, self._claims, invalid_log)
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
-        """Name → whether the process is there, for all that ever came; agents also of robots that do not play yet."""
+        """Name → whether the process is present, once it has joined."""
         self.recorders: dict[str, int] = {}
-        """Recorder → the newest tick it has taken in; one whose link broke is in here until it is given up."""
-        self._of_sights: set[str] = set()
-        """Recorders that record sights, too."""
+        """Recorder → the newest tick it has read; a recorder with a broken link stays until it is dropped."""
+        self._sight_recorders: set[str] = set()
+        """Recorders that request sights."""
         self._lost: dict[str, float] = {}
-        """Recorder → when it is given up, wall time."""
+        """Recorder with a broken link → wall time at which it is dropped."""
+        self.refresh_agents()
 
     def update(self, timeout: float = 0.0) -> list[Presence]:
-        """Take in what has changed, waiting up to `timeout` s for it; returns the agents that came or went."""
-        changed = []
+        """Process changes, waiting up to `timeout` s for the first; returns the agents that joined or left."""
+        changed: list[str] = []
+        self._claim_handler.receive()
         presence = self._watch.receive(timeout)
         while presence is not None:
             self._remember(presence)
-            stats = self._agent_stats.get(presence.name)
             if presence.kind is PresenceKind.RECORDER:
                 self._recorder(presence)
-            elif presence.kind is PresenceKind.AGENT and stats is not None:
-                stats.alive, stats.silent = presence.alive, 0
-                changed.append(presence)
+            elif presence.kind is PresenceKind.AGENT:
+                self._claims.set_unclaimed(presence.name, presence.alive)
+                changed.append(presence.name)
+            elif presence.kind is PresenceKind.SESSION:
+                robot = self._claims.set_session(presence.name, presence.alive)
+                changed += [robot] if robot is not None else []
             presence = self._watch.receive(0.0)
+        changed += self._claim_handler.decide()
         self.receive_progress(0.0)
         self._drop_lost_recorders()
-        return changed
+        return [presence for robot in changed if (presence := self._refresh(robot)) is not None]
 
     def refresh_agents(self) -> None:
-        """Other robots take part: some of their agents may have come before them."""
-        for name, stats in self._agent_stats.items():
-            stats.alive = self._known[PresenceKind.AGENT].get(name, stats.alive)
+        """Update the statistics after a change of the roster: an agent may have joined before its robot."""
+        for name in self._agent_stats:
+            self._refresh(name)
+
+    def pop_refusals(self) -> list[Refusal]:
+        """Agents that were refused since the last call."""
+        handler = self._claim_handler
+        refusals, handler.refusals = handler.refusals, []
+        return refusals
+
+    def _refresh(self, robot: str) -> Presence | None:
+        """Update the statistics of a robot's agent; None for a robot that does not take part."""
+        stats = self._agent_stats.get(robot)
+        if stats is None:
+            return None
+        alive = self._claims.is_present(robot)
+        stats.alive, stats.silent, stats.is_admitted = alive, 0, self._claims.admits(robot)
+        return Presence(PresenceKind.AGENT, robot, alive)
 
     def receive_progress(self, timeout: float) -> None:
-        """Take in how far the recorders are, waiting up to `timeout` s for word of it."""
+        """Process the progress of recorders, waiting up to `timeout` s for the first message."""
         received = self._progress.receive(timeout)
         while received is not None:
             name = received.chunks["name"]
@@ -65,16 +97,16 @@ class PresenceTracker:
             elif progress is not None and name in self.recorders:
                 self.recorders[name] = max(self.recorders[name], progress.tick)
                 if progress.sights:
-                    self._of_sights.add(name)
+                    self._sight_recorders.add(name)
             received = self._progress.receive(0.0)
 
     def _remember(self, presence: Presence) -> None:
         known = self._known.get(presence.kind)
-        if known is not None and (presence.name in known or len(known) < _MOST):
+        if known is not None and (presence.name in known or len(known) < _MAX_NAMES):
             known[presence.name] = presence.alive
 
     def _recorder(self, presence: Presence) -> None:
-        """A recorder that is frozen loses its link, and comes back: it is waited for like one that is there."""
+        """Add a recorder; one that loses its link may only be suspended, and stays until its patience has passed."""
         name = presence.name
         if presence.alive:
             self.recorders.setdefault(name, -1)
@@ -91,15 +123,15 @@ class PresenceTracker:
     def _forget(self, name: str) -> None:
         self.recorders.pop(name, None)
         self._lost.pop(name, None)
-        self._of_sights.discard(name)
+        self._sight_recorders.discard(name)
 
     @property
     def wants_sights(self) -> bool:
         """Whether a recorder records sights."""
-        return bool(self._of_sights)
+        return bool(self._sight_recorders)
 
     def has_referee_box(self) -> bool:
-        """Whether a league's referee box is connected: nobody else officiates meanwhile."""
+        """Whether a league's referee box is connected: other clients may then only stop the game."""
         return any(self._known[PresenceKind.REFBOX].values())
 
     def has_watchers(self) -> bool:
@@ -107,7 +139,7 @@ class PresenceTracker:
         return any(self._known[PresenceKind.COACH].values())
 
     def all_present(self, wait_for_recorder: bool) -> bool:
-        """Every robot's agent is there, and a recorder where one is waited for."""
+        """Whether every robot has an agent, and, with `wait_for_recorder`, a recorder is present."""
         agents = all(stats.alive or stats.idle for stats in self._agent_stats.values())
         return agents and (bool(self.recorders) or not wait_for_recorder)
 

@@ -1,22 +1,29 @@
 """The host process: one match on an endpoint, with its signals and its log."""
 
+import importlib.util
 import logging
 import signal
 import sys
+from collections.abc import Sequence
+from contextlib import ExitStack
 from types import FrameType
 
-from schemas.bus.endpoint import is_loopback, with_free_port
+from schemas.bus.announcement import Announcement, announced, announced_to_user
+from schemas.bus.contract import ReceivedMessage
+from schemas.bus.endpoint import is_loopback
+from schemas.bus.outcome_file import write_outcome
 from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
+from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
 
 log = logging.getLogger("sim_host")
 
 
 def run(settings: HostSettings) -> int:
-    """Host one match until it is over or somebody ends this process; the exit status of the process.
+    """Host one match until it is over or a signal ends this process; returns the exit status.
 
     Raises:
         TouchlineError: PyBullet is missing, or the endpoint cannot be listened on or is open to others unguarded.
@@ -31,26 +38,51 @@ def run(settings: HostSettings) -> int:
 
 
 def _serve(settings: HostSettings) -> None:
-    try:
-        from sim_host.server.host import Host
-    except ModuleNotFoundError as error:
-        if error.name != "pybullet":
-            raise
-        raise TouchlineError(
-            "PyBullet is not installed; on this machine that takes: pip install 'touchline[sim]'"
-        ) from None
+    if importlib.util.find_spec("pybullet") is None:
+        raise TouchlineError(missing_engine_text())
     config, listen = settings.config, settings.listen
-    if not settings.insecure and not is_loopback(listen):
+    if listen is not None and not settings.insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")
     use_batch_scheduling(config.speed is None)
-    with open_host(config.name, WallClock(), with_free_port(listen)) as bus:
-        log.info("match %s on %s, pace %s, seed %d", config.name, listen, config.pace, config.seed)
-        host = Host(config, bus)
+    with open_host(config.name, WallClock(), listen) as bus, ExitStack() as announcements:
+        _announce(settings, bus.endpoint, announcements)
+        log.info('match "%s" on %s, pace %s, seed %d', config.name, bus.endpoint, config.pace, config.seed)
+        try:
+            from sim_host.server.host import Host  # takes a second, in which clients connect
+        except ModuleNotFoundError as error:
+            if error.name != "pybullet":
+                raise
+            raise TouchlineError(missing_engine_text()) from None
+        host = Host(config, bus, settings.launch_token)
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: host.stop())
         host.run()
+        _leave_outcome(settings, host.outcome())
         how = "stopped before the match was over," if host.stopping else "match over"
         log.info("%s at tick %d", how, host.simulation.now.tick)
+
+
+def _leave_outcome(settings: HostSettings, messages: Sequence[ReceivedMessage]) -> None:
+    if settings.outcome is None:
+        return
+    try:
+        write_outcome(settings.outcome, messages)
+    except OSError as error:
+        log.warning("%s: %s; the result was published on the bus only", settings.outcome, error.strerror)
+
+
+def _announce(settings: HostSettings, endpoint: str, announcements: ExitStack) -> None:
+    """Announce the host to its launcher, and to clients of this user."""
+    announcement = Announcement.of(settings.config.name, endpoint)
+    try:
+        if settings.announcement is not None:
+            announcements.enter_context(announced(announcement, settings.announcement))
+    except OSError as error:
+        raise TouchlineError(f"{settings.announcement}: {error.strerror}; the host announces itself there") from None
+    try:
+        announcements.enter_context(announced_to_user(announcement))
+    except OSError as error:
+        log.warning("clients do not find this host by themselves: %s", error)
 
 
 def _leave(signum: int, frame: FrameType | None) -> None:

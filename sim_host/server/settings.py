@@ -1,9 +1,13 @@
 """What a host process is started with."""
 
+from pathlib import Path
+from typing import Annotated
+
 from pydantic import Field
 
 from schemas.bus.settings import ListenSettings
 from schemas.config.match_config import MatchConfig
+from schemas.config.settings import CommandLine
 
 
 class HostSettings(ListenSettings):
@@ -11,3 +15,9 @@ class HostSettings(ListenSettings):
 
     config: MatchConfig = Field(default_factory=MatchConfig)
     """The match."""
+    outcome: Path | None = None
+    """File for the result at the end, for the program that launched the host."""
+    launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
+    """Secret that an agent must know to play; by default every agent may."""
+    announcement: Path | None = None
+    """File in which the host announces its endpoint as soon as it listens."""

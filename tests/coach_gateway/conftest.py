@@ -1,4 +1,4 @@
-"""A match for bridges: a host that says what the test wants, or a real one that is stepped, on the in-process bus."""
+"""A match for bridges: a fake host, or a real one that is stepped, on the in-process bus."""
 
 from collections.abc import Callable
 from typing import Any

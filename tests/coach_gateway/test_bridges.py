@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,10 @@ from pydantic import ValidationError
 
 from coach_gateway import run
 from coach_gateway.bridges import Bridges, bridges_of
+from coach_gateway.ports import INHERITED, InheritedSockets, inheritance_of
 from coach_gateway.process import say as log
 from coach_gateway.refbox.client import BoxAddress
+from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from schemas.bus.endpoint import with_free_port
@@ -54,11 +57,18 @@ def test_words_are_addresses_and_doors() -> None:
         udp=0,
         refbox="box.local",
         team=list(Side),
-        refbox_server=["28097", "magenta:28098"],
+        refbox_server=["28097", "magenta:28098", "28099:characters", "cyan:0:characters"],
+        address=["cyan=224.16.32.44"],
         audience=["127.0.0.1:12345", "[::1]:9"],
     )
     assert wanted.boxes == (BoxAddress(Side.CYAN, "box.local", 28097), BoxAddress(Side.MAGENTA, "box.local", 28097))
-    assert wanted.server_addresses == (ServerAddress(28097), ServerAddress(28098, Side.MAGENTA))
+    assert wanted.server_addresses == (
+        ServerAddress(28097),
+        ServerAddress(28098, Side.MAGENTA),
+        ServerAddress(28099, protocol=BoxProtocol.CHARACTERS),
+        ServerAddress(0, Side.CYAN, protocol=BoxProtocol.CHARACTERS),
+    )
+    assert wanted.addresses == {Side.CYAN: "224.16.32.44"}
     assert wanted.audience == (("127.0.0.1", 12345), ("::1", 9))
     assert asked(refbox="10.0.0.2:9000", team=[Side.CYAN]).boxes[0].port == 9000
 
@@ -74,6 +84,10 @@ def test_words_are_addresses_and_doors() -> None:
         ({"refbox_server": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
         ({"refbox_server": ["99999"]}, "--refbox-server"),
         ({"refbox_server": ["-1"]}, "--refbox-server"),
+        ({"refbox_server": ["28097:morse"]}, '--refbox-server is "28097:morse"; it is PORT'),
+        ({"address": ["cyan=224.16.32.44"]}, "--address is for --refbox-server, which is not given"),
+        ({"refbox_server": ["0"], "address": ["224.16.32.44"]}, '--address is "224.16.32.44"; it is cyan=ADDRESS'),
+        ({"refbox_server": ["0"], "address": ["cyan="]}, '--address is "cyan="; it is cyan=ADDRESS'),
         ({"refbox": "box..local", "team": [Side.CYAN]}, '--refbox is "box..local"'),
         ({"refbox": "::1", "team": [Side.CYAN]}, '--refbox is "::1"'),
     ],
@@ -96,15 +110,32 @@ def test_a_taken_port_is_reported_before_there_is_a_host() -> None:
 def test_a_port_that_is_given_twice_is_reported() -> None:
     port = with_free_port("tcp/127.0.0.1:0").rpartition(":")[2]
     with pytest.raises(TouchlineError, match=rf"--refbox-server {port} cannot be listened on"):
-        asked(refbox_server=[port, f"cyan:{port}"]).try_ports()
-    asked(refbox_server=[port]).try_ports()
-    asked(refbox_server=["0", "0"]).try_ports()
+        asked(refbox_server=[port, f"cyan:{port}"]).open_ports()
+    with asked(refbox_server=[port]).open_ports().servers[0] as bound:  # the first attempt has left nothing open
+        assert bound.getsockname()[1] == int(port)
+
+
+def test_open_ports_are_taken_over_by_the_program_that_inherits_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    bridges = asked(udp=0, refbox_server=["0", "cyan:0"])
+    launcher = bridges.open_ports()
+    copies = [one.dup() for one in launcher.all]
+    monkeypatch.setenv(INHERITED, inheritance_of(copies)[INHERITED])
+    for copy in copies:
+        copy.detach()
+    inherited = InheritedSockets()
+    program = bridges.open_ports(inherited)
+    assert [one.getsockname() for one in program.all] == [one.getsockname() for one in launcher.all]
+    assert program.udp is not None and program.udp.type is socket.SOCK_DGRAM
+    assert inherited.next() is None
+    assert INHERITED not in os.environ  # of the programs that this one starts
+    for one in (*launcher.all, *program.all):
+        one.close()
 
 
 @pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
 def test_an_address_of_another_machine_is_reported(address: str) -> None:
     with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is not an address of this machine"):
-        asked(udp=0, listen_bridges=address).try_ports()
+        asked(udp=0, listen_bridges=address).open_ports()
 
 
 def test_texts_from_the_network_cannot_control_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
@@ -122,7 +153,7 @@ def test_bridges_need_no_web_server() -> None:
 
 
 @pytest.mark.processes
-def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> None:
+def test_one_process_has_all_bridges_and_ends_on_a_signal_with_a_bye_to_coach_programs(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     setup = make_setup()
     tokens = tmp_path / "tokens.json"
@@ -141,8 +172,14 @@ def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> Non
             query = setups.receive(LIMIT_S)
             assert query is not None
             query.reply(setup)
-            asyncio.run(_meet(ports, json.loads(tokens.read_text("utf-8"))["cyan"], states))
-            process.send_signal(signal.SIGINT)
+            with closing(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) as program:
+                program.settimeout(LIMIT_S)
+                program.connect(("127.0.0.1", ports["coach programs over UDP"]))
+                asyncio.run(_meet(ports, json.loads(tokens.read_text("utf-8"))["cyan"], states, program))
+                process.send_signal(signal.SIGINT)
+                kind = ""
+                while kind != "bye":
+                    kind = json.loads(program.recv(65536))["kind"]
             rest, _ = process.communicate(timeout=LIMIT_S)
             assert process.returncode == 0, rest
             assert "Traceback" not in rest
@@ -151,7 +188,7 @@ def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> Non
             process.communicate()
 
 
-async def _meet(ports: dict[str, int], token: str, states: Any) -> None:
+async def _meet(ports: dict[str, int], token: str, states: Any, program: socket.socket) -> None:
     """A base station receives a corner, and a coach program is welcomed."""
     reader, writer = await asyncio.open_connection("127.0.0.1", ports["referee box for base stations"])
     writer.write(json.dumps({"type": "hello", "team": "magenta"}).encode() + b"\x00")
@@ -170,8 +207,5 @@ async def _meet(ports: dict[str, int], token: str, states: Any) -> None:
             break
     assert "CORNER" in heard
     writer.transport.abort()
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as program:
-        program.settimeout(LIMIT_S)
-        program.connect(("127.0.0.1", ports["coach programs over UDP"]))
-        program.send(json.dumps({"kind": "hello", "sequence": 1, "token": token}).encode())
-        assert json.loads(program.recv(65536))["role"] == "cyan"
+    program.send(json.dumps({"kind": "hello", "sequence": 1, "token": token}).encode())
+    assert json.loads(program.recv(65536))["role"] == "cyan"

@@ -1,4 +1,4 @@
-"""What the page on the coach gateway says: its tables name all that there is, its command lines can be typed."""
+"""The page on the coach gateway: its tables are complete, its command lines are valid."""
 
 import re
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
 from coach_gateway.web.protocol import PAGE_REQUEST
 from schemas.messages.coach import REQUIRED_FIELDS
 from schemas.wire.message import Part
-from touchline.__main__ import app
+from touchline.command_line import app
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +40,7 @@ def test_every_datagram_both_ways_has_its_row(page: str) -> None:
     assert kinds(*asked, protocol.KeepAlive, protocol.Bye, *said) <= named
 
 
-def test_every_match_mode_and_test_mode_has_the_number_that_the_page_says(page: str) -> None:
+def test_every_match_mode_and_test_mode_has_the_documented_number(page: str) -> None:
     rows = re.findall(r"^\| (\d+)(?:, (\d+))? \| `(\w+)`(?:, `(\w+)`)? \|", page, re.MULTILINE)
     said = {int(number): word for row in rows for number, word in zip(row[:2], row[2:], strict=True) if number}
     assert said == {mode.number: mode.value for mode in MatchMode}
@@ -74,7 +74,7 @@ def test_its_command_lines_can_be_typed(page: str, fenced: Callable[[str, str], 
         assert [word for word in words if word.startswith("--") and word not in known] == [], line
 
 
-def test_what_a_program_says_to_the_page_s_server_can_be_said(page: str) -> None:
+def test_the_documented_messages_of_programs_to_the_server_of_the_page_are_valid(page: str) -> None:
     part = page.partition("## The page")[2].partition("## Coach programs")[0]
     asks = [PAGE_REQUEST.validate_json(line[2:]) for line in part.splitlines() if line.startswith("→ {")]
     assert [ask.deed for ask in asks] == ["action", "action"]
@@ -84,7 +84,10 @@ def test_what_a_program_says_to_the_page_s_server_can_be_said(page: str) -> None
     ("row", "deeds"),
     [
         ("order a side, tests too; drive a robot by hand", ("order", "drive")),
-        ("repair, substitute a robot, have it come back", ("repair", "substitute", "enter")),
+        (
+            "repair, substitute a robot, have it come back, name the robot that a card is for",
+            ("repair", "substitute", "enter", "name_robot"),
+        ),
         ("stop, start, restarts, goals, cards, park, undo, end a half", ("stop", "start", "goal", "undo", "end_half")),
         ("place ball and robots, load scenes, change parameters", ("scene", "parameters")),
         ("play, pause and seek a replay", ("replay",)),

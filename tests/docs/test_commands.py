@@ -1,4 +1,4 @@
-"""The command lines in the documents and in the help are such that somebody could type them."""
+"""The command lines in the documents and in the help are valid."""
 
 import re
 import shlex
@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import typer
 
-from touchline.__main__ import app
+from touchline.command_line import app
 
 ROOT_COMMAND: Any = typer.main.get_command(app)
 

@@ -26,7 +26,7 @@ def test_a_robot_of_zenoh_and_json_alone_answers_every_sight(root: Path, tmp_pat
     key = COMMAND.fill(robot="cyan1")
     count = recording.result.keys[key]
     health = [message for _, message in recording.decoded(HEALTH.key)][-1].robots["cyan1"]
-    last = recording.result.tick  # nobody waits for the answer to the last sight
+    last = recording.result.tick  # no process waits for the answer to the last sight
     answered = sorted({message.answers_tick for _, message in recording.decoded(key)})  # one sent twice has two answers
     assert answered in (list(range(last)), list(range(last + 1)))
     assert (count.lost, count.unstamped, health.invalid, health.missed) == (0, 0, 0, 0)

@@ -1,4 +1,4 @@
-"""The protocol page: as fresh as the code, and what its text says of the code is so."""
+"""The protocol page: generated from this code, and its text agrees with the code."""
 
 import json
 import re
@@ -19,7 +19,7 @@ from schemas.protocol.page import page
 from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server import agent_stats, pace
-from touchline.launch.processes import MatchPlan, ProcessKind, processes_of
+from touchline.launch.processes import MatchPlan, ProcessKind, client_processes
 from touchline.launch.supervisor import AFTER_THE_MATCH
 
 MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))
@@ -63,7 +63,7 @@ def test_every_number_of_a_message_has_a_unit_or_a_meaning(kind: type[Message]) 
         assert [row.name for row in rows(part, str) if row.type.startswith("number") and not row.meaning] == []
 
 
-def test_limits_and_choices_are_said_in_words() -> None:
+def test_limits_and_choices_are_described_in_words() -> None:
     said = {row.name: row.type for row in rows(Command, lambda kind: kind.__name__)}
     assert said["answers_tick"] == "whole number (at least 0)"
     assert said["kick"] == "Kick or null"
@@ -73,7 +73,9 @@ def test_limits_and_choices_are_said_in_words() -> None:
 def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> None:
     config = load_match(None, {"teams.cyan.command": ["./robot"]})
     robot = next(
-        one for one in processes_of(MatchPlan(config, DEFAULT_ENDPOINT, Path(), None)) if one.kind is ProcessKind.AGENT
+        one
+        for one in client_processes(MatchPlan(config, DEFAULT_ENDPOINT, Path(), None, launch_token="secret"))
+        if one.kind is ProcessKind.AGENT
     )
     said = set(re.findall(r"^\| `(TOUCHLINE_\w+)` \|", text, re.MULTILINE))
     assert said == {name for name in robot.environment if name.startswith("TOUCHLINE_")}

@@ -1,4 +1,4 @@
-"""What the page on recordings says of files: its lines of Python are run, on a recording of a match."""
+"""The page on recordings: its Python examples run on a recording of a match."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The page on the rules is what the rules and rule books say now, and says of each what it has to say."""
+"""The page on the rules is generated from this code, and documents each rule completely."""
 
 from dataclasses import fields
 from pathlib import Path
@@ -18,7 +18,7 @@ def test_the_page_is_fresh():
 
 
 @pytest.mark.parametrize("rule", ALL, ids=lambda rule: rule.name)
-def test_every_rule_says_its_section_what_it_measures_and_what_it_does_not_judge(rule):
+def test_every_rule_documents_its_section_its_measures_and_what_it_does_not_judge(rule):
     text, labelled = parts_of_rule(rule)
     assert text and tuple(labelled) == LABELS and all(labelled.values())
     assert f"### `{rule.name}`" in TEXT and labelled["Measures"] in TEXT
@@ -33,7 +33,7 @@ def test_every_rule_has_the_name_of_its_file_and_numbers_that_exist(rule):
 
 
 @pytest.mark.parametrize("module", PROCEDURES, ids=lambda module: module.__name__)
-def test_what_happens_around_the_rules_is_told_in_the_same_way(module):
+def test_procedures_around_the_rules_are_documented_in_the_same_way(module):
     text, labelled = parts_of_module(module)
     assert text in TEXT and tuple(labelled) == LABELS and all(sentence in TEXT for sentence in labelled.values())
 

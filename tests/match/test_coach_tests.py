@@ -1,4 +1,4 @@
-"""Test mode in the simulated world: each test does what its name says, in every team that ships.
+"""Test mode in the simulated world: each test performs its task, in every shipped team.
 
 The test modes are those of the NuBot coach, by name. The robots of the paper's first scene show them, with the
 noise of their profile, beside rivals that stand still.
@@ -21,7 +21,7 @@ from touchline.play import InProcessMatch
 
 BRAINS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
 UNDISTURBED = {"rules": "friendly", "referee.mode": "manual"}
-"""Nobody stops the game for a ball that lies still."""
+"""No rule stops the game for a ball that lies still."""
 NEAR = 0.2
 """m; how near to its point a robot comes to rest, with the noise of its profile."""
 
@@ -212,7 +212,7 @@ def test_a_lob_goes_over_a_robot_in_the_way_into_the_goal(practice: Practice) ->
     assert max(tick.world["ball"]["z"] for tick in practice.ticks) > 0.5
 
 
-def test_a_shot_goes_to_its_point_as_fast_as_was_said(practice: Practice) -> None:
+def test_a_shot_reaches_its_point_at_the_ordered_speed(practice: Practice) -> None:
     practice.order("shoot", robot_a="cyan3", point_b=(0.0, 6.5), kick_speed=3.0)
     assert practice.run(lambda: practice.has_ball("cyan3"))
     assert practice.run(lambda: not practice.has_ball("cyan3"))
@@ -239,7 +239,7 @@ def test_another_order_begins_anew(practice: Practice) -> None:
         assert practice.run(lambda: practice.has_ball("cyan2"))
 
 
-def test_no_robot_is_faster_than_the_order_says(practice: Practice) -> None:
+def test_no_robot_exceeds_the_ordered_top_speed(practice: Practice) -> None:
     practice.order("move", robot_a="cyan2", point_a=(-5.0, -4.0), avoid=True, max_speed=0.6)
     practice.play(4.0)
     speeds = [

@@ -55,7 +55,7 @@ RUBBISH = {
 
 
 class Story:
-    """What is done to the match, and what was heard of it; ticks are those at which the host was heard to say so."""
+    """Faults injected into the match, and the messages received; ticks are those of the host's messages."""
 
     def __init__(self, program, listener):
         self.program, self.heard = program, listener
@@ -78,15 +78,15 @@ class Story:
         self.at_bad_messages = self.heard.tick
 
     def crashes(self):
-        self.program.says("cyan2 ended with status 1; not started again")
-        self.program.says("silent: cyan2")
+        self.program.wait_for_error("cyan2 failed at its first sight; not started again")
+        self.program.wait_for_error("silent: cyan2")
 
     def killed(self):
         self.heard.update()
         before = self.heard.robot("cyan3").answers
         os.kill(self.program.process("cyan3"), signal.SIGKILL)
         self.heard.until(lambda heard: heard.silences("cyan3"), "cyan3 falling silent")
-        self.program.says("cyan3 was ended by SIGKILL; started again (1 of 3)")
+        self.program.wait_for_error("cyan3 was ended by SIGKILL; started again (1 of 3)")
         self.heard.until(
             lambda heard: heard.robot("cyan3").answering and heard.robot("cyan3").answers > before + 100,
             "answers of the new cyan3",
@@ -136,7 +136,7 @@ def recording(story, folder):
 
 @pytest.fixture(scope="module")
 def inputs(recording):
-    """Tick → robot → what it was told."""
+    """Tick → robot → its input."""
     return {applied.tick: applied.inputs for _, applied in recording.decoded("host/applied") if applied.tick > 0}
 
 
@@ -146,7 +146,7 @@ def worlds(recording):
 
 
 def silences(recording, robot):
-    """Ticks at which a robot was said to fall silent and to answer, in turn."""
+    """Ticks at which a robot was reported silent and answering, in turn."""
     events = [event for _, event in recording.decoded("game/event") if event.kind == "agent" and event.robot == robot]
     assert [("does not" in event.text) for event in events] == [place % 2 == 0 for place in range(len(events))]
     return [event.tick for event in events]
@@ -170,7 +170,7 @@ def test_ctrl_c_ends_all_processes_soon_with_status_130(story, is_running):
     assert [pid for pid in story.processes if is_running(pid)] == []
 
 
-def test_ctrl_c_leaves_a_finished_recording_and_says_where(recording, story, folder):
+def test_ctrl_c_leaves_a_finished_recording_and_prints_its_path(recording, story, folder):
     assert recording.complete
     assert recording.result.ended in (EndReason.HOST_GONE, EndReason.STOPPED)
     assert "touchline: match interrupted; see m.mcap" in story.program.err
@@ -212,13 +212,15 @@ def test_bad_messages_are_counted_and_ignored(story, inputs):
 
 def test_a_crashing_agent_is_started_again_three_times_and_reported_with_its_error(story):
     lines = story.program.err.splitlines()
-    for outcome in ("started again (1 of 3)", "started again (2 of 3)", "started again (3 of 3)", "not started again"):
-        place = lines.index(f"cyan2 ended with status 1; {outcome}")
+    endings = ["ended with status 1; started again (1 of 3)"]
+    endings += [f"failed at its first sight; started again ({number} of 3)" for number in (2, 3)]
+    for ending in (*endings, "failed at its first sight; not started again"):
+        place = lines.index(f"cyan2 {ending}")
         log = "\n".join(lines[place + 1 : place + 6])
         assert "mind.py" in log
         assert "ZeroDivisionError: float division by zero" in log
         assert "act raised at tick" in log
-    assert lines.count("cyan2 ended with status 1; not started again") == 1
+    assert lines.count("cyan2 failed at its first sight; not started again") == 1
 
 
 def test_the_robot_of_a_crashed_agent_rests_from_then_on(inputs, worlds, story):
@@ -269,5 +271,5 @@ def test_no_other_robot_missed_a_tick_meanwhile(story):
 
 def test_a_recorder_that_stood_still_for_a_moment_has_lost_nothing(recording):
     lost = {key: count.lost for key, count in recording.result.keys.items() if count.lost}
-    lost.pop("robot/magenta1/command", None)  # what its agent says first after its stop may go to a link that is gone
+    lost.pop("robot/magenta1/command", None)  # its agent's first message after its stop may be lost with the old link
     assert lost == {}

@@ -67,13 +67,13 @@ def against(start, folder, name, agent):
     return program.status(), json.loads(program.out)
 
 
-def test_the_brain_that_played_says_again_what_it_said(played, start, folder):
+def test_the_brain_that_played_repeats_its_commands(played, start, folder):
     status, said = against(start, folder, "same", "cyan2=robot_agent.teams.simple:Simple")
     assert (status, said["sights"], said["different"], said["first"]) == (0, "recorded", 0, None)
     assert said["compared"] > 150
 
 
-def test_another_brain_is_told_where_it_would_have_said_something_else(played, start, folder):
+def test_the_first_differing_command_of_another_brain_is_reported(played, start, folder):
     status, said = against(start, folder, "nubot", "cyan2=robot_agent.teams.nubot:NuBot")
     assert status == 1
     assert 0 < said["different"] <= said["compared"]

@@ -33,7 +33,7 @@ class Marked:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
 """
 WITHOUT = """
-import touchline.__main__, coach_gateway.process, robot_agent.process
+import touchline.command_line, coach_gateway.process, robot_agent.process
 import recordings.recorder.process, sim_host.server.process
 try:
     import pybullet
@@ -72,7 +72,7 @@ class Story:
 
         second_host = self.host("second", 2)
         again = listen("apart", endpoint, second_host)
-        again.until(lambda one: one.said["game/state"] and one.said["game/state"][-1].phase == "full_time", "full time")
+        again.until(lambda one: one.logs["game/state"] and one.logs["game/state"][-1].phase == "full_time", "full time")
         self.second_healths, self.second_worlds = again.healths, again.worlds
         again.bus.close()
         self.second_status = second_host.status()

@@ -15,7 +15,7 @@ BY_HAND = (
     ("scene", "add", "magenta7", "magenta", "10", "-6", "--type", "slow"),
     ("scene", "reset"),
 )
-"""Bodies are set down in corners, where nobody is however long the commands take."""
+"""Bodies are placed in corners, which stay empty however long the commands take."""
 
 
 @pytest.fixture(scope="module")

@@ -15,13 +15,15 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
-from robot_agent.contract import Briefing, load_brain
+from coach_gateway.match.team_obstacles import team_obstacles
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
 from robot_agent.teams.nubot import NuBot
 from robot_agent.teams.nubot.machine import State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from schemas.bus.contract import Bus, PendingReply
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.config.scene import Scene, load_scene
 from schemas.game import ActionName, Phase, TeamPhase
@@ -47,7 +49,7 @@ class Experiment:
         brains = {f"teams.{side}.brain": "robot_agent.teams.nubot:NuBot" for side in Side}
         config = load_match(None, {"scene": scene, "referee.mode": "manual", **brains, **flags})
         self.scene: Scene = load_scene(scene)
-        medium = Medium()
+        medium = SharedState()
         coach = self._attended(medium.open_bus(config.name, SteppedClock()))
         self.client, self.seen = HostClient(coach), MatchFollower(coach, details=True)
         self.client.orders.update()
@@ -87,7 +89,7 @@ class Experiment:
         return False
 
     def _attended(self, coach: Bus) -> Bus:
-        """A seat whose questions are answered in the next tick: how long asking takes changes nothing of the match."""
+        """A bus whose queries are answered in the next tick: their duration does not change the match."""
         query = coach.query
 
         def query_and_tick(*words: Any, **more: Any) -> PendingReply:
@@ -170,6 +172,20 @@ def test_one_the_coachs_window_shows_every_model_at_its_place(static: Experiment
         assert (ball[0] - row) * 2.0 * cell_m == pytest.approx(robot.y, abs=2.5 * cell_m)
 
 
+def test_one_the_coach_sees_the_rivals_where_its_robots_believe_them(static: Experiment) -> None:
+    """The coach of a UDP program has no truth: it knows what its robots have sent."""
+    static.order(mode=CoachMode.HOLD)
+    static.play(lambda: False, 1.0)
+    static.seen.update()
+    assert static.seen.world is not None
+    beliefs = {name: belief for name, belief in static.seen.beliefs.items() if name in CYAN}
+    found = team_obstacles(beliefs, static.seen.world.time)
+    assert len(found) == len(RIVALS)
+    for rival in RIVALS:
+        nearest = min(found, key=lambda one: math.dist((one.x, one.y), static.where(rival)))
+        assert math.dist((nearest.x, nearest.y), static.where(rival)) < 0.3
+
+
 def test_one_the_coach_sees_the_models_move_as_they_do(static: Experiment) -> None:
     static.order(mode=CoachMode.TEST, test=CoachTest.MOVE, robot_a="cyan2", point_a={"x": -4.0, "y": 4.0})
     for _ in range(10):
@@ -205,7 +221,7 @@ COMMANDS = {
     ActionName.PENALTY: (Side.MAGENTA, Phase.PENALTY, TeamPhase.THEIR_PENALTY),
     ActionName.DROP_BALL: (None, Phase.DROP_BALL, TeamPhase.DROP_BALL),
 }
-"""The coach's basic commands: for whom, the phase they lead to, and that phase as cyan's robots are told of it."""
+"""The coach's basic commands: side, resulting phase, and that phase in the sights of cyan's robots."""
 
 
 @pytest.mark.parametrize("action", COMMANDS)
@@ -219,14 +235,14 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     assert static.seen.state is not None and static.seen.state.phase is phase
     if phase is Phase.STOPPED:
         return
-    assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as nobody stands there
+    assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as no robot stands there
     reply = static.client.act(RefereeAction(action=ActionName.START))
     assert reply.accepted, reply.reason
     assert static.play(lambda: all(static.sights[name].game.running for name in CYAN), 1.0)
 
 
 @pytest.mark.parametrize("robot", CYAN)
-def test_two_each_robot_moves_as_the_state_machine_of_the_real_code_says(static: Experiment, robot: str) -> None:
+def test_two_each_robot_moves_as_in_the_state_machine_of_the_real_code(static: Experiment, robot: str) -> None:
     """Figure 5 of the paper with the constants of its code."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a=robot)
     began = len(static.trace)

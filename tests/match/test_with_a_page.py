@@ -6,6 +6,7 @@ import re
 import signal
 import socket
 import time
+import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -32,7 +33,7 @@ size = 1
 
 
 class Page:
-    """An open page that reads what it is told."""
+    """An open page that reads its messages."""
 
     def __init__(self, socket: ClientConnection, token: str) -> None:
         self.socket = socket
@@ -40,7 +41,7 @@ class Page:
         self._kept: list[dict[str, Any]] = []
 
     def wait_for_match(self) -> None:
-        """Until it is told what is played; that welcome is still to be heard."""
+        """Read until the welcome of a match, which is left to be read."""
         while (welcome := self.hear("welcome"))["setup"] is None:
             pass
         self._kept.append(welcome)
@@ -71,7 +72,7 @@ class Page:
 
 @contextmanager
 def page_at(address: str) -> Iterator[Page]:
-    """A page opened at the address that was said; like any page it comes again when it is sent away."""
+    """A page opened at the printed address; like any page it reconnects when it is disconnected."""
     origin, _, token = address.partition("/#token=")
     deadline = time.monotonic() + LIMIT
     while True:
@@ -92,7 +93,7 @@ def page_at(address: str) -> Iterator[Page]:
 
 
 def said_address(program: Any) -> str:
-    """Where a program says the referee's page is."""
+    """The address of the referee's page that a program prints."""
     deadline = time.monotonic() + LIMIT
     while True:
         found = re.search(r"(http://127\.0\.0\.1:\d+/#token=\S+)", program.out + program.err)
@@ -108,6 +109,13 @@ def is_served(address: str) -> bool:
         return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
+def fetched(address: str, path: str = "") -> str:
+    """A file of the page's server."""
+    origin = address.partition("#")[0]
+    with urllib.request.urlopen(f"{origin}{path}", timeout=LIMIT) as answer:
+        return str(answer.read().decode())
+
+
 @pytest.fixture
 def config(tmp_path: Path) -> Path:
     file = tmp_path / "small.toml"
@@ -115,7 +123,7 @@ def config(tmp_path: Path) -> Path:
     return file
 
 
-def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_and_leaves_nothing(
+def test_a_match_with_a_page_prints_its_address_survives_a_crash_of_the_server_and_leaves_no_process(
     start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
 ) -> None:
     match = start(
@@ -243,7 +251,7 @@ PathFinder.find_spec = lambda name, *more: None if name.partition(".")[0] in gon
 """As `sitecustomize`, makes the packages of the extra `coach` such as are not installed."""
 
 
-def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on(
+def test_without_the_extra_a_warning_names_the_remedy_and_the_match_continues(
     start: Callable[..., Any], config: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "sitecustomize.py").write_text(NO_WEB)
@@ -267,7 +275,9 @@ def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on
 def test_a_person_runs_a_whole_match_from_the_page(start: Callable[..., Any], config: Path, tmp_path: Path) -> None:
     words = ("--referee", "manual", "--web", "--web-port", "0", "--listen", with_free_port("tcp/127.0.0.1:0"), "--json")
     match = start("touchline", "match", str(config), *words, folder=tmp_path)
-    with page_at(said_address(match)) as page:
+    address = said_address(match)
+    assert "<title>" in fetched(address)  # at once: it is served when it is printed
+    with page_at(address) as page:
         page.hear("frame")
         for action in (
             {"action": "kick_off", "side": "cyan"},
@@ -281,6 +291,12 @@ def test_a_person_runs_a_whole_match_from_the_page(start: Callable[..., Any], co
             {"action": "end_game"},
         ):
             page.until_accepted("action", action=action)
+        kept = page.hear("result")
+        assert "--web" in kept["replay"] and kept["statistics"] is None  # they take a while
+        kept = page.hear("result")
+        assert ["goals", "1", "0"] in kept["figures"]
+        assert 'id="match">{"title":' in fetched(address, kept["statistics"])
+        assert match.popen.poll() is None  # the page is still open
     assert match.status() == 0
     result = json.loads(match.out)
     assert result["score"] == {"cyan": 1, "magenta": 0}

@@ -54,7 +54,7 @@ def test_a_port_in_use_is_refused_in_one_line(start, tmp_path):
         other.bind(("127.0.0.1", 0))
         other.listen()
         endpoint = f"tcp/127.0.0.1:{other.getsockname()[1]}"
-        refused(start("touchline", "match", "--listen", endpoint, folder=tmp_path), f"{endpoint} cannot be listened on")
+        refused(start("touchline", "match", "--listen", endpoint, folder=tmp_path), f"{endpoint} is in use")
     assert not (tmp_path / "runs").exists()
 
 

@@ -1,6 +1,6 @@
-"""A match made by hand on the in-process bus, for the recorder to record: every message is built here."""
+"""Recordings of matches on the in-process bus."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator, Sequence
 from pathlib import Path
 from threading import Event
 from typing import Any
@@ -9,16 +9,17 @@ import pytest
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.reading.recording import Recording
+from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import ONE_FILE, FileLimits
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.game import Phase, Score
 from schemas.messages.command import Command
+from schemas.messages.game import RefereeAction
 from schemas.messages.sight import Sight
 from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP
@@ -41,11 +42,12 @@ def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
         limits: FileLimits = ONE_FILE,
         selection: KeySelection = EVERYTHING,
     ) -> RecorderRig:
-        medium = Medium()
+        medium = SharedState()
         wall = SteppedClock()
         host_bus, robot_bus = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
         bus = medium.open_bus("friendly", wall)
         path = path or tmp_path / "match.mcap"
+        path.parent.mkdir(exist_ok=True)
         loss_counts = LossCounts()
         sink = open_sink(path, wall, "friendly", loss_counts, limits)
         host = FakeHost(host_bus, robot_bus, make_setup())
@@ -80,13 +82,13 @@ def recorded(rig: RecorderRig) -> Recording:
 
 @pytest.fixture
 def make_fake_host() -> Callable[[Bus, Bus], FakeHost]:
-    """Seats a hand-made host on a bus of the test's own."""
+    """Makes a fake host on a bus of the test."""
     return lambda bus, robots: FakeHost(bus, robots, make_setup())
 
 
 @pytest.fixture
 def wait_until_written() -> Callable[[Any], None]:
-    """Waits until what a recorder has handed on is in its file."""
+    """Waits until the messages of a recorder are in its file."""
 
     def wait(rig) -> None:
         done = Event()
@@ -104,12 +106,16 @@ def record_match(
     between: Callable[[Simulation], None] = lambda _: None,
     limits: FileLimits = ONE_FILE,
     viz: bool = True,
+    actions: Callable[[Simulation], Sequence[RefereeAction]] = lambda _: (),
+    silent: Callable[[Simulation], Container[str]] = lambda _: (),
+    refbox: Callable[[Simulation], bool] = lambda _: False,
 ) -> None:
     """Play a real match with the teams that ship, in this process and without a network, and record it.
 
-    `between` is called before each tick, for what operators do.
+    `between` is called before each tick, for what operators do, `actions` for what people request of the referee, and
+    `silent` for the robots whose agents do not answer, `refbox` for whether a league's referee box is connected.
     """
-    medium = Medium()
+    medium = SharedState()
     host_bus, bus = medium.open_bus(config.name, SteppedClock()), medium.open_bus(config.name, SteppedClock())
     table, server = InProcessMatch(config), host_bus.serve(SETUP)
     simulation = table.simulation
@@ -144,7 +150,9 @@ def record_match(
         }
         for name, command in said.items():
             commands[name].put(command)
-        tick = simulation.step(said)
+        quiet = silent(simulation)
+        answers = {name: command for name, command in said.items() if name not in quiet}
+        tick = simulation.step(answers, actions(simulation), silent=quiet, refbox=refbox(simulation))
     batches.send()
     simulation.close()
     host_bus.close()
@@ -153,7 +161,7 @@ def record_match(
 
 @pytest.fixture(scope="session")
 def match_recorder() -> Callable[..., None]:
-    """Records any match in this process, as `record_match` says."""
+    """Records any match in this process; see `record_match`."""
     return record_match
 
 

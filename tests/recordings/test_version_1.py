@@ -15,12 +15,12 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from recordings.viz.drawing import READS, Drawing
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.process.clock import SteppedClock
 from schemas.topics import BELIEF, COMMAND, EVENT, SETUP, STATE, WORLD
 from schemas.wire.message import VERSION, BadMessageError
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.verify.resimulate import verify
 
 FILE = Path(__file__).parent / "data" / "version_1.mcap"
@@ -42,7 +42,8 @@ def test_info_has_its_facts() -> None:
     facts = {line[:13].strip(): line[13:].strip() for line in lines if line}
     assert facts["match"] == "version_one"
     assert facts["score"] == "1 : 0"
-    assert facts["duration"] == "16.18 s simulated, 810 ticks"
+    assert facts["duration"] == "16.18 s simulated, from 0.00 to 16.18 s"
+    assert facts["last tick"] == "809 at 16.18 s"
     assert facts["messages"] == "5553, 0 lost, 0 sent before it began"
 
 
@@ -107,7 +108,7 @@ def test_a_recording_that_was_cut_off_is_summarized(recording: Recording, tmp_pa
 @pytest.fixture
 def replayed(recording: Recording) -> tuple[InProcessBus, ReplayHost]:
     """A reader on the bus, and the host of a replay as fast as possible."""
-    medium, clock = Medium(), SteppedClock()
+    medium, clock = SharedState(), SteppedClock()
     opened = Replay(ReplaySettings(FILE, rate=None))
     host = ReplayHost(
         medium.open_bus("again", clock), recording.manifest.setup, lambda **more: opened.player(clock, **more)

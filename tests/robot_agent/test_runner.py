@@ -1,7 +1,12 @@
+import json
+from pathlib import Path
+
 import pytest
 
-from robot_agent.runner import BrainError, Runner, ask_setup, serve
-from schemas.bus.in_process_bus import Medium
+from robot_agent.brain_error import BrainError
+from robot_agent.runner import Runner, ask_setup, serve
+from robot_agent.settings import FIRST_SIGHT_FAILED
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.process.clock import SteppedClock
@@ -26,7 +31,7 @@ class Raising:
 
 @pytest.fixture
 def seats():
-    medium = Medium()
+    medium = SharedState()
     return medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
 
 
@@ -132,7 +137,7 @@ class Impatient(SteppedClock):
 @pytest.fixture
 def stage(setup, monkeypatch):
     """A host that answers every question for the setup at once, and a robot that never sleeps."""
-    medium = Medium()
+    medium = SharedState()
     host, robot = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", Impatient())
     host.declare_alive("host", "host")
     server = host.serve(SETUP)
@@ -147,23 +152,89 @@ def stage(setup, monkeypatch):
     return host, robot
 
 
-def test_a_brain_that_raises_ends_the_process_with_status_1_and_its_traceback(stage, sight_of, capsys, monkeypatch):
+@pytest.mark.parametrize(("answered", "status"), [(0, FIRST_SIGHT_FAILED), (3, 1)])
+def test_a_brain_that_raises_ends_the_process_with_its_traceback(
+    stage, sight_of, capsys, monkeypatch, answered, status
+):
     host, robot = stage
     sights = host.publisher(SIGHT, robot="cyan2")
-    monkeypatch.setattr(robot, "declare_alive", lambda kind, name: sights.put(sight_of(9)))
-    assert serve(robot, lambda setup: Raising(), "cyan2", 1.0) == 1
-    said = capsys.readouterr().err
-    assert "no ball, no plan" in said and "act raised at tick 9" in said
-    assert said.splitlines()[-1] == "act raised at tick 9: ZeroDivisionError: no ball, no plan"
-    assert "in _think" not in said  # the last lines of a log belong to the brain's own code
+    monkeypatch.setattr(robot, "declare_alive", lambda kind, name: sights.put(sight_of(9 - answered)))
+    commands = host.subscribe(COMMAND)
+
+    class Late(Raising):
+        def act(self, sight):
+            if sight.tick == 9:
+                return super().act(sight)
+            sights.put(sight_of(sight.tick + 1))
+            return Command(answers_tick=sight.tick)
+
+    assert serve(robot, lambda setup: Late(), "cyan2", 1.0) == status
+    assert len(list(iter(commands.receive, None))) == answered
+    report = capsys.readouterr().err
+    place = place_in(Raising.act, 1)
+    assert report.splitlines()[-1] == f"act raised at tick 9 {place}: ZeroDivisionError: no ball, no plan"
+    assert report.count("no ball, no plan") == 2  # in the source line, and in the last one
+    assert "in _think" not in report  # the traceback begins with the brain's own code
 
 
-def test_a_brain_that_returns_none_is_reported_in_one_line(seats, sight_of):
-    _, robot = seats
-    runner = Runner(robot, type("Silent", (), {"act": lambda self, sight: None})(), "cyan2")
+def failure_of(seats, act, sight):
+    """The report of a brain with this function as `act`."""
+    brain = type("Some", (), {"act": act})()
     with pytest.raises(BrainError) as raised:
-        runner.answer(sight_of(4))
-    assert raised.value.report() == "act returned None at tick 4; return a Command\n"
+        Runner(seats[1], brain, "cyan2").answer(sight)
+    return raised.value.report()
+
+
+def place_in(act, line=0):
+    """The place of a line of a function, counted from its first, as messages name it."""
+    file = Path(__file__).relative_to(Path.cwd()) if Path(__file__).is_relative_to(Path.cwd()) else Path(__file__)
+    return f"({file}, line {act.__code__.co_firstlineno + line})"
+
+
+def test_a_brain_that_returns_none_is_reported_in_one_line_with_its_place(seats, sight_of):
+    def act(self, sight):
+        return None
+
+    assert failure_of(seats, act, sight_of(4)) == f"act returned None at tick 4 {place_in(act)}; return a Command\n"
+
+
+@pytest.mark.parametrize(("speed", "shown"), [(float("nan"), "nan"), (100.0, "100.0"), ("fast", "'fast'")])
+def test_an_invalid_drive_is_reported_in_one_line_with_its_place_and_the_valid_range(seats, sight_of, speed, shown):
+    def act(self, sight):
+        return Command(answers_tick=sight.tick, drive=Drive(vx=speed))
+
+    fault = f"drive.vx is {shown}; m/s from -20 to 20"
+    assert failure_of(seats, act, sight_of(4)) == f"act failed at tick 4 {place_in(act, 1)}: {fault}\n"
+
+
+def test_an_exception_of_a_library_is_reported_with_the_brains_line_that_called_it(seats, sight_of):
+    def act(self, sight):
+        return json.loads("no")
+
+    report = failure_of(seats, act, sight_of(4))
+    last = report.splitlines()[-1]
+    assert last.startswith(f"act raised at tick 4 {place_in(act, 1)}: JSONDecodeError: Expecting value")
+    assert "in raw_decode" in report
+
+
+def test_the_cause_of_an_exception_is_reported_too(seats, sight_of):
+    def act(self, sight):
+        try:
+            return {}["ball"]
+        except KeyError as error:
+            raise ValueError("no ball") from error
+
+    report = failure_of(seats, act, sight_of(4))
+    assert "KeyError: 'ball'" in report
+    assert report.splitlines()[-1] == f"act raised at tick 4 {place_in(act, 4)}: ValueError: no ball"
+
+
+def test_a_brain_that_ends_its_process_is_reported_as_one_that_raises(seats, sight_of):
+    def act(self, sight):
+        raise SystemExit(0)
+
+    report = failure_of(seats, act, sight_of(4))
+    assert report.splitlines()[-1] == f"act raised at tick 4 {place_in(act, 1)}: SystemExit: 0"
 
 
 def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, sight_of, monkeypatch):
@@ -172,8 +243,8 @@ def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, 
     built = []
 
     def host_is_replaced(kind, name):
-        host.medium.count_token("friendly", ("friendly/host", "host"), -1)
-        host.medium.count_token("friendly", ("friendly/host", "host"), +1)
+        host.shared_state.count_token("friendly", ("friendly/host", "host"), -1)
+        host.shared_state.count_token("friendly", ("friendly/host", "host"), +1)
         sights.put(sight_of(0))
 
     def build(setup):

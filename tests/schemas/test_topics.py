@@ -35,7 +35,7 @@ def test_nothing_that_robots_read_every_tick_makes_the_host_wait() -> None:
     assert TOPICS["sight"].delivery is Delivery.NEWEST
 
 
-def test_every_topic_says_what_it_is_for_and_who_reads_it() -> None:
+def test_every_topic_has_a_purpose_and_readers() -> None:
     for topic in TOPICS.values():
         assert topic.description and topic.readers and topic.rate
         assert (topic.delivery is Delivery.QUERY) == (topic.reply is not None)

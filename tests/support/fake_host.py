@@ -1,4 +1,4 @@
-"""A host on the in-process bus that publishes what a test has it publish, and notes what it is asked for."""
+"""A host on the in-process bus that publishes messages on demand and keeps the requests it received."""
 
 import asyncio
 import threading
@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from schemas.bus.contract import Bus, Publisher, Query
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
@@ -29,11 +29,11 @@ Answer = Callable[[Any], WireMessage]
 
 
 class FakeHost:
-    """Answers its setup, accepts every action, and publishes nothing by itself."""
+    """Replies with its setup, accepts every action, and publishes only what a test demands."""
 
     def __init__(
         self,
-        medium: Medium,
+        medium: SharedState,
         config: MatchConfig | None = None,
         answers: Mapping[Topic, Answer] | None = None,
         *,
@@ -41,7 +41,7 @@ class FakeHost:
         clock: Clock | None = None,
         in_threads: bool = False,
     ) -> None:
-        """`answers` replies to further topics, or otherwise than this host would.
+        """`answers` has the replies to further topics, or replaces those of this host.
 
         With `in_threads`, each topic is answered in a thread of its own; otherwise `serve` answers in an event loop.
         """
@@ -108,22 +108,22 @@ class FakeHost:
         self._publishers[key].put(message)
 
     def say(self, **changes: Any) -> None:
-        """The game goes on to another state."""
+        """Publish the next game state."""
         tick = self.state.tick + 1
         self.state = self.state.model_copy(update={"tick": tick, "time": tick * 0.02, **changes})
         self.put(STATE, self.state)
 
     def tell(self, text: str) -> None:
-        """Something happens."""
+        """Publish an event."""
         moment = {"tick": self.state.tick, "time": self.state.time, "clock": 0.0}
         self.put(EVENT, GameEvent(**moment, kind=EventKind.ACTION, rule="test", text=text))
 
     def happen(self, tick: int, text: str) -> None:
-        """Something happens in a tick."""
+        """Publish an event of a tick."""
         self.put(EVENT, make_event(tick, text))
 
     def show(self, **changes: Any) -> World:
-        """A tick of the world: every robot on a spot of its own, facing its opponents' goal."""
+        """Publish a world in which every robot has its own place and faces its opponents' goal."""
         robots = {
             name: make_robot(
                 -side.attack(1) * (1.0 + number),
@@ -158,6 +158,7 @@ class FakeHost:
             self.put(BELIEF, Belief(**at, robot=robot, radio=Radio(role="striker")), side=side.value, robot=robot)
         self.put(WORLD, make_world(tick, (tick, 0.0)))
 
-    def stand(self, side: Side, order: CoachOrder, **acknowledged: bool) -> None:
-        """An order is in force."""
-        self.put(ACTIVE_ORDER, ActiveOrder(tick=1, time=0.02, order=order, acknowledged=acknowledged), side=side.value)
+    def stand(self, side: Side, order: CoachOrder, refused: dict[str, str] | None = None, **acknowledged: bool) -> None:
+        """Publish an active order."""
+        active = ActiveOrder(tick=1, time=0.02, order=order, acknowledged=acknowledged, refused=refused or {})
+        self.put(ACTIVE_ORDER, active, side=side.value)

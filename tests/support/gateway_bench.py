@@ -8,7 +8,7 @@ from typing import Any
 
 from coach_gateway.match.live import LiveMatch
 from robot_agent.runner import Runner
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
@@ -22,7 +22,7 @@ from sim_host.server.pace import Lockstep
 from support.fake_host import MATCH, FakeHost
 
 LIMIT_S = 90.0
-"""Only what never comes fails: a match that is stepped beside the bridges may take long on a busy machine."""
+"""Patience in s, longer than any wait on a busy machine: a test fails only if something never happens."""
 
 
 async def until(condition: Callable[[], Any], what: str = "") -> None:
@@ -38,7 +38,7 @@ class Attentive:
 
     def __init__(self) -> None:
         self.orders: list[CoachOrder] = []
-        """All that it was given, in order."""
+        """All received orders, in order."""
 
     def act(self, sight: Sight) -> Command:
         if sight.order is not None and (not self.orders or self.orders[-1] != sight.order):
@@ -48,9 +48,9 @@ class Attentive:
 
 
 class Pitch:
-    """A real host with a robot agent on every robot, stepped as fast as it goes."""
+    """A real host with a robot agent on every robot, stepped as fast as possible."""
 
-    def __init__(self, medium: Medium, config: MatchConfig) -> None:
+    def __init__(self, medium: SharedState, config: MatchConfig) -> None:
         clock = SteppedClock()
         self.host = Host(config, medium.open_bus(MATCH, clock))
         self.brains = {name: Attentive() for side in Side for name in config.robots(side)}
@@ -88,7 +88,7 @@ class Bench:
     live: LiveMatch
     stop: asyncio.Event = field(default_factory=asyncio.Event)
     tasks: list[asyncio.Task[None]] = field(default_factory=list)
-    said: list[str] = field(default_factory=list)
+    logged: list[str] = field(default_factory=list)
     """Lines that services logged."""
 
     def start(self, service: Any) -> asyncio.Task[None]:
@@ -103,7 +103,7 @@ class Bench:
 @asynccontextmanager
 async def opened(**teams: Any) -> AsyncIterator[Bench]:
     """A bench whose gateway knows the match; the arguments are overrides of the match file."""
-    medium = Medium()
+    medium = SharedState()
     sizes = {f"teams.{side}.size": 3 for side in Side}
     stage = FakeHost(medium, load_match(None, {**sizes, **teams}))
     bench = Bench(stage, LiveMatch(medium.open_bus(MATCH, WallClock())))
@@ -122,7 +122,7 @@ async def opened(**teams: Any) -> AsyncIterator[Bench]:
 @asynccontextmanager
 async def kicked_off(**words: Any) -> AsyncIterator[Bench]:
     """The same with a real host, and two robots against one; the arguments are overrides of the match file."""
-    medium = Medium()
+    medium = SharedState()
     sizes = {"teams.cyan.size": 2, "teams.magenta.size": 1}
     pitch = Pitch(medium, load_match(None, {**sizes, "pace": "lockstep", "record.wait": False, **words}))
     bench = Bench(pitch, LiveMatch(medium.open_bus(MATCH, WallClock())))

@@ -1,10 +1,11 @@
-"""A host on the in-process bus, with agents, recorders and strangers beside it; time passes in steps."""
+"""A host on the in-process bus, with agents, recorders and other clients; time passes in steps."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import Runner
 from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig
@@ -23,30 +24,41 @@ from sim_host.server.pace import Lockstep
 from support.lossy_medium import LossyMedium
 
 LOOK_S = 0.001
-"""Wall time that passes while the host waits once: nothing depends on it but how often it looks."""
+"""Wall time that passes in each poll of a waiting host."""
 TEAMS = {
     "cyan": {"name": "Cyan", "robots": ["cyan1", "cyan2"]},
     "magenta": {"name": "Magenta", "robots": ["magenta1"]},
 }
-"""Two against one, who all drive ahead."""
+"""Two robots against one; all drive ahead."""
 
 
 class Forward:
-    """Drives ahead, whatever it sees."""
+    """Drives ahead in every sight."""
 
     def act(self, sight: Sight) -> Command:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0))
 
 
+class _SeatClock(SteppedClock):
+    """The clock of another process on the host's machine: it has the same wall time, and its own simulated time."""
+
+    def __init__(self, wall: SteppedClock) -> None:
+        super().__init__()
+        self._wall = wall
+
+    def unix_ns(self) -> int:
+        return self._wall.unix_ns()
+
+
 @dataclass
 class Agent:
-    """One robot's agent on a seat of its own."""
+    """One robot's agent on a bus of its own."""
 
     bus: Bus
     runner: Runner
     frozen: bool = False
     thinks_s: float = 0.0
-    """How long it takes to answer a sight."""
+    """Wall time from a sight to its answer, in s."""
     _thought: tuple[float, Sight] | None = None
 
     def pump(self, now: float) -> None:
@@ -64,17 +76,17 @@ class Agent:
 
 @dataclass
 class Listener:
-    """Keeps what is said on a topic."""
+    """Keeps the messages of a topic."""
 
     receive: Callable[[], ReceivedMessage | None]
 
     def all(self) -> list[Any]:
-        """What was said since this was last asked."""
+        """The messages since the last call."""
         return [received.message() for received in iter(self.receive, None)]
 
 
 class FakeRecorder:
-    """Takes in ticks and tells how far it is, when it is let."""
+    """Reads ticks and reports its progress, unless it is suspended."""
 
     def __init__(self, bus: Bus) -> None:
         self.bus = bus
@@ -96,23 +108,24 @@ class FakeRecorder:
 
 @dataclass
 class HostRig:
-    """A host and all who meet it; whoever is in `idle` is given its turn while the host waits."""
+    """A host and its clients; the functions in `idle` are called while the host waits."""
 
     config: MatchConfig
     medium: LossyMedium = field(default_factory=LossyMedium)
     agents: dict[str, Agent] = field(default_factory=dict)
     idle: list[Callable[[], None]] = field(default_factory=list)
+    launch_token: str | None = None
 
     def __post_init__(self) -> None:
         self.clock = SteppedClock()
         self.outside = self.seat()
         self._applied, self._events, self._health = self.listen(APPLIED), self.listen(EVENT), self.listen(HEALTH)
-        self.host = Host(self.config, self.medium.open_bus(self.config.name, self.clock))
+        self.host = Host(self.config, self.medium.open_bus(self.config.name, self.clock), self.launch_token)
         if isinstance(self.host.pace, Lockstep):
             self.host.pace.step_agents = self._wait
 
     def seat(self) -> Bus:
-        return self.medium.open_bus(self.config.name, SteppedClock())
+        return self.medium.open_bus(self.config.name, _SeatClock(self.clock))
 
     def listen(self, topic: Topic) -> Listener:
         return Listener(self.outside.subscribe(topic).receive)
@@ -124,7 +137,7 @@ class HostRig:
         return agent
 
     def join_all(self) -> None:
-        """Everybody comes, with the brain that the match file names, or driving ahead."""
+        """All agents join, with the brains of the match file; without one they drive ahead."""
         setup = self.host.simulation.setup()
         for side in Side:
             for robot in self.config.robots(side):
@@ -150,22 +163,22 @@ class HostRig:
             self.host.tick()
 
     def inputs(self, robot: str) -> list[AppliedInput]:
-        """What a robot was told in each tick since this was last asked."""
+        """The inputs of a robot in each tick since the last call."""
         return [message.inputs[robot] for message in self._applied.all() if message.inputs]
 
     def health(self) -> Health:
-        """How the host says it is doing, one tick later."""
+        """The health of the host, one tick later."""
         self.pass_time(0.3)
         self.ticks(1)
         health: Health = self._health.all()[-1]
         return health
 
     def silences(self) -> list[str]:
-        """What was said of robots that fell silent and were heard again."""
+        """Texts of the events about agents, on silence and on manual control."""
         return [event.text for event in self._events.all() if event.kind is EventKind.AGENT]
 
     def truth(self, robot: str) -> dict[str, Any]:
-        """Where a robot is, and how fast."""
+        """The pose and the velocity of a robot."""
         truth: dict[str, Any] = self.host.simulation.now.world["robots"][robot]
         return truth
 

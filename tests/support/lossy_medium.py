@@ -1,29 +1,29 @@
-"""A medium that loses messages on the way, as a network does."""
+"""An in-process bus that loses messages, as a network does."""
 
 from dataclasses import dataclass, field
 
 from schemas.bus.contract import Publisher, Stamp
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.process.clock import Clock
 from schemas.topic import Topic
 
 
 @dataclass
 class Losses:
-    """What is lost of one key."""
+    """The lost messages of one key."""
 
     numbers: set[int]
-    """Of the messages that do not arrive, from 1."""
+    """Numbers of the messages that do not arrive, from 1."""
     sent: list[bytes] = field(default_factory=list)
     """All payloads that were sent, lost or not."""
 
 
 @dataclass(eq=False)
-class LossyMedium(Medium):
-    """Loses nothing until it is told to."""
+class LossyMedium(SharedState):
+    """Loses the messages that `lose` names."""
 
     losses: dict[str, Losses] = field(default_factory=dict)
-    """By key below the match."""
+    """Key below the match → its losses."""
 
     def open_bus(self, match: str, clock: Clock) -> InProcessBus:
         return _LossyBus(match, clock, self, self.losses)
@@ -35,7 +35,7 @@ class LossyMedium(Medium):
 
 
 class _LossyBus(InProcessBus):
-    def __init__(self, match: str, clock: Clock, medium: Medium, losses: dict[str, Losses]) -> None:
+    def __init__(self, match: str, clock: Clock, medium: SharedState, losses: dict[str, Losses]) -> None:
         super().__init__(match, clock, medium)
         self._losses = losses
 

@@ -1,4 +1,4 @@
-"""A match made by hand, tick by tick: four robots, ticks of 0.1 s, the ball in play from the second on."""
+"""A scripted match: four robots, ticks of 0.1 s, the ball in play from the second on."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -27,7 +27,7 @@ CORNERS = {"cyan1": (-10.0, 0.0), "cyan2": (-2.0, 3.0), "magenta1": (10.0, 0.0),
 
 
 class MatchScript:
-    """Messages of a match, made tick by tick; what is not said stays as it was."""
+    """Messages of a match, made tick by tick; what is not given keeps its last value."""
 
     def __init__(self) -> None:
         teams = {f"teams.{side}": {"name": f"Team {side}", "size": 2} for side in Side}
@@ -41,7 +41,7 @@ class MatchScript:
         self.ball = (0.0, 0.0)
         self.held_by: str | None = None
         self.episode = 1
-        self.said: dict[str, Any] = {"phase": Phase.PLAY, "running": True}
+        self.game: dict[str, Any] = {"phase": Phase.PLAY, "running": True}
         self.shot()
 
     def shot(
@@ -56,9 +56,9 @@ class MatchScript:
         roster: list[RosterEntry] | None = None,
         moving: dict[str, tuple[float, float]] | None = None,
         off: Iterable[str] = (),
-        **said: Any,
+        **game: Any,
     ) -> None:
-        """One more tick: who touched and kicked, the ball's velocity, events, and what the state says from now on."""
+        """One more tick: touches, kick, velocity of the ball, events, and fields of the game state from now on."""
         self.tick += 1
         time, log_ns = self.tick * TICK, round(self.tick * TICK * 1e9)
         robots = {
@@ -96,11 +96,11 @@ class MatchScript:
         applied = Applied(
             tick=self.tick, time=time, inputs=inputs, placements=placements, robots=roster, chain="00", episode=1
         )
-        told = [GameEvent(tick=self.tick, time=time, clock=time, rule="rule", text="x", **event) for event in events]
-        self.said |= said
-        state = GameState(tick=self.tick, time=time, clock=time, **self.said)
-        news = [state] if said or self.tick == 0 else []
-        self.messages += [(log_ns, message) for message in (*told, *news, world, applied)]
+        calls = [GameEvent(tick=self.tick, time=time, clock=time, rule="rule", text="x", **event) for event in events]
+        self.game |= game
+        state = GameState(tick=self.tick, time=time, clock=time, **self.game)
+        news = [state] if game or self.tick == 0 else []
+        self.messages += [(log_ns, message) for message in (*calls, *news, world, applied)]
 
     def rest(self, ticks: int = 3) -> None:
         """Ticks in which nothing happens."""
@@ -109,7 +109,7 @@ class MatchScript:
 
     def goal(self, side: Side, robot: str | None = None) -> None:
         """A goal, and the stop that comes with it."""
-        score = self.said.get("score", Score()).plus(side)
+        score = self.game.get("score", Score()).plus(side)
         event = {"kind": EventKind.GOAL, "side": side, "robot": robot, "score": score}
         self.shot(events=[event], phase=Phase.STOPPED, running=False, score=score)
 
@@ -118,15 +118,15 @@ class MatchScript:
         self.shot(events=[{"kind": EventKind.BALL_OUT}], phase=Phase.STOPPED, running=False)
 
     def match_ticks(self) -> list[MatchTick]:
-        """What was made so far."""
+        """The ticks so far."""
         return list(match_ticks(self.setup, self.messages))
 
     def figures(self) -> MatchFigures:
-        """What was made so far, in figures."""
+        """The figures of the ticks so far."""
         return self.history()[0]
 
     def history(self) -> tuple[MatchFigures, Tracks, GameHistory]:
-        """The same, with where everybody was and what was being played."""
+        """The same, with the tracks of all bodies and the history of the game."""
         end = self.tick * TICK
         statistics, tracks, history = MatchStatistics(self.setup, 0.0, end), Tracks(self.setup, 0.0, end), GameHistory()
         for match_tick in self.match_ticks():
@@ -135,5 +135,5 @@ class MatchScript:
         return statistics.figures(), tracks, history
 
     def content(self) -> dict[str, Any]:
-        """What was made so far, as a page shows it."""
+        """The content of a page on the ticks so far."""
         return content_of(self.manifest, self.setup, *self.history())

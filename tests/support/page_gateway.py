@@ -1,4 +1,4 @@
-"""The gateway's server of pages, in a thread of its own and on a real port of loopback."""
+"""The gateway's server of pages, in a thread of its own and on a port of loopback."""
 
 import asyncio
 import json
@@ -10,11 +10,11 @@ from coach_gateway.web.binding import bind_page
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.waiting_page import WaitingPage
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.process.clock import WallClock
 
 SOON = 20.0
-"""s; more than anything takes here, so that only what never comes fails a test."""
+"""Patience in s, longer than any wait here: a test fails only if something never happens."""
 TOKENS = {"referee": "the-referee", "cyan": "cyans-coach", "magenta": "magentas-coach"}
 
 
@@ -28,13 +28,16 @@ def tokens_in(folder: Path) -> Path:
 
 
 class Gateway:
-    """The page's server in a thread of its own; without a medium it waits for a host that does not come."""
+    """The page's server in a thread of its own; without `medium` it waits for a host in vain."""
 
-    def __init__(self, medium: Medium | None, settings: WebSettings, tokens: Path | None) -> None:
-        self.said: list[str] = []
+    def __init__(
+        self, medium: SharedState | None, settings: WebSettings, tokens: Path | None, result: Path | None = None
+    ) -> None:
+        self.logged: list[str] = []
         self.binding = bind_page(settings, tokens_of(tokens), tokens)
         self.origin = self.binding.origin
         self.bus = medium.open_bus("friendly", WallClock()) if medium is not None else None
+        self._result = result
         self._stop = asyncio.Event()
         self._thread = threading.Thread(
             target=self._run,
@@ -47,7 +50,7 @@ class Gateway:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
             if self.bus is not None:
-                self.server = WebServer(self.bus, self.binding, self.said.append)
+                self.server = WebServer(self.bus, self.binding, self.logged.append, self._result)
             waiting = WaitingPage(self.binding, "friendly")
             self._ready.set()
             await (waiting if self.bus is None else self.server).serve(self._stop)
@@ -57,6 +60,16 @@ class Gateway:
     @property
     def port(self) -> int:
         return int(self.origin.rpartition(":")[2])
+
+    @property
+    def runs(self) -> bool:
+        """It has not ended by itself."""
+        return self._thread.is_alive()
+
+    def wait(self) -> bool:
+        """Wait until it has ended by itself; whether it has."""
+        self._thread.join(SOON)
+        return not self.runs
 
     def close(self) -> None:
         if not self._thread.is_alive():

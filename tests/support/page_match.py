@@ -5,9 +5,10 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from robot_agent.contract import Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.game import ActionName
 from schemas.messages.command import Command
@@ -39,7 +40,7 @@ class Match:
         """`still` has all robots stand where they are; the other words are those of the match file."""
         content = {"name": "friendly", "seed": 7, "pace": "realtime", "duration": 600.0, "teams": TEAMS, **words}
         self.config = MatchConfig.model_validate(content)
-        self.medium = Medium()
+        self.medium = SharedState()
         self._over = threading.Event()
         self._ear = self.medium.open_bus("friendly", WallClock()).subscribe(EVENT)
         self._events: list[GameEvent] = []

@@ -10,11 +10,11 @@ from schemas.topics import WORLD
 
 @dataclass
 class PlayerRig:
-    """A player, its clock, and what it has said."""
+    """A player, its clock, and its published messages."""
 
     player: Player
     clock: SteppedClock
-    heard: list[RecordedMessage] = field(default_factory=list)
+    published: list[RecordedMessage] = field(default_factory=list)
 
     def run(self, seconds: float, step: float = 0.001) -> None:
         """Let wall time pass."""
@@ -25,11 +25,11 @@ class PlayerRig:
         self.player.pump()
 
     def finish(self) -> None:
-        """Let it come to its end."""
+        """Play to the end."""
         while not self.player.ended:
             if not self.player.pump():
                 self.clock.sleep_until(self.clock.now() + max(1e-6, self.player.wait()))
 
     def ticks(self, since: int = 0) -> list[int]:
-        """Ticks of the worlds that were said."""
-        return [one.message().tick for one in self.heard[since:] if one.topic is WORLD]
+        """Ticks of the published worlds."""
+        return [one.message().tick for one in self.published[since:] if one.topic is WORLD]

@@ -22,12 +22,12 @@ from schemas.process.clock import WallClock
 from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
 
 LIMIT = 90.0
-"""Seconds after which something that should have happened will not; nothing depends on how soon it does."""
+"""Patience in s; no test depends on the exact time."""
 POLL = 0.01
 
 
 def wait_for(condition: Callable[[], Any], what: str) -> Any:
-    """What the condition gives as soon as it gives something."""
+    """The first true result of the condition."""
     deadline = time.monotonic() + LIMIT
     while time.monotonic() < deadline:
         found = condition()
@@ -38,7 +38,7 @@ def wait_for(condition: Callable[[], Any], what: str) -> Any:
 
 
 def is_running(pid: int) -> bool:
-    """Whether a process is there and not a mere entry that nobody has looked at."""
+    """Whether a process is running, and not a zombie."""
     try:
         stat = Path(f"/proc/{pid}/stat").read_text()
     except FileNotFoundError:
@@ -50,7 +50,7 @@ def descendants(pid: int) -> list[int]:
     """The processes that a process started, and those that they started."""
     parents: dict[int, int] = {}
     for folder in Path("/proc").glob("[0-9]*"):
-        with suppress(OSError):  # it ended meanwhile
+        with suppress(OSError):  # it has ended
             parents[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
     found = [pid]
     for one in found:
@@ -64,7 +64,7 @@ def process_name(pid: int) -> str | None:
         words = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
         name = Path(f"/proc/{pid}/comm").read_text().strip()
     except OSError:
-        return None  # it ended meanwhile
+        return None  # it has ended
     if "--settings" in words:
         return Path(words[words.index("--settings") + 1]).stem
     is_forked = any("multiprocessing.forkserver" in word for word in words)
@@ -72,7 +72,7 @@ def process_name(pid: int) -> str | None:
 
 
 class Program:
-    """A Python program with its words in files."""
+    """A Python program with its output in files."""
 
     def __init__(self, arguments: list[str], folder: Path, name: str, environment: dict[str, str]) -> None:
         self.folder = folder
@@ -99,8 +99,8 @@ class Program:
         """Its exit status, once it has ended."""
         return self.popen.wait(LIMIT)
 
-    def says(self, words: str) -> None:
-        """Wait until these words stand on its stderr."""
+    def wait_for_error(self, words: str) -> None:
+        """Wait until its stderr contains these words."""
         wait_for(lambda: words in self.err, f"{words!r} in: {self.err}")
 
     def processes(self) -> dict[str, int]:
@@ -128,7 +128,7 @@ class Program:
 class MessageLog(Sequence[Any]):
     """Messages of one topic, received or recorded, decoded each time they are read.
 
-    A lockstep match plays thousands of ticks while a story waits for wall time: decoded, they would take ten times the
+    A lockstep match plays thousands of ticks while a test waits for wall time: decoded, they would take ten times the
     memory of their payloads.
     """
 
@@ -140,7 +140,7 @@ class MessageLog(Sequence[Any]):
         self._newest_only = newest_only
 
     def update(self, subscription: Subscription) -> None:
-        """Append all that has come."""
+        """Append the received messages."""
         count = len(self._messages)
         self._messages.extend(iter(subscription.receive, None))
         if len(self._messages) > count:
@@ -168,21 +168,21 @@ class Listener:
             topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
         }
         each_tick = (WORLD.key, APPLIED.key)
-        self.said = {key: MessageLog(newest_only=key in each_tick and not every_tick) for key in self._subscriptions}
+        self.logs = {key: MessageLog(newest_only=key in each_tick and not every_tick) for key in self._subscriptions}
 
     def update(self) -> None:
         for key, subscription in self._subscriptions.items():
-            self.said[key].update(subscription)
+            self.logs[key].update(subscription)
 
     def until(self, condition: Callable[["Listener"], Any], what: str) -> Any:
-        """Listen until the condition holds; what it gave."""
+        """Receive until the condition is true; returns its result."""
 
-        def heard() -> Any:
+        def updated() -> Any:
             self.update()
             return condition(self)
 
         try:
-            return wait_for(heard, what)
+            return wait_for(updated, what)
         except AssertionError as error:
             newest = f"tick {self.tick}, connected {self.bus.connected()}, health {self.healths[-1:]}"
             program = f"status {self._program.popen.poll()}, stderr: {self._program.err}"
@@ -197,31 +197,31 @@ class Listener:
 
     @property
     def worlds(self) -> Sequence[World]:
-        return self.said["world"]
+        return self.logs["world"]
 
     @property
     def applied(self) -> Sequence[Applied]:
-        return self.said["host/applied"]
+        return self.logs["host/applied"]
 
     @property
     def healths(self) -> Sequence[Health]:
-        return self.said["host/health"]
+        return self.logs["host/health"]
 
     @property
     def events(self) -> Sequence[GameEvent]:
-        return self.said["game/event"]
+        return self.logs["game/event"]
 
     @property
     def invalid(self) -> Sequence[Invalid]:
-        return self.said["host/invalid"]
+        return self.logs["host/invalid"]
 
     @property
     def tick(self) -> int:
-        """The newest tick heard of."""
+        """The newest received tick."""
         return self.worlds[-1].tick if self.worlds else -1
 
     def robot(self, name: str) -> RobotHealth:
-        """What the host says last of one robot's agent."""
+        """The newest health of one robot's agent."""
         return self.healths[-1].robots[name] if self.healths else RobotHealth()
 
     def silences(self, robot: str) -> int:

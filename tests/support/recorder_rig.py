@@ -1,15 +1,16 @@
-"""A match made by hand on the in-process bus, for the recorder to record: every message is built here."""
+"""A match on the in-process bus whose messages are all built here, for the recorder to record."""
 
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from recordings.reading.recording import Recording, open_recording
-from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher, Server
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
@@ -26,7 +27,7 @@ from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
 MOMENT = 5.0
-"""s of wall time that a robot's word may take to the host; nothing depends on how soon it comes."""
+"""Longest wall time of a robot's message to the host, in s; no test depends on the exact time."""
 
 
 def make_setup(match: str = "friendly") -> Setup:
@@ -34,7 +35,7 @@ def make_setup(match: str = "friendly") -> Setup:
     return Setup.of(load_match(None, {"name": match, **teams}), load_profile("msl"), load_rule_book("friendly"))
 
 
-def make_world(tick: int) -> World:
+def make_world(tick: int, names: tuple[str, ...] = ROBOTS) -> World:
     time = tick * TICK
     robots = {
         name: RobotTruth(
@@ -47,7 +48,7 @@ def make_world(tick: int) -> World:
             omega=0.0,
             holding=False,
         )
-        for number, name in enumerate(ROBOTS)
+        for number, name in enumerate(names)
     }
     ball = BallTruth(x=6 * math.sin(time), y=3 * math.cos(time), z=0.11, vx=0.0, vy=0.0, vz=0.0)
     return World(tick=tick, time=time, robots=robots, ball=ball, clock=time)
@@ -57,7 +58,7 @@ class PublisherLog(InProcessBus):
     """The publishers of another bus, kept by their keys."""
 
     def __init__(self, bus: Bus) -> None:
-        super().__init__(bus.match, bus.clock, Medium())
+        super().__init__(bus.match, bus.clock, SharedState())
         self.made: dict[str, Publisher] = {}
         self._bus = bus
 
@@ -71,7 +72,7 @@ class PublisherLog(InProcessBus):
 
 @dataclass
 class FakeHost:
-    """Speaks as host and robots do, tick by tick; simulated time is the host's."""
+    """Publishes the messages of host and robots, tick by tick; simulated time is the host's."""
 
     bus: Bus
     robots: Bus
@@ -79,6 +80,7 @@ class FakeHost:
     writers: dict[str, Publisher] = field(default_factory=dict)
     is_prompt: bool = True
     """It publishes a batch for each tick at once."""
+    _arrivals: int = 0
 
     def __post_init__(self) -> None:
         self.server = self.bus.serve(SETUP)
@@ -86,7 +88,7 @@ class FakeHost:
         self.ears = [self.bus.subscribe(topic) for topic in (COMMAND, ORDER)]
         publishers = PublisherLog(self.bus)
         self.direct = publishers.made
-        """What is sent here is in no record batch."""
+        """Key → publisher whose messages are in no record batch."""
         self.batches = BatchPublisher(publishers)
         for topic in (WORLD, APPLIED, STATE, EVENT):
             self.writers[topic.key] = self.batches.publisher(topic)
@@ -98,15 +100,20 @@ class FakeHost:
         for _ in range(count):
             self.direct[key].put_payload(b"{}")
 
+    def add_unstamped(self, key: str, payload: bytes) -> None:
+        """A message of a program that does not use this library has come."""
+        self._arrivals += 1
+        self.batches.add_received(ReceivedMessage(COMMAND, key, payload, None, arrived_ns=self._arrivals))
+
     def answer(self) -> None:
         while (query := self.server.receive()) is not None:
             query.reply(self.setup)
         self.batches.process()
 
-    def play(self, tick: int) -> None:
-        """One tick: truth, the inputs that led to it, the robots' answers to it."""
+    def play(self, tick: int, guests: tuple[str, ...] = ()) -> None:
+        """One tick: world, inputs, and the commands of the robots; `guests` are robots that joined."""
         self.bus.clock.sim_ns = self.robots.clock.sim_ns = round(tick * TICK * 1e9)
-        self.writers["world"].put(make_world(tick))
+        self.writers["world"].put(make_world(tick, (*ROBOTS, *guests)))
         inputs = {name: AppliedInput(drive=Drive(vx=1.0), dribble=False, answers_tick=tick) for name in ROBOTS}
         self.writers["host/applied"].put(Applied(tick=tick, time=tick * TICK, inputs=inputs, chain=f"{tick:016x}"))
         for name in ROBOTS:
@@ -114,7 +121,7 @@ class FakeHost:
         self.relay(tick, len(ROBOTS))
 
     def relay(self, tick: int, count: int = 0) -> None:
-        """Note what has come from others, `count` of it at least: all of the tick has been said."""
+        """Add the messages of others to the batch, at least `count`, and end the tick."""
         came = 0
         for ear in self.ears:
             while (received := ear.receive(MOMENT if came < count else 0.0)) is not None:
@@ -131,10 +138,12 @@ class FakeHost:
         self.batches.send()
 
     def goal(self, tick: int) -> None:
+        self.event(tick, "goal by cyan2")
+
+    def event(self, tick: int, text: str) -> None:
+        """A goal, in these words."""
         self.writers["game/event"].put(
-            GameEvent(
-                tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text="goal by cyan2"
-            )
+            GameEvent(tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text=text)
         )
 
 
@@ -147,6 +156,8 @@ class RecorderRig:
     recorder_bus: Bus
     sink: Sink
     path: Path
+    played: int = 0
+    """The next tick, where a test counts them."""
 
     def begin(self) -> None:
         self.recorder.pump()
@@ -160,7 +171,7 @@ class RecorderRig:
                 self.recorder.pump()
 
     def leave(self) -> RecordingSummary:
-        """The host leaves; the recorder takes in the rest."""
+        """The host leaves; the recorder reads the rest."""
         self.host.batches.send()
         self.host.bus.close()
         return self.recorder.run(lambda: False)

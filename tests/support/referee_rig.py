@@ -63,6 +63,8 @@ class RefereeRig:
         self.robots = {name: (pose.x, pose.y) for name, pose in self.starts.items()}
         self.events: list[GameEvent] = []
         self.obstacles: tuple[ObstacleState, ...] = ()
+        self.refbox = False
+        """A league's referee box is connected."""
 
     def side(self, side: Side) -> Side:
         return side.opponent if self.mirrored else side
@@ -111,6 +113,7 @@ class RefereeRig:
             seen,
             kicked=kicker,
             silent=gone,
+            refbox=self.refbox,
             contacts=tuple((first, second) for first, second in sorted(pairs)),
             ball_spin=self._turned(*turning),
             obstacles=self.obstacles,

@@ -10,7 +10,7 @@ from support.page_gateway import SOON, TOKENS
 
 
 class Tab:
-    """The page in a browser, and what it complained of."""
+    """The page in a browser, with its errors."""
 
     def __init__(self, context: BrowserContext, origin: str, role: str = "spectator") -> None:
         self.context = context
@@ -18,10 +18,10 @@ class Tab:
         self.faults: list[str] = []
         self.requests: list[str] = []
         self.loses_its_server = False
-        """The browser complains of a server that is not there, and is right."""
+        """Whether errors about a missing server are expected."""
         self.origin = origin
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
-        self.page.on("console", lambda said: self._note(said.text) if said.type == "error" else None)
+        self.page.on("console", lambda line: self._note(line.text) if line.type == "error" else None)
         self.page.on("dialog", lambda dialog: self.faults.append(dialog.message))
         self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.goto(f"{origin}/#token={TOKENS[role]}" if role in TOKENS else f"{origin}/")
@@ -47,7 +47,15 @@ class Tab:
         return self.page.evaluate(what)
 
     def open(self, tab: str) -> None:
-        self.page.locator(f"#to-{tab}").click()
+        """Open a tab; with the referee's token it may be on the operator's page."""
+        opener = self.page.locator(f"#to-{tab}")
+        if not opener.is_visible():
+            self.swap_seat()
+        opener.click()
+
+    def swap_seat(self) -> None:
+        """From the referee's page to the operator's, or back."""
+        self.page.evaluate("document.getElementById('seat').click()")
 
     def button(self, action: str, side: str = "") -> Locator:
         return self.page.locator(f'[data-action="{action}"][data-side="{side}"]')

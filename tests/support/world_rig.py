@@ -1,4 +1,4 @@
-"""A world of robots and a ball that tests place, push and look at."""
+"""A world of robots and a ball that tests place, push and measure."""
 
 import math
 
@@ -33,13 +33,13 @@ class WorldRig:
     """Robots parked at the edge of the pitch, the ball in the middle; robots without an input rest."""
 
     def __init__(self, profile: Profile, roster: Roster | None = None) -> None:
-        """`roster`: who takes part; two standard robots a side if not given."""
+        """`roster`: the robots; two standard robots a side if not given."""
         self.profile = profile
         self.roster = roster or two_a_side(profile)
         self.engine = Engine(profile, self.roster)
         self.world = World(profile, self.roster, self.engine)
         self.refused: dict[str, str] = {}
-        """Robot → why its kick could not be done in the last tick."""
+        """Robot → why its kick was refused in the last tick."""
         self.stuck: list[bool] = []
         """Whether each robot was stuck in the last tick, in roster order."""
         x, y = profile.field.goal_line - 1, profile.field.touch_line - 1
@@ -66,18 +66,18 @@ class WorldRig:
         self.engine.set_ball_motion(velocity, spin)
         self.engine.read()
 
-    def tick(self, **told: AppliedInput) -> Snapshot:
-        advance: WorldTick = self.world.advance({name: told.get(name, REST) for name in self.roster.names})
+    def tick(self, **inputs: AppliedInput) -> Snapshot:
+        advance: WorldTick = self.world.advance({name: inputs.get(name, REST) for name in self.roster.names})
         self.refused, self.stuck = advance.refused, advance.stuck
         return advance.snapshot
 
-    def run(self, seconds: float, **told: AppliedInput) -> Snapshot:
+    def run(self, seconds: float, **inputs: AppliedInput) -> Snapshot:
         for _ in range(round(seconds / self.profile.time.tick)):
-            snapshot = self.tick(**told)
+            snapshot = self.tick(**inputs)
         return snapshot
 
     def at(self, name: str) -> RobotState:
-        """Where a robot is, and how it moves."""
+        """The state of a robot."""
         robots = self.world.snapshot().robots
         state: RobotState = robots[self.roster.names.index(name)]
         return state

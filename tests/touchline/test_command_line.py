@@ -1,4 +1,5 @@
 import json
+import re
 import socket
 import subprocess
 import sys
@@ -7,14 +8,16 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+from recordings.exchange.formats import EXPORTERS
 from schemas.topics import TOPICS
-from touchline.__main__ import app
+from touchline.command_line import app
 
 COMMANDS = (
     "match",
     "host",
     "agent",
     "coach",
+    "referee",
     "record",
     "recorder",
     "recover",
@@ -50,6 +53,32 @@ def test_every_command_has_help_with_an_example(command: str) -> None:
     result = touchline(command, "--help")
     assert result.exit_code == 0
     assert f"Example: touchline {command}" in result.stdout
+
+
+def test_the_help_has_each_command_in_one_of_six_groups() -> None:
+    (groups, places) = ([], {})
+    for line in touchline("--help").stdout.splitlines():
+        if line.startswith("╭─ "):
+            groups.append(line.strip("╭╮─ "))
+        elif line.startswith("│ ") and not line.startswith("│  ") and groups[-1] != "Options":
+            places.setdefault(line.split()[1], []).append(groups[-1])
+    assert groups == [
+        "Options",
+        "Play",
+        "Watch",
+        "Operate a running match",
+        "Processes on several machines",
+        "Recordings",
+        "Protocol",
+    ]
+    assert [command for command in COMMANDS if len(places[command]) != 1] == []
+    assert places["coach"] == places["referee"] == ["Operate a running match"]
+
+
+def test_the_version_is_printed_with_those_of_what_it_depends_on() -> None:
+    result = touchline("--version")
+    assert result.exit_code == 0
+    assert re.fullmatch(r"touchline \d+\.\d+\.\d+, protocol 2\.0, Python 3\.\d+\.\d+, PyBullet [\d.]+\n", result.stdout)
 
 
 WRONG: dict[str, tuple[list[str], str]] = {
@@ -109,14 +138,14 @@ def test_wrong_input_gives_one_line_with_the_remedy_and_status_2(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_port_that_is_in_use_is_named_before_anything_is_launched() -> None:
+def test_a_host_whose_port_is_in_use_names_it() -> None:
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
         endpoint = f"tcp/127.0.0.1:{other.getsockname()[1]}"
         result = touchline("host", "--listen", endpoint)
     assert result.exit_code == 2
-    assert f"--listen {endpoint} cannot be listened on (Address already in use)" in result.stderr
+    assert f"--listen {endpoint} is in use by another process; choose another port" in result.stderr
 
 
 @pytest.mark.parametrize("command", ["match", "host"])
@@ -129,7 +158,7 @@ def test_without_pybullet_the_pip_line_that_brings_it_is_named(command: str, mon
 
 def test_the_command_line_loads_nothing_heavy() -> None:
     heavy = {"zenoh", "pybullet", "mcap", "numpy", "matplotlib"}
-    code = f"import sys, touchline.__main__; print(*{heavy} & set(sys.modules))"
+    code = f"import sys, touchline.command_line; print(*{heavy} & set(sys.modules))"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.split() == []
 
@@ -140,7 +169,7 @@ def test_the_topic_table_is_printed_whole() -> None:
         assert any(line.split()[:2] == [name, topic.key] for line in lines)
 
 
-def test_the_topic_table_as_json_says_who_may_read() -> None:
+def test_the_topic_table_as_json_has_the_readers_of_each_topic() -> None:
     rows = {row["name"]: row for row in json.loads(touchline("topics", "--json").stdout)}
     assert set(rows) == set(TOPICS)
     assert rows["command"]["key"] == "robot/{robot}/command"
@@ -165,3 +194,8 @@ def test_an_environment_variable_stands_in_for_an_option() -> None:
     result = touchline("coach", "start", TOUCHLINE_CONNECT="nowhere")
     assert result.exit_code == 2
     assert "--connect is 'nowhere'; write it as tcp/127.0.0.1:7447" in result.stderr
+
+
+def test_the_help_of_export_lists_every_format() -> None:
+    help_text = touchline("export", "--help").stdout
+    assert [name for name in EXPORTERS if name not in help_text] == []

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from schemas.bus.settings import ClientSettings
+
 if TYPE_CHECKING:
     from schemas.bus.contract import Bus
 
@@ -12,14 +14,14 @@ PATIENCE = 3.0
 
 
 @contextmanager
-def bus_client(connect: str, match: str) -> "Iterator[Bus]":
-    """A client of the match at an endpoint, within the block.
+def bus_client(connection: ClientSettings) -> "Iterator[Bus]":
+    """A client of a match, within the block.
 
     Raises:
-        TouchlineError: no host answers there.
+        TouchlineError: no host answers, or it is not clear which match is meant.
     """
     from schemas.bus.zenoh.bus import open_client
     from schemas.process.clock import WallClock
 
-    with open_client(match, WallClock(), connect, PATIENCE) as bus:
+    with open_client(connection.match, WallClock(), connection.connect, PATIENCE) as bus:
         yield bus

@@ -1,7 +1,6 @@
 """Options shared by several commands, and groups of them."""
 
 import importlib.util
-import socket
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -9,16 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.contract import BusError
-from schemas.bus.endpoint import is_loopback, parse_endpoint, with_free_port
+from schemas.bus.endpoint import is_loopback
 from schemas.bus.settings import ListenSettings
-from schemas.config.match_config import MatchConfig, OfficiatingConfig, load_match
+from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import SHIPPED as PROFILES
 from schemas.config.robot_model import models_of
 from schemas.config.rule_book import SHIPPED as RULE_BOOKS
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.side import Side
+from sim_host.missing_engine import missing_engine_text
 from touchline.cli.option_groups import FieldsOf
 
 if TYPE_CHECKING:
@@ -37,12 +37,12 @@ Include = Annotated[
     typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable."),
 ]
 Exclude = Annotated[list[str] | None, typer.Option(help="Leave these keys out; repeatable.")]
+From = Annotated[float | None, typer.Option("--from", help="Start, simulated s.")]
+To = Annotated[float | None, typer.Option("--to", help="End, simulated s, exclusive.")]
 Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and print its address.")]
 PageOptions = Annotated[dict[str, Any], FieldsOf(WebSettings, "listen_web", port="web_port")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
-
-NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"
 
 
 @dataclass(frozen=True)
@@ -67,11 +67,11 @@ class MatchOptions:
         named = {"scene": self.scene, "profile": self.profile, "rules": self.rules}
         return read_match(self.file, **named, **self.changes, **officiating, **flags)
 
-    def endpoint(self) -> str:
-        """The endpoint of the host; see `endpoint_of`.
+    def endpoint(self) -> str | None:
+        """The endpoint to listen on; see `endpoint_of`.
 
         Raises:
-            TouchlineError: open to other machines without `--insecure`, or in use.
+            TouchlineError: open to other machines without `--insecure`.
         """
         return endpoint_of(self.listening)
 
@@ -103,7 +103,7 @@ def need_pybullet() -> None:
         TouchlineError: a package is missing; the message has the command that installs it.
     """
     if importlib.util.find_spec("pybullet") is None:
-        raise TouchlineError(NO_PYBULLET)
+        raise TouchlineError(missing_engine_text())
 
 
 def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelection":
@@ -117,35 +117,26 @@ def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelec
     return KeySelection(tuple(include or ()), tuple(exclude or ()))
 
 
-def endpoint_of(settings: ListenSettings) -> str:
-    """The endpoint to listen on, with a real port, after a check that it is allowed and free.
+def check_span(start: float | None, end: float | None) -> None:
+    """Check that a span of simulated time has a length.
 
     Raises:
-        TouchlineError: open to other machines without `--insecure`, or in use.
+        TouchlineError: it ends before it begins.
+    """
+    if start is not None and end is not None and start >= end:
+        raise TouchlineError(f"--from is {start:g} and --to is {end:g}; give a --to that is greater than --from")
+
+
+def endpoint_of(settings: ListenSettings) -> str | None:
+    """The endpoint to listen on, None for the default. Whether it is free is known when the host listens.
+
+    Raises:
+        TouchlineError: open to other machines without `--insecure`.
     """
     listen = settings.listen
-    if not settings.insecure and not is_loopback(listen):
+    if listen is not None and not settings.insecure and not is_loopback(listen):
         raise TouchlineError(
             f"--listen {listen} is open to other machines, without authentication; "
             "add --insecure to allow that, or listen on tcp/127.0.0.1:7447"
         )
-    try:
-        endpoint = with_free_port(listen)
-        _probe(endpoint)
-    except OSError as error:
-        raise BusError(
-            f"--listen {listen} cannot be listened on ({error.strerror}); "
-            "choose another port, or tcp/127.0.0.1:0 for a free one"
-        ) from None
-    return endpoint
-
-
-def _probe(endpoint: str) -> None:
-    """Bind the address for a moment: two hosts on one port would share their robots."""
-    protocol, host, port = parse_endpoint(endpoint)
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    kind = socket.SOCK_DGRAM if protocol in ("udp", "quic") else socket.SOCK_STREAM
-    with socket.socket(family, kind) as probe:
-        if kind == socket.SOCK_STREAM:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # connections in TIME_WAIT do not count
-        probe.bind((host, port))
+    return listen

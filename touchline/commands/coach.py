@@ -1,4 +1,4 @@
-"""`touchline coach`: the referee box and the coach's bench of a running match."""
+"""`touchline coach` and `touchline referee`: the referee box and the coach's bench of a running match."""
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -23,6 +23,11 @@ app = typer.Typer(
     no_args_is_help=True,
     help="Send requests to the referee of a running match, order a side, or watch.\n\n"
     "Example: touchline coach kickoff magenta",
+)
+referee = typer.Typer(
+    no_args_is_help=True,
+    help="Send requests to the referee of a running match; `touchline coach` has the same commands.\n\n"
+    "Example: touchline referee kickoff magenta",
 )
 
 
@@ -84,6 +89,9 @@ REFEREE_COMMANDS: dict[str, RefereeCommand] = {
         ActionName.CANCEL_GOAL, SideTarget, "Subtract a goal from a side's score; the game continues.", "cyan"
     ),
     "yellow-card": RefereeCommand(ActionName.YELLOW_CARD, RobotTarget, "Show a robot the yellow card.", "cyan3"),
+    "double-yellow": RefereeCommand(
+        ActionName.DOUBLE_YELLOW, RobotTarget, "Show a robot its second yellow card: it is suspended.", "cyan3"
+    ),
     "red-card": RefereeCommand(
         ActionName.RED_CARD, RobotTarget, "Show a robot the red card: it leaves the field.", "cyan3"
     ),
@@ -95,6 +103,9 @@ REFEREE_COMMANDS: dict[str, RefereeCommand] = {
         ActionName.PARK, RobotTarget, "Take a robot off the field until `enter` brings it back.", "cyan3"
     ),
     "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Bring a robot back that is off the field.", "cyan3"),
+    "name-robot": RefereeCommand(
+        ActionName.NAME_ROBOT, RobotTarget, "Name the robot that a card or a repair without a robot concerns.", "cyan3"
+    ),
     "confirm": RefereeCommand(ActionName.CONFIRM, NoTarget, "Confirm the referee's proposal at once."),
     "overrule": RefereeCommand(ActionName.OVERRULE, NoTarget, "Reject the referee's proposal."),
     "undo": RefereeCommand(
@@ -117,12 +128,13 @@ def _command(row: RefereeCommand) -> Callable[..., None]:
     return with_option_groups(command)
 
 
-for _word, _row in REFEREE_COMMANDS.items():
-    app.command(
-        _word,
-        help=f"{_row.help}\n\nExample: touchline coach {_word} {_row.example}".rstrip(),
-        context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is no option
-    )(_command(_row))
+for _group, _name in ((app, "coach"), (referee, "referee")):
+    for _word, _row in REFEREE_COMMANDS.items():
+        _group.command(
+            _word,
+            help=f"{_row.help}\n\nExample: touchline {_name} {_word} {_row.example}".rstrip(),
+            context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is no option
+        )(_command(_row))
 
 
 app.command("order")(orders.order)
@@ -137,21 +149,21 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
     Example: touchline coach state --json | jq .score
     """
     from coach_gateway.match.follower import MatchFollower
+    from coach_gateway.match.host_client import HostClient
     from coach_gateway.match.lines import state_line
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         follower = MatchFollower(bus)
         found = follower.wait_for_state(PATIENCE)
+        names = HostClient(bus).team_names()
     if found is None and follower.health is not None:
         there = sum(robot.alive for robot in follower.health.robots.values())
         raise MatchFailedError(
-            f'match "{connection.match}" has not begun: {there} of {len(follower.health.robots)} robots are connected'
+            f'match "{bus.match}" has not begun: {there} of {len(follower.health.robots)} robots are connected'
         )
     if found is None:
-        raise TouchlineError(
-            f'match "{connection.match}": the host publishes no state of it; name its match with --match'
-        )
-    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found))
+        raise TouchlineError(f'match "{bus.match}": the host publishes no state of it; is that the name of its match?')
+    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found, names))
 
 
 app.command("serve")(serve)
@@ -171,7 +183,7 @@ def watch(connection: ClientSettings) -> None:
 def _send(connection: ClientSettings, action: RefereeAction) -> None:
     from coach_gateway.match.host_client import HostClient
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         reply = HostClient(bus).act(action)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:
-    from recordings.inspection.difference import Comparison, FieldDifference
+    from recordings.inspection.difference import Comparison
+    from recordings.inspection.message_difference import FieldDifference
 
 
 def diff(
@@ -18,6 +20,8 @@ def diff(
     second: Annotated[Path, typer.Argument(metavar="B", help="The recording to compare with A.")],
     include: options.Include = None,
     exclude: options.Exclude = None,
+    start: options.From = None,
+    end: options.To = None,
     everything: Annotated[
         bool, typer.Option("--all", help="Include messages that depend on wall time: host/health, repeated answers.")
     ] = False,
@@ -27,13 +31,19 @@ def diff(
 
     Two lockstep runs of one match file and one seed are identical.
 
-    Example: touchline diff a.mcap b.mcap
+    Example: touchline diff a.mcap b.mcap --from 10 --to 20
     """
     from recordings.inspection.difference import compare
     from recordings.reading.recording import open_recording
 
     chosen = options.selection(include, exclude)
-    found = compare(open_recording(first), open_recording(second), chosen, everything=everything)
+    options.check_span(start, end)
+    one, other = open_recording(first), open_recording(second)
+    found = compare(one, other, chosen, everything=everything, start=start, end=end)
+    if found.identical and not found.messages:
+        raise TouchlineError(
+            f"{first} and {second}: no message is selected; change --include, --exclude, --from or --to"
+        )
     typer.echo(json_text.dumps(_facts(found), ensure_ascii=False) if json else _sentence(found, first, second))
     if not found.identical:
         raise typer.Exit(FAILED)

@@ -39,7 +39,7 @@ def drive(
 
     Example: touchline drive cyan2 --speed 2
     """
-    with terminal("drive") as keys, bus_client(connection.connect, connection.match) as bus:
+    with terminal("drive") as keys, bus_client(connection) as bus:
         typer.echo(", ".join(f"{'space' if key == ' ' else key}: {words}" for key, (words, _) in KEYS.items()))
         drive_by_keys(bus, robot, keys, Speeds(speed, turn, kick), lambda line: typer.echo(line))
 

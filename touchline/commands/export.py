@@ -1,28 +1,31 @@
 """`touchline export`: a recording in another format."""
 
 import json as json_text
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from recordings.exchange.formats import EXPORTERS
 from schemas.errors import TouchlineError, did_you_mean
 from touchline.cli import options
+
+_FORMATS = f"The format: {'; '.join(f'{name}, {row.description}' for name, row in EXPORTERS.items())}."
 
 
 def export(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
-    to: Annotated[str, typer.Option(help="The format: csv, msl-log, protobuf or ros2.")],
+    to: Annotated[str, typer.Option(help=_FORMATS)],
     out: Annotated[
         Path | None, typer.Option(help="The file or folder to write; by default beside the recording.")
     ] = None,
     json: options.Json = False,
 ) -> None:
-    """Write a recording in another format: tables, ROS 2 bag, typed protobuf, or the league's log.
+    """Write a recording in another format.
 
     Example: touchline export final.mcap --to csv --out final
     """
-    from recordings.exchange.formats import EXPORTERS
     from recordings.reading.recording import open_recording
 
     if to not in EXPORTERS:
@@ -33,11 +36,12 @@ def export(
         typer.echo(f"{file}: truncated; exporting the messages before the end", err=True)
     exported = exporter.export(recording, out or file.with_name(file.stem + exporter.suffix))
     if json:
-        fields = {"out": str(exported.out), "written": exported.written, "unreadable": exported.unreadable}
-        typer.echo(json_text.dumps(fields))
+        typer.echo(json_text.dumps({**asdict(exported), "out": str(exported.out)}))
         return
     for name, count in exported.written.items():
         typer.echo(f"{count:>9}  {name}")
     for key, count in exported.unreadable.items():
         typer.echo(f"{count:>9}  invalid messages of {key} were left out")
+    for key, count in exported.omitted.items():
+        typer.echo(f"{count:>9}  messages of {key} have no place in this format")
     typer.echo(str(exported.out))

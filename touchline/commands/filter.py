@@ -13,8 +13,8 @@ def filter(
     out: Annotated[Path, typer.Option(help="The file to write, *.mcap.")],
     include: options.Include = None,
     exclude: options.Exclude = None,
-    start: Annotated[float | None, typer.Option("--from", help="Start of the copy, simulated s.")] = None,
-    end: Annotated[float | None, typer.Option("--to", help="End of the copy, simulated s, exclusive.")] = None,
+    start: options.From = None,
+    end: options.To = None,
 ) -> None:
     """Copy a part of a recording, selected by key and time. Messages keep their bytes, times and numbers.
 
@@ -23,5 +23,6 @@ def filter(
     from recordings.editing.filtering import filter_recording
     from recordings.reading.recording import open_recording
 
+    options.check_span(start, end)
     copied = filter_recording(open_recording(file), out, options.selection(include, exclude), start, end)
     typer.echo(f"{copied.path}: {copied.messages} messages")

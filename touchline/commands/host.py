@@ -1,15 +1,19 @@
 """`touchline host`: the simulation alone, for robots and recorders on other machines."""
 
+from typing import Annotated, Any
+
 import typer
 
 from sim_host import run
 from sim_host.server.settings import HostSettings
 from touchline.cli import options
-from touchline.cli.option_groups import with_option_groups
+from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 
 @with_option_groups
-def host(match: options.MatchOptions) -> None:
+def host(
+    match: options.MatchOptions, more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement")]
+) -> None:
     """Run the simulation host of a match; robots join with `touchline agent`.
 
     The host ends when the match is over, or at Ctrl-C.
@@ -17,6 +21,5 @@ def host(match: options.MatchOptions) -> None:
     Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --insecure
     """
     config, endpoint = match.read(), match.endpoint()
-    typer.echo(f'match "{config.name}" on {endpoint}', err=True)
-    settings = HostSettings(config=config, listen=endpoint, insecure=match.listening.insecure)
+    settings = HostSettings(config=config, listen=endpoint, insecure=match.listening.insecure, **more)
     raise typer.Exit(run(settings))

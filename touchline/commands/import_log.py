@@ -12,7 +12,10 @@ from touchline.cli import options
 def import_log(
     log: Annotated[list[Path], typer.Argument(metavar="LOG...", help="A zip, a folder, or the log's files.")],
     out: Annotated[Path | None, typer.Option(help="The recording, *.mcap; by default beside the log.")] = None,
-    profile: Annotated[str, typer.Option(help="Profile of the pitch: msl for 22 × 14 m, paper for 18 × 12 m.")] = "msl",
+    profile: Annotated[
+        str | None,
+        typer.Option(help="Profile of the pitch: msl for 22 × 14 m, paper for 18 × 12 m; recognised by default."),
+    ] = None,
     team_a: Annotated[
         str | None, typer.Option("--team-a", help="Name of team A in the referee's signals, if that is an address.")
     ] = None,
@@ -24,14 +27,19 @@ def import_log(
     """
     from recordings.exchange.formats import IMPORTERS
 
-    imported = IMPORTERS["msl-log"](log, out or log[0].with_suffix(".mcap"), profile, team_a)
+    imported = IMPORTERS["msl-log"].import_log(log, out or log[0].with_suffix(".mcap"), profile, team_a)
     if json:
         typer.echo(json_text.dumps(imported.to_json(), ensure_ascii=False))
         return
     for side, team in imported.teams.items():
         typer.echo(f"{side.value}: {team.team or 'no name'}, {team.read} of {team.records} records read")
     typer.echo(f"{imported.signals} referee signals read, {imported.kicks} kicks inferred")
-    for heading, findings in (("could not be read", imported.lost), ("not valid by the schema", imported.coped)):
+    groups = (
+        ("could not be read", imported.lost),
+        ("left out, a recording has no place for it", imported.left_out),
+        ("read all the same", imported.coped),
+    )
+    for heading, findings in groups:
         if findings:
             typer.echo(f"{heading}:")
         for finding in findings:

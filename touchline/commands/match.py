@@ -3,7 +3,6 @@
 import sys
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,15 +11,17 @@ import typer
 
 from coach_gateway.settings import BridgeOptions
 from schemas.config.settings import RecordOptions
+from schemas.errors import MatchFailedError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
-    from coach_gateway.web.settings import WebSettings
+    import socket
+
     from schemas.bus.contract import ReceivedMessage
     from schemas.config.match_config import MatchConfig
     from schemas.process.clock import Clock
-    from touchline.launch.processes import MatchPlan
+    from touchline.launch.processes import MatchPlan, Page
     from touchline.launch.result import MatchResult
 
 
@@ -54,8 +55,7 @@ def match(
     from touchline.launch.run_folder import prepare_run
 
     teams = _teams_of(ghost) if ghost else {}
-    if bridges.wanted:
-        _try_ports(bridges)
+    sockets = _open_ports(bridges) if bridges.wanted else ()
     if web or bridges.wanted:
         played.changes.setdefault("pace", "realtime")
     if bridges.refbox is not None:
@@ -68,24 +68,20 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
-    check_teams(config)
+    brain_folder = played.file.parent if played.file is not None else None
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = played.endpoint()
     clock = WallClock()
-    served = _page_settings(page) if web else None
-    plan = replace(prepare_run(config, endpoint, record, clock, recorded=not no_record), page=served, bridges=bridges)
-    if served is not None:
-        _invite(plan, served, err=json)
+    served = _open_page(page) if web else None
+    plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
+    plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
+    if brain_folder is not None:
+        plan = replace(plan, brain_folder=brain_folder.resolve())
     if bridges.wanted:
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
         typer.echo(f"touchline: {plan.warning}", err=True)
-    result = _play(plan, clock, quiet=json)
-    if json:
-        typer.echo(result.json())
-    else:
-        from touchline.cli.console import console
-
-        console().print(result.render())
+    _play(plan, clock, quiet=json)
 
 
 # Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
@@ -103,51 +99,57 @@ def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
     check_ghosts(config, ghosts)
 
 
-def _page_settings(options: dict[str, Any]) -> "WebSettings":
-    from touchline.launch.page import page_settings
+def _open_page(options: dict[str, Any]) -> "Page":
+    from touchline.launch.page import open_page
 
-    return page_settings(options)
-
-
-def _invite(plan: "MatchPlan", page: "WebSettings", *, err: bool) -> None:
-    """Print where the page is."""
-    from touchline.launch.page import address_lines
-
-    for line in address_lines(page, plan.tokens):
-        typer.echo(line, err=err)
+    return open_page(options)
 
 
-def _try_ports(bridges: BridgeOptions) -> None:
+def _open_ports(bridges: BridgeOptions) -> "tuple[socket.socket, ...]":
     from coach_gateway.bridges import bridges_of
 
-    bridges_of(bridges).try_ports()
+    return tuple(bridges_of(bridges).open_ports().all)
 
 
-def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
-    """Play the match on a screen for the output; with `quiet` stdout is reserved for the JSON result."""
+def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
+    """Play the match on a screen for the output, and print its result; with `quiet` stdout has the JSON result alone.
+
+    With a page it returns when the page with the result is closed.
+    """
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
     from touchline.watch.screen import screen_for
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
-            return MatchRun(plan, screen, clock, _losses, _recorded).play()
+            run = MatchRun(plan, screen, clock, _losses, _published)
+            result = run.play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
         typer.echo(f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True)
         raise typer.Exit(128 + stopped.number) from None
+    _print_result(result, json=quiet)
+    if plan.page is not None:
+        from touchline.launch.match_page import result_parts
+
+        run.stay(result_parts(plan))
+    if result.recording.fault:
+        raise MatchFailedError(result.recording.fault)
 
 
-def _recorded(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
-    """Recorded events and states of the game; empty if the recording is lost or consists of snapshots."""
-    if plan.config.record.snapshot is not None:
+def _print_result(result: "MatchResult", *, json: bool) -> None:
+    if json:
+        typer.echo(result.json())
         return
-    from recordings.reading.recording import open_recording
-    from schemas.errors import TouchlineError
-    from schemas.topics import EVENT, STATE
+    from touchline.cli.console import console
 
-    for file in plan.recording_files:
-        with suppress(TouchlineError):  # an unreadable recording yields no more messages
-            yield from (recorded.received() for recorded in open_recording(file).messages(EVENT.key, STATE.key))
+    console().print(result.render())
+
+
+def _published(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
+    """Events and the last state of the game, as the host has left them."""
+    from schemas.bus.outcome_file import read_outcome
+
+    return read_outcome(plan.outcome)
 
 
 def _losses(plan: "MatchPlan") -> dict[str, int]:

@@ -118,12 +118,14 @@ def _order(
 
     content = {**{key: getattr(order_options, key) for key in (field.name for field in fields(order_options))}, **more}
     from_options(CoachOrder, sequence=1, **content)
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         client = HostClient(bus)
         client.orders.update()  # subscribe first, so that no status of the order is missed
         given = client.order(side, **content)
         receipt = client.wait_for_robots(side, given, acknowledgement.wait)
     typer.echo(_as_json(side, given, receipt) if acknowledgement.json else _in_words(side, given, receipt))
+    if receipt.refused:
+        raise typer.Exit(1)
 
 
 def _in_words(side: Side, order: CoachOrder, receipt: "Receipt") -> str:
@@ -133,4 +135,6 @@ def _in_words(side: Side, order: CoachOrder, receipt: "Receipt") -> str:
 
 def _as_json(side: Side, order: CoachOrder, receipt: "Receipt") -> str:
     fields = {"side": side, "sequence": order.sequence, "status": receipt.status}
-    return json_text.dumps({**fields, "acknowledged": receipt.acknowledged, "missing": receipt.missing})
+    return json_text.dumps(
+        {**fields, "acknowledged": receipt.acknowledged, "missing": receipt.missing, "refused": receipt.refused}
+    )

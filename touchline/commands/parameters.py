@@ -115,7 +115,8 @@ def _value(text: str) -> "Value":
 
 def _request(**content: object) -> "ParametersRequest":
     from schemas.messages.parameters import ParametersRequest
-    from schemas.wire.faults import FaultError, validated
+    from schemas.wire.faults import FaultError
+    from schemas.wire.struct_faults import validated
 
     try:
         return validated(ParametersRequest, content)
@@ -128,7 +129,7 @@ def _request(**content: object) -> "ParametersRequest":
 def _query(connection: ClientSettings, request: "ParametersRequest") -> "ParametersReply":
     from coach_gateway.match.host_client import HostClient
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         reply = HostClient(bus).parameters(request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

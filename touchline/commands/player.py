@@ -34,11 +34,11 @@ def player(
     from touchline.replay.progress import status_text
 
     request = request_of(operation, value)
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         try:
             reply: ReplayReply = bus.query(REPLAY_CONTROL, request, PATIENCE).result(PATIENCE)
         except (NoReplyError, BadMessageError) as error:
-            raise TouchlineError(f'match "{connection.match}": {error}; no replay of that name runs there') from None
+            raise TouchlineError(f'match "{bus.match}": {error}; no replay of that name runs there') from None
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")
     typer.echo(json_text.dumps(reply.model_dump(exclude={"version", "reason"})) if json else status_text(reply))

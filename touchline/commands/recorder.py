@@ -64,7 +64,7 @@ def _query(operation: RecorderOperation, connection: ClientSettings, chosen: Rec
     from schemas.topics import RECORDER_CONTROL
     from touchline.cli.bus_client import bus_client
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         try:
             answer = bus.query(RECORDER_CONTROL, RecorderRequest(operation=operation), _ANSWER_S, name=chosen.name)
             reply: RecorderReply = answer.result(_ANSWER_S + 0.5)

@@ -2,6 +2,7 @@
 
 import json as json_text
 from dataclasses import asdict
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -27,7 +28,7 @@ def recover(
     from recordings.reading.recording import open_recording
 
     done = []
-    for file in files:
+    for file in chain.from_iterable(_files_of(file) for file in files):
         done.append(recover(file))
         open_recording(done[-1].path)  # raises if the rest is not a recording
         if not json:
@@ -35,6 +36,14 @@ def recover(
     if json:
         facts = [{**asdict(one), "path": str(one.path), "rest": str(one.rest) if one.rest else None} for one in done]
         typer.echo(json_text.dumps(facts))
+
+
+def _files_of(path: Path) -> list[Path]:
+    """The file, or all files of the split recording of this name."""
+    from recordings.container.numbering import numbered_files, unfinished_files
+
+    split = [*numbered_files(path), *unfinished_files(path)] if not path.exists() else []
+    return split or [path]
 
 
 def _sentence(done: "RecoverySummary") -> str:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from recordings.replay.player import Player
     from recordings.replay.replay import Replay
     from schemas.bus.contract import Bus
+    from schemas.bus.zenoh.bus import ZenohBus
     from schemas.process.clock import Clock
     from touchline.launch.match_run import StopSignals
     from touchline.launch.supervisor import Notice
@@ -86,9 +87,9 @@ def replay(
     from recordings.replay.replay import Replay, ReplaySettings
     from schemas.process.clock import WallClock
     from touchline.launch.match_run import StopSignals
-    from touchline.launch.page import page_settings, serve_page_beside
+    from touchline.launch.page import open_page, serve_page_beside
 
-    web_settings = page_settings(page) if web else None
+    opened_page = open_page(page) if web else None
     settings = ReplaySettings(
         file,
         start=start,
@@ -103,16 +104,17 @@ def replay(
     )
     opened = Replay(settings)
     clock = WallClock()
-    name = from_options(ClientSettings, match=prefix + (match or opened.recording.manifest.match)).match
-    endpoint = connect or options.endpoint_of(listening)
+    name = prefix + (match or opened.recording.manifest.match)
+    from_options(ClientSettings, match=name)
+    listen = options.endpoint_of(listening) if connect is None else None
     with ExitStack() as stack:
-        bus = stack.enter_context(_open_bus(name, clock, endpoint, is_host=connect is None))
+        bus = stack.enter_context(_open_bus(name, clock, connect, listen))
         stop = stack.enter_context(StopSignals())  # before any address is printed
         look_after: Callable[[], list[Notice]] = list
-        if web_settings is not None:
+        if opened_page is not None:
             log = partial(typer.echo, err=True)
             look_after = stack.enter_context(
-                serve_page_beside(name, local_endpoint(endpoint), web_settings, clock, log)
+                serve_page_beside(name, local_endpoint(bus.endpoint), opened_page, clock, log)
             )
         view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
         began = clock.now()
@@ -139,13 +141,22 @@ def _compare(file: Path, agent: str, *, json: bool) -> None:
 
 
 @contextmanager
-def _open_bus(match: str, clock: "Clock", endpoint: str, *, is_host: bool) -> "Iterator[Bus]":
-    """The host's bus, or a client's beside a running host."""
+def _open_bus(match: str, clock: "Clock", connect: str | None, listen: str | None) -> "Iterator[ZenohBus]":
+    """A client's bus beside the running host at `connect`; without one, the bus of a host, which clients find."""
+    from schemas.bus.announcement import Announcement, announced_to_user
     from schemas.bus.zenoh.bus import open_client, open_host
 
-    parse_endpoint(endpoint)
-    with open_host(match, clock, endpoint) if is_host else open_client(match, clock, endpoint) as bus:
-        typer.echo(f'match "{match}" {"on" if is_host else "at"} {endpoint}', err=True)
+    with ExitStack() as stack:
+        if connect is not None:
+            parse_endpoint(connect)
+            bus = stack.enter_context(open_client(match, clock, connect))
+        else:
+            bus = stack.enter_context(open_host(match, clock, listen))
+            try:
+                stack.enter_context(announced_to_user(Announcement.of(match, bus.endpoint)))
+            except OSError as error:
+                typer.echo(f"touchline: clients do not find this replay by themselves: {error}", err=True)
+        typer.echo(f'match "{match}" {"on" if connect is None else "at"} {bus.endpoint}', err=True)
         yield bus
 
 

@@ -148,7 +148,7 @@ def _send(connection: ClientSettings, **content: Any) -> None:
     from coach_gateway.match.host_client import HostClient
 
     request = _request(**content)
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         reply = HostClient(bus).scene(request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

@@ -12,7 +12,7 @@ from touchline.cli import options
 from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:
-    from touchline.verify.resimulate import Detail, Discrepancy, Verdict
+    from touchline.verify.verdict import Detail, Discrepancy, Verdict
 
 _DETAILS = 6
 """Maximum number of differences that are listed; the rest is counted."""
@@ -25,6 +25,14 @@ def verify(
         int | None, typer.Option("--from-kickoff", help="Start at this kick-off, counted from 1, instead of tick 0.")
     ] = None,
     jobs: Annotated[int, typer.Option(help="Number of parallel processes; 0 for one per core.")] = 0,
+    referee: Annotated[
+        bool | None,
+        typer.Option(
+            "--referee/--no-referee",
+            help="Simulate the referee, too; by default where the recording has its settings and states.",
+            show_default=False,
+        ),
+    ] = None,
     json: options.Json = False,
 ) -> None:
     """Simulate a recorded match again and compare every tick: identical, or the first tick that differs.
@@ -36,7 +44,7 @@ def verify(
 
     if jobs < 0:
         raise TouchlineError(f"--jobs is {jobs}; give a number of processes, or 0 for one per core")
-    verdict = verified(file, from_kickoff, jobs or len(os.sched_getaffinity(0)))
+    verdict = verified(file, from_kickoff, jobs or len(os.sched_getaffinity(0)), referee)
     if json:
         typer.echo(json_text.dumps(verdict.to_json(), ensure_ascii=False))
     else:
@@ -58,6 +66,9 @@ def _lines(verdict: "Verdict") -> list[str]:
         lines.append(
             f"{'identical' if verdict.identical else 'identical where it could be compared'}, {verdict.ticks} ticks"
         )
+    lines += [f"the recording contradicts itself: {sentence}" for sentence in verdict.contradictions[:_DETAILS]]
+    if len(verdict.contradictions) > _DETAILS:
+        lines.append(f"  and {len(verdict.contradictions) - _DETAILS} more contradictions")
     lines += [_LEFT_OUT[one.why].format(_range(one.first, one.last)) for one in verdict.left_out]
     if verdict.without_world:
         lines.append(f"{verdict.without_world} ticks have no recorded world; their hash chain was compared")
@@ -67,6 +78,7 @@ def _lines(verdict: "Verdict") -> list[str]:
         f"{verdict.seconds:.1f} s of the match simulated again in {verdict.took:.1f} s by {how}, ×{rate:.0f}; "
         f"kick-offs to start from: {verdict.kick_offs}"
     )
+    lines.append(f"not checked: {'; '.join(verdict.not_checked)}")
     return lines
 
 
@@ -91,5 +103,18 @@ def _of_difference(one: "Discrepancy") -> list[str]:
 
 def _of_detail(one: "Detail") -> str:
     other = "in its command" if one.of.startswith("input") else "simulated again"
+    if one.field == "message":
+        return _of_message(one)
+    if one.of.startswith("belief"):
+        return f"{one.of}: {one.recorded} is recorded"
     by = f", {one.by:.3g} {_UNITS.get(one.field.split('.')[-1], '')}".rstrip() + " apart" if one.by is not None else ""
     return f"{one.of}: {one.field} is {one.recorded} recorded, {one.simulated} {other}{by}"
+
+
+def _of_message(one: "Detail") -> str:
+    """A whole message that is missing, or that the simulation does not have."""
+    if one.recorded is None:
+        return f"{one.of} is missing: {one.simulated}"
+    if one.simulated is None:
+        return f"{one.of} is recorded and not simulated: {one.recorded}"
+    return f"{one.of} is {one.recorded} recorded, {one.simulated} simulated again"

@@ -32,7 +32,7 @@ def watch(connection: ClientSettings) -> None:
         raise typer.Exit(run(GatewaySettings(connect=connection.connect, match=connection.match)))
     from touchline.cli.console import console
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         try:
             watch_on(bus, console())
         except KeyboardInterrupt:

@@ -1,34 +1,53 @@
-"""Checks that the teams' brains and programs exist, without running their code."""
+"""Checks before a match is launched: every team's program exists, and its brains can be built.
 
-import ast
-import importlib.util
-import pkgutil
+Brains are built in processes of their own, one for each team, as the robots of the match will build them.
+"""
+
+import os
 import shutil
-import sys
-from collections.abc import Iterator
-from importlib.machinery import ModuleSpec
+import signal
+import subprocess
+import tempfile
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
 from pathlib import Path
+from typing import BinaryIO
 
+from robot_agent.build_check import BuildCheckSettings
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError, did_you_mean
+from schemas.errors import TouchlineError
 from schemas.side import Side
+from touchline.launch.processes import ROBOT_ENVIRONMENT
+from touchline.launch.python_process import PYTHON, module_path_environment
+
+NOTICE_S = 3.0
+"""Wall time after which a wait for brains is reported."""
+LEAST_PATIENCE_S = 10.0
+"""Wall time for a brain to be built where the match file allows less."""
+_FAULT = "touchline: brain is "
+"""What the line of a faulty brain begins with."""
 
 
-def check_teams(config: MatchConfig) -> None:
-    """Check that both teams' brains or programs exist, before any process is launched.
+def check_teams(
+    config: MatchConfig, brain_folder: Path | None = None, report: Callable[[str], None] = lambda _: None
+) -> None:
+    """Check both teams; `report` receives a line if that takes long.
 
     Raises:
-        TouchlineError: one does not exist; the message names its key in the match file.
+        TouchlineError: a program does not exist, or a brain cannot be built; the message names its key.
     """
-    here = str(Path.cwd())
-    if here not in sys.path:
-        sys.path.append(here)  # on the path of `python -m`, too
     for side in Side:
         team = config.team(side)
         if team.command is not None:
             _check_program(f"teams.{side.value}.command", team.command)
-        elif team.brain is not None:
-            _check_brain(f"teams.{side.value}.brain", team.brain)
+    with ExitStack() as running:
+        checks = []
+        for side in (side for side in Side if config.team(side).command is None):
+            log = running.enter_context(tempfile.TemporaryFile())
+            checks.append(_BuildCheck(config, side, brain_folder, log))
+            running.callback(checks[-1].end)
+        for check in checks:
+            check.wait(report)
 
 
 def _check_program(key: str, command: list[str]) -> None:
@@ -38,57 +57,62 @@ def _check_program(key: str, command: list[str]) -> None:
         raise TouchlineError(f'{key} begins with "{command[0]}", which is not a program here; give its path')
 
 
-def _check_brain(key: str, brain: str) -> None:
-    module, _, name = brain.partition(":")
-    found = _find(key, brain, module)
-    if found.origin is None or not found.origin.endswith(".py"):
-        return  # compiled, or a folder without code: only the agent can check it
-    try:
-        tree = ast.parse(Path(found.origin).read_bytes())
-    except SyntaxError as error:
-        raise TouchlineError(f'{key} is "{brain}"; {found.origin}, line {error.lineno}: {error.msg}') from None
-    names = set(_names(tree.body))
-    if name not in names and "*" not in names and "__getattr__" not in names:
-        public = sorted(word for word in names if not word.startswith("_"))
-        hint = did_you_mean(name, public) if public else "it defines no public names"
-        raise TouchlineError(f'{key} is "{brain}"; {module} has no {name}; {hint}')
+class _BuildCheck:
+    """The process that builds the brains of one team."""
 
+    def __init__(self, config: MatchConfig, side: Side, brain_folder: Path | None, log: BinaryIO) -> None:
+        """The process writes into `log`."""
+        self._key = f"teams.{side.value}.brain"
+        self._brain = config.team(side).brain
+        robots = len(config.robots(side))
+        self._patience = max(config.patience.attendance, LEAST_PATIENCE_S) * max(robots, 1)
+        settings = BuildCheckSettings(config=config, side=side, brain_folder=brain_folder)
+        named = {"TOUCHLINE_SIDE": side.value, "TOUCHLINE_MATCH": config.name}
+        self._log = log
+        with tempfile.TemporaryFile() as file:
+            file.write(settings.model_dump_json().encode())
+            file.seek(0)
+            self._popen = subprocess.Popen(
+                [*PYTHON, "-m", "robot_agent.build_check", "--settings", "-"],
+                env={**os.environ, **ROBOT_ENVIRONMENT, **module_path_environment(), **named},
+                stdin=file,
+                stdout=self._log,
+                stderr=subprocess.STDOUT,
+                process_group=0,
+            )
 
-def _find(key: str, brain: str, module: str) -> ModuleSpec:
-    places = [str(Path.cwd())]
-    path = ""
-    for part in module.split("."):
-        path = f"{path}.{part}".lstrip(".")
+    def wait(self, report: Callable[[str], None]) -> None:
+        """Wait until the brains are built.
+
+        Raises:
+            TouchlineError: a brain cannot be built, or takes too long.
+        """
         try:
-            found = importlib.util.find_spec(path)
-        except Exception as error:  # a package's own code, which may raise anything
-            raise TouchlineError(f'{key} is "{brain}"; looking for {path} raised {error!r}') from error
-        if found is None:
-            known = [entry.name for entry in pkgutil.iter_modules(places)]
-            hint = did_you_mean(part, known) if known else "put it into the current directory"
-            raise TouchlineError(f'{key} is "{brain}"; there is no module {path}; {hint}')
-        if path == module:
-            return found
-        places = list(found.submodule_search_locations or ())
-    raise TouchlineError(f'{key} is "{brain}"; it names no module; write "module:Class"')
+            status = self._popen.wait(NOTICE_S)
+        except subprocess.TimeoutExpired:
+            report(f"waiting for {self._brain} to be built")
+            try:
+                status = self._popen.wait(self._patience)
+            except subprocess.TimeoutExpired:
+                raise TouchlineError(
+                    f'{self._key} is "{self._brain}"; its robots were not built within {self._patience:g} s; '
+                    "shorten __init__, or raise patience.attendance in the match file"
+                ) from None
+        if status != 0:
+            raise TouchlineError(self._fault(status))
 
+    def _fault(self, status: int) -> str:
+        self._log.seek(0)
+        text = self._log.read().decode("utf-8", "replace")
+        lines = [line for line in text.splitlines() if line.strip()] or ["no reason given"]
+        for line in reversed(lines):
+            if line.startswith(_FAULT):
+                return f"{self._key} is {line.removeprefix(_FAULT)}"
+        how = f"ended with status {status}" if status > 0 else f"was ended by {signal.Signals(-status).name}"
+        return f'{self._key} is "{self._brain}"; the process that builds it {how}: {lines[-1]}'
 
-def _names(body: list[ast.stmt]) -> Iterator[str]:
-    """The names bound at the top level of a module, including those within `if` and `try`."""
-    for statement in body:
-        match statement:
-            case ast.ClassDef() | ast.FunctionDef() | ast.AsyncFunctionDef():
-                yield statement.name
-            case ast.Import() | ast.ImportFrom():
-                for alias in statement.names:
-                    yield alias.asname or alias.name.partition(".")[0]
-            case ast.Assign():
-                yield from (target.id for target in statement.targets if isinstance(target, ast.Name))
-            case ast.AnnAssign(target=ast.Name(id=name)):
-                yield name
-            case ast.If() | ast.Try():
-                yield from _names([*statement.body, *statement.orelse, *getattr(statement, "finalbody", [])])
-                for handler in getattr(statement, "handlers", []):
-                    yield from _names(handler.body)
-            case _:
-                continue
+    def end(self) -> None:
+        """End the process and all it started."""
+        with suppress(ProcessLookupError):
+            os.killpg(self._popen.pid, signal.SIGKILL)
+        self._popen.wait()

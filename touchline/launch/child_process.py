@@ -7,6 +7,7 @@ import sys
 from abc import ABC, abstractmethod
 from pathlib import Path
 
+from coach_gateway.ports import inheritance_of
 from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
 from touchline.launch import leash
@@ -50,7 +51,9 @@ class ProcessHandle(ABC):
     def last_lines(self, count: int = 5) -> list[str]:
         """The last lines of this process's output, without empty lines and without output of an earlier process."""
         with self.log.open("rb") as log:
-            log.seek(max(self._log_start, self.log.stat().st_size - _TAIL_BYTES))
+            size = self.log.stat().st_size
+            start = self._log_start if self._log_start <= size else 0  # the log was cut meanwhile
+            log.seek(max(start, size - _TAIL_BYTES))
             text = log.read().decode("utf-8", "replace")
         return [line for line in text.splitlines() if line.strip()][-count:]
 
@@ -89,7 +92,8 @@ class ChildProcess(ProcessHandle):
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,
-                env={**os.environ, **process.environment},
+                env={**os.environ, **process.environment, **inheritance_of(process.sockets)},
+                pass_fds=[one.fileno() for one in process.sockets],
                 process_group=0,
             )
 

@@ -10,14 +10,16 @@ import signal
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from multiprocessing import forkserver, resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 
-from robot_agent.forked import PRELOAD, run_forked
+from robot_agent.forked import PRELOAD, SAFE_PATH, run_forked
 from robot_agent.settings import AgentSettings
 from touchline.launch.child_process import ChildProcess, ProcessHandle, write_settings_of
 from touchline.launch.processes import Process
+from touchline.launch.python_process import module_path_environment
 
 _PATIENCE_S = 2.0
 """Wall time for a forked robot to lead its process group; normally a few milliseconds."""
@@ -26,10 +28,12 @@ _PATIENCE_S = 2.0
 class ForkedRobot(ProcessHandle):
     """A robot from the fork server: a child of that server, which reports its exit status."""
 
-    def __init__(self, process: Process, log: Path, begin: int, robot: ForkServerProcess, leads: Connection) -> None:
-        """`leads` closes as soon as the robot leads its process group."""
+    def __init__(
+        self, process: Process, log: Path, begin: int, robot: ForkServerProcess, group_ready: Connection
+    ) -> None:
+        """`group_ready` closes as soon as the robot group_ready its process group."""
         super().__init__(process, log, begin)
-        self._robot, self._leads = robot, leads
+        self._robot, self._group_ready = robot, group_ready
 
     @property
     def pid(self) -> int:
@@ -41,7 +45,7 @@ class ForkedRobot(ProcessHandle):
         return self._robot.exitcode
 
     def _signal_group(self, number: signal.Signals) -> None:
-        self._leads.poll(_PATIENCE_S)
+        self._group_ready.poll(_PATIENCE_S)
         super()._signal_group(number)
 
 
@@ -61,23 +65,47 @@ class ForkServer:
                 return robot
         return ChildProcess(process, log)
 
+    def prepare(self, environment: Mapping[str, str]) -> None:
+        """Start the server, which imports what robots need while this process goes on."""
+        if self._context is None:
+            return
+        self._context.set_forkserver_preload(list(PRELOAD))
+        safe = {**environment, **module_path_environment(), SAFE_PATH: "1"}
+        try:
+            with _environment(safe):
+                resource_tracker.ensure_running()  # when it starts, it unblocks the signal
+                with _blocked(signal.SIGINT):
+                    forkserver.ensure_running()
+        except OSError:
+            self._context = None
+
     def _fork(self, process: Process, settings: AgentSettings, log: Path) -> ForkedRobot | None:
         """The robot; None without a fork server."""
+        self.prepare(process.environment)
         if self._context is None:
             return None
         write_settings_of(process)
         with log.open("ab") as out:
             begin = out.tell()
-        self._context.set_forkserver_preload(list(PRELOAD))
-        leads, held = self._context.Pipe(duplex=False)
+        group_ready, held = self._context.Pipe(duplex=False)
         robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
         try:
-            with held, _environment(process.environment):
+            with held:
                 robot.start()
         except (OSError, EOFError):
             self._context = None
             return None
-        return ForkedRobot(process, log, begin, robot, leads)
+        return ForkedRobot(process, log, begin, robot, group_ready)
+
+
+@contextmanager
+def _blocked(number: signal.Signals) -> Iterator[None]:
+    """Block a signal within the block: the fork server would end with a traceback while it starts."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

@@ -1,13 +1,21 @@
 """A whole match: launches, watches and ends its processes, and returns the result."""
 
+import shutil
 import signal
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from types import FrameType, TracebackType
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import event_line
+from coach_gateway.match.lines import clock_text, event_line
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
+from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.game import GameEvent, GameState
@@ -16,18 +24,45 @@ from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import MatchPlan, Process, processes_of
+from touchline.launch.log_limit import LogLimit
+from touchline.launch.page import address_lines
+from touchline.launch.page_probe import AddressLines
+from touchline.launch.processes import (
+    ROBOT_ENVIRONMENT,
+    MatchPlan,
+    Process,
+    ProcessKind,
+    client_processes,
+    host_process,
+)
+from touchline.launch.recording_outcome import (
+    NO_RECORDING,
+    RecordingOutcome,
+    finished_recording,
+    unfinished_recording,
+)
 from touchline.launch.result import NOTABLE, MatchResult
-from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor, ending
+from touchline.watch.agent_faults import SlowAgents
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
+if TYPE_CHECKING:
+    from coach_gateway.web.protocol import ResultUpdate
+
 _POLL = 0.05
 """Wall time between polls of processes and bus, s."""
+_LOOK = 0.01
+"""Wall time between two looks for the announcement of a host that is starting, s."""
 _LAST_MESSAGES = 5.0
 """Wall time for the host's last messages to arrive after its process has ended, s. They have all arrived when the link
 closes, and it closes with the process: only an overloaded machine takes long."""
 _WRONG_INPUT = 2
+_AFTER_THE_RESULT = frozenset({ProcessKind.PAGE})
+"""Processes that go on after the match, until the page with its result is closed."""
+_NONE: frozenset[ProcessKind] = frozenset()
+_FIRST_LOOK = 1.0
+"""Wall time in which a page's server that has the result ends if no page is open, s."""
 
 
 class InterruptedMatchError(Exception):
@@ -70,42 +105,102 @@ class MatchRun:
         screen: Screen,
         clock: Clock,
         losses: Callable[[MatchPlan], dict[str, int]],
-        recorded: Callable[[MatchPlan], Iterable[ReceivedMessage]],
+        published: Callable[[MatchPlan], Iterable[ReceivedMessage]],
     ) -> None:
-        """`losses` returns the losses of a finished recording, `recorded` its events and states of the game."""
+        """`losses` returns the losses of a finished recording, `published` the host's events and last state."""
         self._plan = plan
         self._screen = screen
         self._clock = clock
         self._losses = losses
-        self._recorded = recorded
+        self._published = published
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
+        self._has_clients = False
+        self._names = TeamNames.of_match(plan.config)
+        self._slow_agents = SlowAgents()
+        self._logs: dict[str, Path] = {}
+        self._log_limit = LogLimit()
         self._fork_server = ForkServer()
-        self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
+        self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
+        self._address: AddressLines | None = None
+        if plan.page is not None:
+            lines = partial(address_lines, plan.page.settings, plan.tokens)
+            self._address = AddressLines(plan.page.settings, lines, partial(screen.event, notable=False))
 
     def play(self) -> MatchResult:
         """Play the match.
 
         Raises:
             InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
-            MatchFailedError: the host ended before full time, or the recording was lost.
+            MatchFailedError: the host ended before full time, or a team has no robot left.
             TouchlineError: the host could not start; the message is the host's.
         """
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
-                follower = self._follow(stop)
+                self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                follower = self._follow(stop) if self._launch_clients(stop) else None
+                empty = self._empty_side()
             except BaseException:
                 self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                self._supervisor.end(AFTER_THE_MATCH, hurried=lambda: stop.received is not None)
-            self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
+                is_over = self._supervisor.host_status is not None
+                steps, keep = (AFTER_THE_MATCH, _AFTER_THE_RESULT) if is_over else (ABANDONED, _NONE)
+                self._supervisor.end(steps, should_abort=lambda: stop.received is not None, keep=keep)
+            if follower is None or empty is not None or stop.received is not None:
+                self._supervisor.end(AT_ONCE)  # the remaining processes
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
-        return self._outcome(follower)
+        try:
+            if empty is not None:
+                raise MatchFailedError(self._abandonment(empty, follower))
+            return self._outcome(follower)
+        except BaseException:
+            self._supervisor.end(AT_ONCE)
+            raise
+
+    def stay(self, result: "Iterable[ResultUpdate]") -> None:
+        """Keep the page with the result of the match until it is closed everywhere, or until SIGINT or SIGTERM.
+
+        `result` is what the page is given, one piece after another while the page is open.
+        """
+        from coach_gateway.web.match_result import write_result
+
+        with StopSignals() as stop:
+            for part in result:
+                write_result(self._plan.result_folder, part)
+                if not self._page_is_open(stop, _FIRST_LOOK):
+                    break
+            while self._page_is_open(stop, _POLL):
+                pass
+            self._supervisor.end(AT_ONCE)
+
+    def _page_is_open(self, stop: StopSignals, seconds: float) -> bool:
+        """Wait; whether the page's server runs on: it ends when no page is open."""
+        self._clock.sleep_until(self._clock.now() + seconds)
+        self._supervisor.check()
+        return stop.received is None and "page" not in self._supervisor.ended
 
     def _launch(self, process: Process) -> ProcessHandle:
-        return self._fork_server.launch(process, self._plan.folder / f"{process.name}.log")
+        log = self._plan.folder / f"{process.name}.log"
+        self._logs[process.name] = log
+        return self._fork_server.launch(process, log)
+
+    def _launch_clients(self, stop: StopSignals) -> bool:
+        """Launch all other processes as soon as the host listens; False if it never does."""
+        while self._poll_processes(stop):
+            announcement = announcement_in(self._plan.announcement)
+            if announcement is not None:
+                is_unexpected = announcement.endpoint != local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
+                self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
+                if self._names != SIDES_ALONE:
+                    self._screen.event(str(self._names), notable=True)
+                self._plan = replace(self._plan, listen=announcement.endpoint)
+                self._supervisor.add(client_processes(self._plan))
+                self._has_clients = True
+                return True
+            self._clock.sleep_until(self._clock.now() + _LOOK)
+        return False
 
     def _follow(self, stop: StopSignals) -> MatchFollower | None:
         """Watch until the host has ended or a signal is received; None if the host was never reached."""
@@ -114,17 +209,17 @@ class MatchRun:
             return None
         with bus:
             follower = MatchFollower(bus)
-            while self._is_going(stop):
+            while self._poll_processes(stop):
                 self._show(follower)
                 self._clock.sleep_until(self._clock.now() + _POLL)
             deadline = self._clock.now() + _LAST_MESSAGES
-            while stop.received is None and bus.connected() and self._clock.now() < deadline:
+            while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
                 self._clock.sleep_until(self._clock.now() + _POLL / 10)
             self._show(follower)
         return follower
 
     def _connect(self, stop: StopSignals) -> Bus | None:
-        while self._is_going(stop):
+        while self._poll_processes(stop):
             self._screen.status("waiting for the host")
             try:
                 return open_client(self._plan.config.name, self._clock, self._plan.connect, patience=0.0)
@@ -132,12 +227,26 @@ class MatchRun:
                 self._clock.sleep_until(self._clock.now() + _POLL)
         return None
 
-    def _is_going(self, stop: StopSignals) -> bool:
+    def _poll_processes(self, stop: StopSignals) -> bool:
+        if stop.received is not None:
+            return False  # processes that end with the same signal are no crashes
+        for sentence in filter(None, map(self._log_limit.check, self._logs.values())):
+            self._screen.warn(sentence)
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)
             for line in notice.log:
                 self._screen.warn(f"  {notice.name}: {line}")
-        return self._supervisor.host_status is None and stop.received is None
+        if self._address is not None:
+            self._address.update()
+        return self._supervisor.host_status is None and self._empty_side() is None
+
+    def _is_ending(self, stop: StopSignals) -> bool:
+        """Whether the host has ended by itself, so that its last messages are on their way."""
+        return stop.received is None and self._supervisor.host_status is not None
+
+    def _empty_side(self) -> Side | None:
+        """A side of which no robot is left; None while both play."""
+        return next((side for side in Side if self._supervisor.has_no_robot(self._plan.config.robots(side))), None)
 
     def _show(self, follower: MatchFollower) -> None:
         self._report(follower, follower.update().messages)
@@ -145,33 +254,70 @@ class MatchRun:
     def _report(self, follower: MatchFollower, news: Sequence[GameEvent | GameState | Health]) -> None:
         for message in news:
             if isinstance(message, GameEvent):
-                self._screen.event(event_line(message), notable=message.kind in NOTABLE)
-        self._screen.status(status_line(follower, self._robots))
+                self._screen.event(event_line(message, self._names), notable=message.kind in NOTABLE)
+            elif isinstance(message, Health):
+                for sentence in self._slow_agents.update(message):
+                    self._screen.warn(sentence)
+        self._screen.status(status_line(follower, self._robots, self._names))
+
+    def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:
+        """Why a match ended, of which one side has no robot left."""
+        state = follower.state if follower is not None else None
+        when = (
+            f"at {clock_text(state.clock)}, {self._names.score(state.score)}"
+            if state is not None
+            else "before it began"
+        )
+        first = self._plan.config.robots(side)[0]
+        log = self._supervisor.last_lines(first)
+        return (
+            f"match ended {when}: no robot of {self._names.with_side(side)} is left; "
+            f"{first}: {log[-1] if log else 'no reason logged'}; logs are in {self._plan.folder}"
+        )
 
     def _outcome(self, follower: MatchFollower | None) -> MatchResult:
         """The result; raises the reason if there is none."""
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
-            # this process may have missed the last messages if it was stalled; the host waits for the recorder
-            self._report(follower, follower.complete(self._recorded(self._plan)))
+            # this process may have missed the last messages if it was stalled
+            self._report(follower, follower.merge_recorded(self._published(self._plan)))
         if status == 0 and follower is not None and follower.finished:
             return self._result(follower)
         log = self._supervisor.last_lines("host")
         if status == _WRONG_INPUT and log:
+            if not self._has_clients:
+                self._remove_folder()
             raise TouchlineError(log[-1].removeprefix("touchline: "))
         for line in log:
             self._screen.warn(f"  host: {line}")
         how = "was ended before full time" if status == 0 else f"ended with status {status}"
         raise MatchFailedError(f"match abandoned: the host {how}; its log is {self._plan.folder / 'host.log'}")
 
+    def _remove_folder(self) -> None:
+        """Remove the folder of a match whose host could not listen: its log is the error that is reported."""
+        shutil.rmtree(self._plan.folder)
+        with suppress(OSError):  # of other matches
+            self._plan.folder.parent.rmdir()
+
     def _result(self, follower: MatchFollower) -> MatchResult:
-        recording = self._plan.recording
-        snapshots = self._plan.config.record.snapshot is not None  # a match without a goal has none
-        missing = not snapshots and not self._plan.recording_files
-        if recording is not None and (self._supervisor.ended.get("recorder") != 0 or missing):
-            log = self._supervisor.last_lines("recorder")
-            raise MatchFailedError(
-                f"the match was played but its recording was lost: {log[-1] if log else 'no reason logged'}; "
-                f"its log is {self._plan.folder / 'recorder.log'}"
-            )
-        return MatchResult.of(follower, recording, self._losses(self._plan))
+        """The result, which does not depend on what became of the recording."""
+        return replace(MatchResult.of(follower, self._recording()), names=self._names)
+
+    def _recording(self) -> RecordingOutcome:
+        path = self._plan.recording
+        if path is None:
+            return NO_RECORDING
+        status = self._supervisor.ended.get("recorder")
+        finished = self._plan.recording_files
+        is_there = bool(finished) or self._plan.config.record.snapshot is not None  # a match without a goal has none
+        log = self._supervisor.last_lines("recorder")
+        reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
+        if status is not None and status < 0:
+            reason = f"the recorder {ending(status)}"
+        if status == 0 and is_there:
+            try:
+                return finished_recording(path, self._losses(self._plan))
+            except TouchlineError as error:
+                reason = str(error)
+        left = [*finished, *self._plan.unfinished_recordings]
+        return unfinished_recording(path, left, reason, self._plan.folder / "recorder.log")

@@ -3,29 +3,32 @@
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from coach_gateway.access.tokens import page_address, read_or_make
 from coach_gateway.settings import GatewaySettings
-from coach_gateway.web.listener import free_port, origin_of
+from coach_gateway.web.listener import listen, origin_of
 from coach_gateway.web.settings import WebSettings, need_web
 from schemas.process.clock import Clock
 from touchline.cli.option_groups import from_options
 from touchline.launch.child_process import ChildProcess
-from touchline.launch.processes import TOKENS, page_process
+from touchline.launch.page_probe import AddressLines
+from touchline.launch.processes import TOKENS, Page, page_process
 from touchline.launch.supervisor import AT_ONCE, Notice, Supervisor
 
 
-def page_settings(options: Mapping[str, Any]) -> WebSettings:
-    """The settings of the page for these options, with a real port that is free.
+def open_page(options: Mapping[str, Any]) -> Page:
+    """The page for these options, on a port that is listened on from now on.
 
     Raises:
-        TouchlineError: the port is taken, or a package is missing.
+        TouchlineError: the port is in use, or a package is missing.
     """
     need_web()
     web = from_options(WebSettings, **options)
-    return web.model_copy(update={"port": free_port(web.listen_web, web.port)})
+    listener = listen(web.listen_web, web.port)
+    return Page(web.model_copy(update={"port": listener.getsockname()[1]}), listener)
 
 
 def address_lines(web: WebSettings, tokens: Path) -> list[str]:
@@ -43,7 +46,7 @@ def address_lines(web: WebSettings, tokens: Path) -> list[str]:
 
 @contextmanager
 def serve_page_beside(
-    match: str, connect: str, web: WebSettings, clock: Clock, log: Callable[[str], None]
+    match: str, connect: str, page: Page, clock: Clock, log: Callable[[str], None]
 ) -> Iterator[Callable[[], list[Notice]]]:
     """Serve the page of a match within the block; yields a function that supervises it, to be called periodically.
 
@@ -52,12 +55,17 @@ def serve_page_beside(
     with tempfile.TemporaryDirectory(prefix="touchline-page-") as name:
         folder = Path(name)
         tokens = folder / TOKENS
-        process = page_process(GatewaySettings(connect=connect, match=match, tokens=tokens, web=web), folder)
+        settings = GatewaySettings(connect=connect, match=match, tokens=tokens, web=page.settings)
+        process = page_process(settings, page.listener, folder)
         supervisor = Supervisor([process], lambda process: ChildProcess(process, folder / "page.log"), clock)
-        for line in address_lines(web, tokens):
-            log(line)
+        address = AddressLines(page.settings, partial(address_lines, page.settings, tokens), log)
         supervisor.start()
+
+        def check() -> list[Notice]:
+            address.update()
+            return supervisor.check()
+
         try:
-            yield supervisor.check
+            yield check
         finally:
             supervisor.end(AT_ONCE)

@@ -1,11 +1,12 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
-import sys
+import socket
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
@@ -17,6 +18,7 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
+from touchline.launch.python_process import PYTHON, module_path_environment
 
 
 class ProcessKind(StrEnum):
@@ -36,20 +38,26 @@ class ProcessRow:
     """One kind of process."""
 
     module: str
-    """Started as `python -m MODULE --settings FILE`."""
+    """Started as `python -P -m MODULE --settings FILE`."""
     restarts: int = 0
     """Maximum number of restarts after crashes."""
+    on_restart: Mapping[str, Any] = field(default_factory=dict)
+    """Settings of a restarted process that differ from those of the first."""
 
 
 PROCESSES: dict[ProcessKind, ProcessRow] = {
     ProcessKind.HOST: ProcessRow("sim_host"),
-    ProcessKind.RECORDER: ProcessRow("recordings"),
+    ProcessKind.RECORDER: ProcessRow("recordings", restarts=3, on_restart={"resume": True}),
     ProcessKind.AGENT: ProcessRow("robot_agent", restarts=3),
     ProcessKind.PAGE: ProcessRow("coach_gateway", restarts=3),
     ProcessKind.BRIDGES: ProcessRow("coach_gateway", restarts=3),
 }
 """ProcessKind → its row, in the order they are launched."""
 
+OUTCOME = "outcome.json"
+"""The file of a match's result, in the folder of its run."""
+ANNOUNCEMENT = "endpoint.json"
+"""The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
 """The file of a run's tokens, in its folder."""
 
@@ -60,6 +68,10 @@ COMMON_ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
 }
 """Environment of every process of a match."""
+
+# A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
+ROBOT_ENVIRONMENT = {**COMMON_ENVIRONMENT, "PYTHONHASHSEED": "0"}
+"""Environment of every robot, without its own name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +88,22 @@ class Process:
     settings: Settings | None = None
     """The content of `settings_file`; None for a team's own program."""
     settings_file: Path | None = None
+    sockets: tuple[socket.socket, ...] = ()
+    """Bound sockets that it inherits, also when it is started again."""
+
+    def restarted(self) -> "Process":
+        """The process as it is launched after a crash."""
+        changes = PROCESSES[self.kind].on_restart
+        return replace(self, settings=self.settings.model_copy(update=dict(changes))) if self.settings else self
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A page to be served."""
+
+    settings: WebSettings
+    listener: socket.socket
+    """A browser that connects before the page is served waits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,22 +111,36 @@ class MatchPlan:
     """A match ready to launch."""
 
     config: MatchConfig
-    listen: str
+    listen: str | None
+    """The endpoint to listen on, with port 0 for a free one; None for the default. Where the host listens, once it
+    does."""
     folder: Path
     """Holds the settings and the logs of all processes."""
     recording: Path | None
     """The recording to write; None for no recording."""
     warning: str = ""
     """A warning to print before the match begins; empty for none."""
-    page: WebSettings | None = None
+    page: Page | None = None
     """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
     """The bridges beside the page."""
+    brain_folder: Path | None = None
+    """Folder in which brains are looked for before the current directory: that of the match file."""
+    bridge_sockets: tuple[socket.socket, ...] = ()
+    """The bound sockets of the bridges, in the order in which they are inherited."""
+    launch_token: str | None = None
+    """Secret by which the host knows the agents of this launch; None admits every agent."""
 
     @property
     def connect(self) -> str:
-        """The host's endpoint for processes on the same machine."""
+        """The endpoint for processes on the same machine of a host that listens."""
+        assert self.listen is not None
         return local_endpoint(self.listen)
+
+    @property
+    def announcement(self) -> Path:
+        """The file in which the host announces its endpoint."""
+        return self.folder / ANNOUNCEMENT
 
     @property
     def recording_files(self) -> list[Path]:
@@ -108,9 +150,26 @@ class MatchPlan:
         return files_at(self.recording) if self.recording is not None else []
 
     @property
+    def unfinished_recordings(self) -> list[Path]:
+        """The files of the recording that its recorder has not finished."""
+        from recordings.container.numbering import unfinished_at
+
+        return unfinished_at(self.recording) if self.recording is not None else []
+
+    @property
+    def outcome(self) -> Path:
+        """The file in which the host leaves the result."""
+        return self.folder / OUTCOME
+
+    @property
     def tokens(self) -> Path:
         """The file of the tokens for both page and coach programs."""
         return self.folder / TOKENS
+
+    @property
+    def result_folder(self) -> Path:
+        """The folder with what the match's page shows after the match."""
+        return self.folder / "result"
 
 
 def check_robot_names(config: MatchConfig) -> None:
@@ -125,13 +184,25 @@ def check_robot_names(config: MatchConfig) -> None:
             raise TouchlineError(f'a robot is named "{name}", as a process of the match is; rename it')
 
 
-def processes_of(plan: MatchPlan) -> list[Process]:
-    """All programs of a match, in the order they are launched."""
+def host_process(plan: MatchPlan) -> Process:
+    """The host of a match, which is launched first."""
+    host = HostSettings(
+        config=plan.config,
+        listen=plan.listen,
+        # --insecure was checked when the plan was made
+        insecure=plan.listen is not None and not is_loopback(plan.listen),
+        launch_token=plan.launch_token,
+        announcement=plan.announcement,
+        outcome=plan.outcome,
+    )
+    return _process("host", ProcessKind.HOST, host, plan.folder)
+
+
+def client_processes(plan: MatchPlan) -> list[Process]:
+    """The other programs of a match, whose host listens, in the order they are launched."""
     config, folder = plan.config, plan.folder
     connect, match = plan.connect, config.name
-    open_to_others = not is_loopback(plan.listen)  # --insecure was checked when the plan was made
-    host = HostSettings(config=config, listen=plan.listen, insecure=open_to_others)
-    processes = [_process("host", ProcessKind.HOST, host, folder)]
+    processes = []
     if plan.recording is not None:
         recorder = RecorderSettings(
             connect=connect, match=match, out=plan.recording, record=config.record, config=config
@@ -141,33 +212,42 @@ def processes_of(plan: MatchPlan) -> list[Process]:
         processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
     gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
     if plan.page is not None:
-        processes.append(page_process(gateway.model_copy(update={"web": plan.page}), folder))
+        settings = gateway.model_copy(update={"web": plan.page.settings, "result": plan.result_folder})
+        processes.append(page_process(settings, plan.page.listener, folder))
     if plan.bridges.wanted:
         bridges = gateway.model_copy(update={"bridges": plan.bridges})
-        processes.append(_process("bridges", ProcessKind.BRIDGES, bridges, folder))
+        processes.append(_process("bridges", ProcessKind.BRIDGES, bridges, folder, sockets=plan.bridge_sockets))
     return processes
 
 
-def page_process(settings: GatewaySettings, folder: Path) -> Process:
+def page_process(settings: GatewaySettings, listener: socket.socket, folder: Path) -> Process:
     """The program that serves the page of a match, or of a replay."""
-    return _process("page", ProcessKind.PAGE, settings, folder)
+    return _process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
 def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
     """A robot's brain, or its team's own program, which reads the robot's name from its environment."""
     team = plan.config.team(side)
     environment = {
+        **ROBOT_ENVIRONMENT,
         "TOUCHLINE_CONNECT": plan.connect,
         "TOUCHLINE_MATCH": plan.config.name,
         "TOUCHLINE_ROBOT": robot,
         "TOUCHLINE_SIDE": side.value,
-        # A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
-        "PYTHONHASHSEED": "0",
     }
+    if plan.launch_token is not None:
+        environment["TOUCHLINE_LAUNCH_TOKEN"] = plan.launch_token
     if team.command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(robot, ProcessKind.AGENT, tuple(team.command), {**COMMON_ENVIRONMENT, **environment}, restarts)
-    settings = AgentSettings(connect=plan.connect, match=plan.config.name, robot=robot, brain=team.brain or "")
+        return Process(robot, ProcessKind.AGENT, tuple(team.command), environment, restarts)
+    settings = AgentSettings(
+        connect=plan.connect,
+        match=plan.config.name,
+        robot=robot,
+        brain=team.brain or "",
+        brain_folder=plan.brain_folder,
+        launch_token=plan.launch_token,
+    )
     return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
 
 
@@ -177,7 +257,9 @@ def _process(
     settings: Settings,
     folder: Path,
     environment: Mapping[str, str] = MappingProxyType({}),
+    sockets: tuple[socket.socket, ...] = (),
 ) -> Process:
     row, file = PROCESSES[kind], folder / f"{name}.json"
-    command = (sys.executable, "-m", row.module, "--settings", str(file))
-    return Process(name, kind, command, {**COMMON_ENVIRONMENT, **environment}, row.restarts, settings, file)
+    command = (*PYTHON, "-m", row.module, "--settings", str(file))
+    whole = {**COMMON_ENVIRONMENT, **module_path_environment(), **environment}
+    return Process(name, kind, command, whole, row.restarts, settings, file, sockets)

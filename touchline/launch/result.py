@@ -3,7 +3,6 @@
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -11,8 +10,11 @@ from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.game import EventKind, Score
 from schemas.messages.game import DisciplinaryRecord, GameEvent
+from schemas.side import Side
+from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
 
 NOTABLE = frozenset(
     {
@@ -49,18 +51,18 @@ class MatchResult:
     """Simulated seconds per wall second of play."""
     wall_s: float
     """Wall time of play in s."""
-    recording: Path | None
-    losses: dict[str, int]
-    """Key → number of messages that the recorder missed; empty if it missed none."""
+    recording: RecordingOutcome = NO_RECORDING
     effective_s: float = 0.0
     """Simulated time with the ball in play, s."""
     robots: Mapping[str, DisciplinaryRecord] = field(default_factory=dict)
     """Robots that ended with a card or off the field."""
     shoot_out: Score | None = None
     """Goals of the penalty shoot-out, if there was one."""
+    names: TeamNames = SIDES_ALONE
+    """The teams' names."""
 
     @classmethod
-    def of(cls, follower: MatchFollower, recording: Path | None, losses: dict[str, int]) -> "MatchResult":
+    def of(cls, follower: MatchFollower, recording: RecordingOutcome) -> "MatchResult":
         """The result from the received messages."""
         return cls(
             score=follower.state.score if follower.state is not None else Score(),
@@ -70,7 +72,6 @@ class MatchResult:
             real_time_factor=follower.real_time_factor,
             wall_s=follower.wall_s,
             recording=recording,
-            losses=losses,
             effective_s=follower.state.effective if follower.state is not None else 0.0,
             robots=follower.state.robots if follower.state is not None else {},
             shoot_out=follower.state.shoot_out if follower.state is not None else None,
@@ -85,6 +86,7 @@ class MatchResult:
     def json(self) -> str:
         """One JSON object."""
         content = {
+            "teams": {side.value: self.names[side] for side in Side},
             "score": self.score.model_dump(),
             "halves": [score.model_dump() for score in self.halves],
             "shoot_out": self.shoot_out.model_dump() if self.shoot_out is not None else None,
@@ -95,27 +97,31 @@ class MatchResult:
             "events": [event.model_dump(mode="json", exclude={"version"}) for event in self.events],
             "real_time_factor": round(self.real_time_factor, 3),
             "wall_s": round(self.wall_s, 3),
-            "recording": str(self.recording) if self.recording is not None else None,
-            "losses": self.losses,
+            "recording": str(self.recording.path) if self.recording.path is not None else None,
+            "recording_fault": self.recording.fault or None,
+            "losses": dict(self.recording.losses),
         }
         return json.dumps(content, ensure_ascii=False)
 
     def render(self) -> RenderableType:
         """Score, events and recording, for a console."""
-        headline = Text(f"\ncyan {self.score.cyan} : {self.score.magenta} magenta", style="bold")
+        headline = Text(f"\n{self.names.score(self.score)}", style="bold")
         headline.append(
             f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
         )
         parts: list[RenderableType] = [headline, Text(self._summary()), self._table()]
-        if self.recording is not None:
-            parts.append(Text(f"recording  {self.recording}", no_wrap=True, overflow="ignore"))
-        if self.losses:
-            parts.append(Text(f"recording misses {sum(self.losses.values())} messages: {self.losses}", style="yellow"))
+        recording = self.recording
+        if recording.path is not None:
+            parts.append(Text(f"recording  {recording.path}", no_wrap=True, overflow="ignore"))
+        if recording.losses and recording.is_whole:
+            losses = dict(recording.losses)
+            parts.append(Text(f"messages that did not reach the host: {losses}", style="yellow"))
         return Group(*parts)
 
     def _summary(self) -> str:
         """Score by halves, penalties, ball in play, and each robot's cards at the end."""
-        parts = ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
+        parts = [str(self.names)] if self.names != SIDES_ALONE else []
+        parts += ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
         if self.shoot_out is not None:
             parts.append(f"penalties {self.shoot_out.cyan}:{self.shoot_out.magenta}")
         parts.append(f"ball in play {self.effective_s:.1f} s")
@@ -128,5 +134,5 @@ class MatchResult:
         for event in self.events:
             if event.kind in NOTABLE:
                 kind = event.kind.value.replace("_", " ")
-                table.add_row(clock_text(event.clock), kind, event.robot or "", Text(event.text))
+                table.add_row(clock_text(event.clock), kind, event.robot or "", Text(self.names.in_text(event.text)))
         return table

@@ -1,5 +1,6 @@
 """The folder of a match's files under `runs/`, named after match, time and seed."""
 
+import secrets
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -13,7 +14,7 @@ RECORDING = "match.mcap"
 
 
 def prepare_run(
-    config: MatchConfig, listen: str, recording: Path | None, clock: Clock, *, recorded: bool = True
+    config: MatchConfig, listen: str | None, recording: Path | None, clock: Clock, *, recorded: bool = True
 ) -> MatchPlan:
     """Make the folder of a run.
 
@@ -30,26 +31,26 @@ def prepare_run(
     try:
         folder = _new_folder(stem)
         out = (recording or folder / RECORDING) if recorded else None
-        refusal = _refusal(out) if out is not None else ""
+        refusal = _why_not_writable(out) if out is not None else ""
         if refusal:
-            refusal = f"--record {out}: {refusal}; the match is played, its recording goes to {folder / RECORDING}"
+            refusal = f"--record {out}: {refusal}. The match is played, its recording goes to {folder / RECORDING}"
             out = folder / RECORDING
-        plan = MatchPlan(config, listen, folder, out, refusal)
+        plan = MatchPlan(config, listen, folder, out, refusal, launch_token=secrets.token_hex(16))
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
     return plan
 
 
-def _refusal(out: Path) -> str:
-    """The reason why the file cannot be written; empty if it can."""
+def _why_not_writable(out: Path) -> str:
+    """The reason why the file cannot be written, with the remedy; empty if it can."""
     from recordings.container.partial_file import NotWritableError, PartialFile
 
     try:
         PartialFile(out).discard()
     except NotWritableError as error:
-        return error.reason
+        return f"{error.reason}; {error.remedy}"
     except OSError as error:
-        return error.strerror or "cannot be written"
+        return f"{error.strerror or 'cannot be written'}; give a path that can be written"
     return ""
 
 

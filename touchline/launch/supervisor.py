@@ -4,10 +4,13 @@ Independent of bus and screen; the clock and the launch function are parameters.
 """
 
 import signal
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from robot_agent.settings import FIRST_SIGHT_FAILED
+from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from touchline.launch.processes import Process, ProcessKind
 
@@ -56,6 +59,9 @@ AFTER_THE_MATCH = (
 )
 """The host has ended by itself: processes that would wait for its return are signalled; the recorder may finish."""
 
+ABANDONED = (EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM), *AFTER_THE_MATCH)
+"""The match cannot go on: the host ends after its tick, the others as after a match."""
+
 AT_ONCE = (
     EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
     EndStep(0.2, _RECONNECTING, signal.SIGTERM),
@@ -65,6 +71,7 @@ AT_ONCE = (
 """Interrupted: the host ends first, the recorder has most of the time to finish its file; two seconds in all."""
 
 _POLL = 0.02
+_LEFT_EARLY = "ended with status 0 before the match was over; a robot's program runs until it receives SIGTERM"
 
 
 class Supervisor:
@@ -75,14 +82,20 @@ class Supervisor:
         self._launch = launch
         self._clock = clock
         self._running: dict[str, RunningProcess] = {}
-        self._restarts = dict.fromkeys(self._processes, 0)
+        self._restarts: Counter[str] = Counter()
         self.ended: dict[str, int] = {}
         """Name → exit status of the processes that ended and were not restarted."""
 
     def start(self) -> None:
-        """Launch all processes, in the order of the table."""
+        """Launch all processes, in their order."""
         for name, process in self._processes.items():
             self._running[name] = self._launch(process)
+
+    def add(self, processes: Sequence[Process]) -> None:
+        """Launch further processes, in their order."""
+        for process in processes:
+            self._processes[process.name] = process
+            self._running[process.name] = self._launch(process)
 
     def check(self) -> list[Notice]:
         """Poll all processes once; restart ended ones if the table allows it."""
@@ -94,8 +107,11 @@ class Supervisor:
             status = self._running[name].status()
             if status is None:
                 continue
-            if status == 0 or self.host_status is not None:
+            if self.host_status is not None or (status == 0 and process.kind is not ProcessKind.AGENT):
                 self.ended[name] = status
+            elif status == 0:
+                self.ended[name] = status
+                notices.append(Notice(name, f"{name} {_LEFT_EARLY}", tuple(self._running[name].last_lines())))
             else:
                 notices.append(self._crashed(process, status))
         return notices
@@ -105,24 +121,42 @@ class Supervisor:
         """The host's exit status; None while running."""
         return self.ended.get("host")
 
+    def has_no_robot(self, names: Sequence[str]) -> bool:
+        """Whether none of these robots runs, or will run again. After the host has ended: whether all of them failed.
+
+        Programs that end when their host has ended are no failures.
+        """
+        if self.host_status is None:
+            return bool(names) and all(name in self.ended for name in names)
+        ended = [(self._processes[name], self.ended[name]) for name in names if name in self.ended]
+        return len(ended) == len(names) > 0 and all(_failed_at_first_sight(*end) for end in ended)
+
     def last_lines(self, name: str) -> list[str]:
         """The last lines of a process's log."""
         return self._running[name].last_lines() if name in self._running else []
 
-    def end(self, steps: Sequence[EndStep], hurried: Callable[[], bool] = lambda: False) -> None:
-        """End all processes by these steps; returns when all have ended, or as soon as `hurried()` is true."""
+    def end(
+        self,
+        steps: Sequence[EndStep],
+        should_abort: Callable[[], bool] = lambda: False,
+        keep: frozenset[ProcessKind] = frozenset(),
+    ) -> None:
+        """End all processes by these steps; returns when all have ended, or as soon as `should_abort()` is true.
+
+        Processes of the kinds `keep` go on.
+        """
         began = self._clock.now()
         waiting = list(steps)
-        while self._still_running() and not hurried():
+        while self._still_running(keep) and not should_abort():
             elapsed = self._clock.now() - began
             while waiting and waiting[0].after <= elapsed:
-                self._signal(waiting.pop(0))
+                self._signal(waiting.pop(0), keep)
             self._clock.sleep_until(self._clock.now() + _POLL)
 
-    def _still_running(self) -> bool:
+    def _still_running(self, keep: frozenset[ProcessKind]) -> bool:
         for name in self._running:
             self._reap(name)
-        return len(self.ended) < len(self._running)
+        return any(name not in self.ended and self._processes[name].kind not in keep for name in self._running)
 
     def _reap(self, name: str) -> None:
         if name in self._running and name not in self.ended:
@@ -130,25 +164,41 @@ class Supervisor:
             if status is not None:
                 self.ended[name] = status
 
-    def _signal(self, step: EndStep) -> None:
+    def _signal(self, step: EndStep, keep: frozenset[ProcessKind]) -> None:
         for name, running in self._running.items():
-            if name not in self.ended and self._processes[name].kind in step.kinds:
+            if name not in self.ended and self._processes[name].kind in step.kinds - keep:
                 running.send(step.number)
 
     def _crashed(self, process: Process, status: int) -> Notice:
         log = tuple(self._running[process.name].last_lines())
-        left = process.restarts - self._restarts[process.name]
-        if left > 0:
+        return Notice(process.name, f"{process.name} {_ending(process, status)}; {self._restart(process, status)}", log)
+
+    def _restart(self, process: Process, status: int) -> str:
+        """Launch a crashed process again if that is allowed and possible; returns what was done."""
+        fails_always = _failed_at_first_sight(process, status) and not self._restarts[process.name]
+        if self._restarts[process.name] < process.restarts and not fails_always:
             self._restarts[process.name] += 1
-            self._running[process.name] = self._launch(process)
-            outcome = f"started again ({self._restarts[process.name]} of {process.restarts})"
-        else:
-            self.ended[process.name] = status
-            outcome = "not started again"
-        return Notice(process.name, f"{process.name} {_ending(status)}; {outcome}", log)
+            try:
+                self._running[process.name] = self._launch(process.restarted())
+            except (TouchlineError, OSError) as error:  # a full disk
+                self.ended[process.name] = status
+                return f"cannot be started again: {error}"
+            return f"started again ({self._restarts[process.name]} of {process.restarts})"
+        self.ended[process.name] = status
+        return "not started again"
 
 
-def _ending(status: int) -> str:
+def _failed_at_first_sight(process: Process, status: int | None) -> bool:
+    """Whether a brain failed at its first sight; a team's own program may use the same status."""
+    return process.settings is not None and status == FIRST_SIGHT_FAILED
+
+
+def _ending(process: Process, status: int) -> str:
+    return "failed at its first sight" if _failed_at_first_sight(process, status) else ending(status)
+
+
+def ending(status: int) -> str:
+    """How a process with this exit status ended."""
     if status < 0:
         return f"was ended by {signal.Signals(-status).name}"
     return f"ended with status {status}"

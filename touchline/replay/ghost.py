@@ -80,7 +80,7 @@ def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
         team = setup.teams[Side(word)]
         teams[word] = {
             "name": f"{team.name}, recorded",
-            "command": [sys.executable, "-m", "touchline.replay.ghost", str(Path(file).resolve())],
+            "command": [sys.executable, "-P", "-m", "touchline.replay.ghost", str(Path(file).resolve())],
             "size": max(1, len(team.robots)),
             "robots": team.robots,
             "types": team.types,
@@ -124,7 +124,7 @@ def main(arguments: list[str] | None = None) -> int:
         with open_client(
             os.environ["TOUCHLINE_MATCH"], WallClock(), os.environ["TOUCHLINE_CONNECT"], _PATIENCE_S
         ) as bus:
-            return serve(bus, build, robot, _PATIENCE_S)
+            return serve(bus, build, robot, _PATIENCE_S, os.environ.get("TOUCHLINE_LAUNCH_TOKEN"))
     except TouchlineError as error:
         sys.stderr.write(f"{error}\n")
         return 2

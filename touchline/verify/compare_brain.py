@@ -5,7 +5,8 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from recordings.reading.recording import Recording
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight

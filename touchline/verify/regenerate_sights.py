@@ -1,7 +1,7 @@
 """Regenerates the sights of a match that were not recorded: simulates it again, with sensors and referee.
 
-A robot's sights follow from the match file, the commands and the orders. These do not include manual referee actions
-and changes of the pitch: later sights would differ from the original ones, so the iteration stops there.
+A robot's sights follow from the match file, the commands, the orders, and the actions of people. Manual changes of the
+pitch are not repeated: later sights would differ from the original ones, so the iteration stops there.
 """
 
 from collections.abc import Iterator, Mapping
@@ -84,7 +84,7 @@ class RegeneratedSights:
             command = self.commands.get(name, {}).get(answered) if answered is not None else None
             if command is not None:
                 commands[name] = command
-        simulation.step(commands)
+        simulation.step(commands, applied.actions, silent=applied.silent)
 
     def _give_orders(self, simulation: Simulation, orders: list[tuple[float, str, CoachOrder]]) -> None:
         while orders and orders[0][0] <= simulation.now.time:

@@ -18,7 +18,10 @@ from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
 from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.referee_factory import opening_state
 from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleTickError, parameters_of
+from sim_host.referee.game.referee_state import RefereeState
+from touchline.verify.verdict import Detail
 
 
 def resim_start(
@@ -42,6 +45,30 @@ def resim_start(
     for one in changes:
         conditions = conditions.after(one)
     return conditions, known
+
+
+def tick_length(recording: Recording) -> float:
+    """The control tick of the match in s.
+
+    Raises:
+        TouchlineError: the recording has neither setup nor match file.
+    """
+    setup, config = recording.manifest.setup, config_of(recording)
+    if setup is not None:
+        return setup.time.tick
+    if config is None:
+        raise TouchlineError(f"{recording.path}: the setup of the match is missing; record it with its host")
+    return config.load_profile().time.tick
+
+
+def opening_conflict(recording: Recording, state: RefereeState) -> list[Detail]:
+    """Where the state of the referee at tick 0 is not the one with which the match file begins."""
+    config = config_of(recording)
+    if config is None or recording.manifest.missing_scene is not None:
+        return []
+    expected = opening_state(config)
+    pairs = zip(RefereeState._fields, state, expected, strict=True)
+    return [Detail("referee", name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
 
 
 def config_of(recording: Recording) -> MatchConfig | None:
@@ -101,14 +128,18 @@ def _robots(recording: Recording) -> Iterable[RosterEntry]:
     """
     manifest = recording.manifest
     for side in Side:
+        has_keeper = True
         if manifest.setup is not None:
+            has_keeper = manifest.setup.teams[side].goalkeeper
             names, types = manifest.setup.teams[side].robots, manifest.setup.teams[side].types
         elif manifest.config is not None:
             need_scene(recording)
             names, types = manifest.config.robots(side), manifest.config.team(side).types
         else:
             return
-        yield from (RosterEntry(name=name, side=side, type=types.get(name, STANDARD)) for name in names)
+        for number, name in enumerate(names):
+            keeper = has_keeper and number == 0
+            yield RosterEntry(name=name, side=side, type=types.get(name, STANDARD), keeper=keeper)
 
 
 def _obstacles(world: World) -> Iterable[StaticObstacle]:

@@ -25,7 +25,7 @@ def draw_match(follower: MatchFollower, setup: Setup, width: int, height: int) -
         rows = _beside(rows, pitch_width, robots)[:room]
     elif len(rows) + len(robots) <= room:
         rows = [*rows, *robots]
-    happened = panel.events(follower, height - 2 - len(rows))
+    happened = panel.events(setup, follower, height - 2 - len(rows))
     rows = [panel.head(setup, follower.state), *rows, *happened, panel.foot(follower)][:height]
     for row in rows:
         row.truncate(width, overflow="ellipsis")

@@ -7,8 +7,9 @@ from rich.style import Style
 from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, printable
+from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, question_phrases
 from coach_gateway.match.orders import OrderBook
+from coach_gateway.match.team_names import TeamNames, printable
 from schemas.game import EventKind
 from schemas.messages.coach import CoachOrder
 from schemas.messages.game import DisciplinaryRecord, GameState
@@ -36,8 +37,8 @@ _ACTIVITY = 26
 
 
 def head(setup: Setup, state: GameState | None) -> Text:
-    """Teams and score, clock, half and phase, the referee's proposal."""
-    names = {side: setup.teams[side].name for side in Side}
+    """Teams and score, clock, half and phase, the referee's proposal, robots that teams have to name."""
+    names = TeamNames.of_setup(setup)
     if state is None:
         return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for the robots")
     line = Text.assemble(
@@ -45,10 +46,12 @@ def head(setup: Setup, state: GameState | None) -> Text:
         (f" {state.score.cyan} : {state.score.magenta} ", Style(bold=True)),
         (f" {names[Side.MAGENTA]} ", SIDES[Side.MAGENTA]),
         f"  {clock_text(state.clock)}  {half_text(state)}  ",
-        (phase_text(state), Style(bold=True)),
+        (phase_text(state, names), Style(bold=True)),
     )
     if state.proposal is not None:
-        line.append(f"  proposed: {state.proposal}", TROUBLE)
+        line.append(f"  proposed: {names.in_text(state.proposal)}", TROUBLE)
+    for phrase in question_phrases(state, names):
+        line.append(f"  {phrase}", TROUBLE)
     return line
 
 
@@ -112,16 +115,20 @@ def _troubles(
 
 
 def orders(book: OrderBook) -> list[Text]:
-    """One row for each standing order: its content, and the robots that have not acknowledged it."""
+    """One row for each standing order: its content, and the robots that have not acknowledged it or refuse it."""
     rows = []
     for side in Side:
         active = book.active(side)
         if active is None:
             continue
-        missing = book.receipt(side, active.order.sequence).missing
+        receipt = book.receipt(side, active.order.sequence)
+        missing = receipt.missing
         row = Text.assemble((f" {side.value} ", SIDES[side]), f" {_order_text(active.order)}")
         if missing:
             row.append(f"  not acknowledged by {', '.join(missing)}", TROUBLE)
+        for why in dict.fromkeys(receipt.refused.values()):
+            names = [name for name, its in receipt.refused.items() if its == why]
+            row.append(f"  refused by {', '.join(names)}: {why}", TROUBLE)
         rows.append(row)
     return rows
 
@@ -133,10 +140,11 @@ def _order_text(order: CoachOrder) -> str:
     return ", ".join(words) + (f": {order.tactic}" if order.tactic else "")
 
 
-def events(follower: MatchFollower, count: int) -> list[Text]:
+def events(setup: Setup, follower: MatchFollower, count: int) -> list[Text]:
     """The latest events, the newest last."""
     last = follower.events[-count:] if count > 0 else []
-    return [Text(event_line(event), style=LOUD.get(event.kind, QUIET)) for event in last]
+    names = TeamNames.of_setup(setup)
+    return [Text(event_line(event, names), style=LOUD.get(event.kind, QUIET)) for event in last]
 
 
 def foot(follower: MatchFollower) -> Text:

@@ -4,21 +4,26 @@ from collections import Counter
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import state_line
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.messages.health import Health
+from touchline.watch.agent_faults import agent_faults
 
 _NAMED = 4
 """Maximum number of silent robots that are named; the rest is counted."""
+_FAULTS = 2
+"""Maximum number of agents whose fault is shown; the rest is counted."""
 
 
-def status_line(follower: MatchFollower, total: int) -> str:
-    """Clock, score, phase, speed, and how many of `total` robots answer."""
+def status_line(follower: MatchFollower, total: int, names: TeamNames = SIDES_ALONE) -> str:
+    """Clock, score, phase, speed, how many of `total` robots answer, and what is wrong with agents and recorders."""
     if follower.state is None and follower.health is None:
         return "waiting for the host"
-    parts = [state_line(follower.state) if follower.state is not None else "waiting for the robots"]
+    parts = [state_line(follower.state, names) if follower.state is not None else "waiting for the robots"]
     if follower.health is not None:
         if follower.health.tick > 0:
             parts.append(f"×{follower.health.real_time_factor:.1f}")
         parts.append(robots_text(follower.health, total))
+        parts += _abbreviated([str(fault) for fault in agent_faults(follower.health)], _FAULTS)
     losses = losses_text(follower)
     if losses:
         parts.append(losses)
@@ -50,5 +55,5 @@ def losses_text(follower: MatchFollower) -> str:
     return f"lost {losses.total()} ({', '.join(_abbreviated(keys))})"
 
 
-def _abbreviated(names: list[str]) -> list[str]:
-    return names if len(names) <= _NAMED else [*names[:_NAMED], f"{len(names) - _NAMED} more"]
+def _abbreviated(names: list[str], most: int = _NAMED) -> list[str]:
+    return names if len(names) <= most else [*names[:most], f"{len(names) - most} more"]

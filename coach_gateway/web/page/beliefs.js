@@ -1,7 +1,8 @@
-// What robots believe beside the truth: their own pose and the ball, as sent on the radio, and passes.
+// What robots believe beside the truth: their own pose, the ball and obstacles, as sent on the radio, and passes.
 
 import { bodyPath, drawnRadius } from "./shared/bodies.js";
-import { SIDES, circle, line, write } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
+import { circle, line, write } from "./shared/shapes.js";
 import { numberOf } from "./text.js";
 
 /** Turns a body from the frame of a side into that of the field. */
@@ -49,6 +50,10 @@ function drawBelief(context, projection, match, name, side, word, world) {
     context.stroke();
     context.restore();
     line(context, projection, own, world.robots[name]);
+  }
+  for (const place of word.obstacles ?? []) {
+    circle(context, projection, onField(match, side, place), match.radiusOf(name));
+    context.stroke();
   }
   if (word.ball) drawBall(context, projection, onField(match, side, word.ball), own, colours, name, match, side);
   context.setLineDash([]);

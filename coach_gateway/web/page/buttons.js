@@ -1,8 +1,8 @@
 // The referee's buttons: a table of groups of rows, each button with the action that it requests.
 
-import { byId, element, mark, offer, setText, show } from "./elements.js";
+import { byId, element, offer, setText, show } from "./elements.js";
+import { onHold, onPress, onSecondPress } from "./presses.js";
 
-const SURE_MS = 3000;
 const RESTARTS = [
   ["kick_off", "Kick-off"],
   ["free_kick", "Free kick"],
@@ -14,7 +14,10 @@ const RESTARTS = [
 const FOR_SIDES = [...RESTARTS, ["goal", "Goal +"], ["cancel_goal", "Goal −"]];
 const sided = ([action, text]) => ["cyan", "magenta"].map((side) => ({ text, action, side }));
 
-/** Title → rows of buttons: `text`, the referee's `action` or an `order`, its `side`, `robot` if it is about one. */
+/**
+ * Title → rows of buttons: `text`, the referee's `action` or an `order`, its `side`, `robot` if it is about one, and
+ * `press` if one press is not enough.
+ */
 const GROUPS = [
   [
     "Play",
@@ -57,8 +60,8 @@ const GROUPS = [
     "Match",
     [
       [
-        { text: "End half", action: "end_half", sure: true },
-        { text: "End match", action: "end_game", sure: true },
+        { text: "End half", action: "end_half", press: onSecondPress },
+        { text: "End match", action: "end_game", press: onHold },
       ],
     ],
   ],
@@ -66,15 +69,13 @@ const GROUPS = [
 
 export class Buttons {
   #buttons = [];
+  #groups = [];
 
   constructor(match, requests, selection) {
     Object.assign(this, { match, requests, selection });
     const place = byId("buttons");
     for (const [title, rows] of GROUPS) place.append(this.#group(title, rows));
     byId("stop").addEventListener("click", () => this.stop(byId("stop")));
-    for (const [id, action] of [["confirm", "confirm"], ["overrule", "overrule"]]) {
-      byId(id).addEventListener("click", () => this.#ask(byId(id), { text: byId(id).textContent, action }));
-    }
     match.on("welcome host state refbox health", () => this.update());
   }
 
@@ -100,25 +101,26 @@ export class Buttons {
     return robot && !selection.robot ? "choose a robot first" : null;
   }
 
-  /** Enables the buttons that may be pressed, and gives the others their reason as a title. */
+  /** Shows the buttons of this role, enables those that may be pressed now, and gives the others their reason. */
   update() {
     const { match, selection } = this;
     for (const { button, row } of this.#buttons) {
       const why = this.why(row);
       button.disabled = why !== null;
-      button.title = why ?? "";
+      button.title = why ?? (row.press === onHold ? "hold it down for a second" : "");
+      show(button, match.may(row.action ?? "order", row.side ?? null));
     }
+    for (const group of this.#groups) show(group, [...group.querySelectorAll("[data-action]")].some((button) => !button.hidden));
     if (match.setup !== null) {
       for (const side of ["cyan", "magenta"]) {
         for (const name of document.querySelectorAll(`[data-team=${side}]`)) setText(name, match.setup.teams[side].name);
+        for (const head of document.querySelectorAll(`.heads .${side}`)) show(head, match.may("order", side));
       }
     }
-    offer(byId("robot"), [["", "none chosen"], ...match.robots.map((name) => [name, name])]);
-    if (byId("robot").value !== (selection.robot ?? "")) byId("robot").value = selection.robot ?? "";
-    const proposal = match.state?.proposal ?? null;
-    show(byId("proposal"), proposal !== null && match.live);
-    setText(byId("proposed"), proposal ?? "");
-    for (const id of ["confirm", "overrule"]) byId(id).disabled = this.why({ action: id }) !== null;
+    const robots = match.robots.filter((name) => match.may("repair", match.sideOf(name)));
+    offer(byId("robot"), [["", "none chosen"], ...robots.map((name) => [name, name])]);
+    const chosen = robots.includes(selection.robot) ? selection.robot : "";
+    if (byId("robot").value !== chosen) byId("robot").value = chosen;
     show(byId("stop"), match.live && (match.may("stop") || match.may("order", match.role)));
     byId("stop").disabled = !match.hostThere; // enabled while a referee box commands the match, too: a stop is always accepted
   }
@@ -132,6 +134,7 @@ export class Buttons {
           element("span", { class: `team ${side}` }, element("span", { class: "mark" }), element("span", { data: { team: side } })))),
       );
     }
+    this.#groups.push(group);
     if (names.robot) group.append(this.#robotChoice());
     for (const row of rows) group.append(element("div", { class: "row" }, ...row.map((one) => this.#button(one))));
     return group;
@@ -150,28 +153,12 @@ export class Buttons {
         class: [row.side, row.looks].filter(Boolean).join(" "),
         data: { action: row.action ?? `${row.order}_order`, side: row.side ?? "" },
         aria: row.side ? { label: `${row.text}, ${row.side}` } : {},
-        on: { click: () => this.#press(button, row) },
       },
       row.text,
     );
+    (row.press ?? onPress)(button, () => this.#ask(button, row));
     this.#buttons.push({ button, row });
     return button;
-  }
-
-  /** Has a button that cannot be undone pressed twice. */
-  #press(button, row) {
-    if (row.sure && !button.classList.contains("sure")) {
-      mark(button, "sure", true);
-      setText(button, "Press again");
-      setTimeout(() => {
-        mark(button, "sure", false);
-        setText(button, row.text);
-      }, SURE_MS);
-      return;
-    }
-    mark(button, "sure", false);
-    setText(button, row.text);
-    this.#ask(button, row);
   }
 
   #ask(source, { text, action, order, side = null, robot }) {

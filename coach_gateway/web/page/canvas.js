@@ -8,7 +8,7 @@ import { signOf } from "./seen_from.js";
 import { drawBall } from "./shared/bodies.js";
 import { drawGrass, drawLines } from "./shared/pitch.js";
 import { Projection } from "./shared/projection.js";
-import { SIDES } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
 import { Trails } from "./trails.js";
 
 const BALL_VELOCITY = "#ffd978";
@@ -64,7 +64,7 @@ export class PitchCanvas {
     if (!changed && ends === this.#ends) return;
     this.#ends = ends;
     projection.resize(this.#moving);
-    this.#moving.parentElement.style.height = `${projection.height}px`;
+    document.documentElement.style.setProperty("--ratio", String(projection.ratio));
     const context = projection.resize(this.#ground);
     drawGrass(context, projection, pitch);
     fillGoals(context, projection, pitch, defends);

@@ -75,6 +75,11 @@ export class Coach {
       const value = row.hidden ? null : read();
       if (value !== null) order[key] = value;
     }
+    const missing = order.mode === "test" ? TESTS[order.test][2].filter((key) => !(key in order)).map((key) => FIELDS[key][0]) : [];
+    if (missing.length) {
+      const reason = `${TESTS[order.test][0]} needs ${new Intl.ListFormat("en").format(missing)}`;
+      return this.requests.show(byId("order-give"), `Test ${readable(order.test)}, ${this.side}`, { accepted: false, reason });
+    }
     const words = order.mode === "test" ? `Test ${readable(order.test)}` : capitalized(order.mode);
     return this.requests.ask(byId("order-give"), `${words}, ${this.side}`, "order", { side: this.side, order });
   }
@@ -82,7 +87,7 @@ export class Coach {
   #orderLine(side) {
     const active = this.match.orders[side];
     if (!active?.order) return [];
-    const { order, acknowledged } = active;
+    const { order, acknowledged, refused } = active;
     const what = order.mode === "test" ? `test ${readable(order.test ?? "")}` : order.mode;
     const robots = Object.entries(acknowledged);
     const taken = robots.filter(([, has]) => has).length;
@@ -91,6 +96,7 @@ export class Coach {
         "p", {},
         element("b", {}, `${this.match.setup.teams[side].name}: ${what}`), ` — acknowledged by ${taken} of ${robots.length} `,
         ...robots.map(([name, has]) => element("span", { class: `ack ${has ? "accepted" : "waits"}` }, `${has ? "✓" : "…"} ${name}`)),
+        ...Object.entries(refused).map(([name, why]) => element("span", { class: "ack waits" }, ` ✕ ${name}: ${why}`)),
       ),
     ];
   }

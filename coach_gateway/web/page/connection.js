@@ -4,8 +4,9 @@ const FIRST_WAIT_MS = 200;
 const LONGEST_WAIT_MS = 3000;
 const CLOSED_WAIT_MS = 5000;
 const ANSWER_MS = 8000; // the host replies between two ticks; after this, no reply comes
-const SILENT_MS = 7000; // the gateway sends a message every second, at least `alive`
-const LOOK_MS = 1000;
+const SILENT_MS = 1400; // the gateway sends a message every half second, at least `alive`; without one, the page shows it
+const DEAD_MS = 5000; // after this, it connects anew
+const LOOK_MS = 250;
 
 export class Connection {
   #socket = null;
@@ -17,19 +18,26 @@ export class Connection {
   #lookedAt = 0;
   #onMessage;
   #onChange;
+  #onSilence;
 
-  /** `onMessage` is called with each message, `onChange` with whether the connection is up. */
-  constructor(token, onMessage, onChange) {
+  /**
+   * `onMessage` is called with each message, `onChange` with whether the connection is up, `onSilence` when nothing
+   * arrives any more, and when something does again.
+   */
+  constructor(token, onMessage, onChange, onSilence) {
     this.token = token;
     this.up = false;
     /** Why the gateway closed the connection; empty where it has not. */
     this.closeReason = "";
-    /** ms without a message after which the connection counts as broken: a lost network closes no socket. */
-    this.patience = SILENT_MS;
+    /** Nothing has arrived for a while: a lost network closes no socket. */
+    this.silent = false;
+    /** ms without a message after which the connection counts as broken. */
+    this.patience = DEAD_MS;
     /** ms after which a request counts as unanswered. */
     this.answerWithin = ANSWER_MS;
     this.#onMessage = onMessage;
     this.#onChange = onChange;
+    this.#onSilence = onSilence;
     addEventListener("online", () => this.#open());
     document.addEventListener("visibilitychange", () => document.hidden || this.#open());
     setInterval(() => this.#look(), LOOK_MS);
@@ -83,6 +91,7 @@ export class Connection {
     socket.addEventListener("message", (event) => {
       if (socket !== this.#socket) return;
       this.#receivedAt = performance.now();
+      this.#note(false);
       const message = JSON.parse(event.data);
       if (message.kind === "reply") this.#answer(message);
       else if (message.kind === "refusal") this.closeReason = message.reason;
@@ -94,12 +103,19 @@ export class Connection {
   /** Closes a silent connection; after a sleep of the page, messages that wait are read first. */
   #look() {
     const now = performance.now();
-    if (now - this.#lookedAt > 3 * LOOK_MS) this.#receivedAt = now;
+    if (now - this.#lookedAt > 1000 + LOOK_MS) this.#receivedAt = now;
     this.#lookedAt = now;
     const socket = this.#socket;
+    this.#note(this.up && now - this.#receivedAt > SILENT_MS);
     if (socket === null || now - this.#receivedAt < this.patience) return;
     this.#closed(socket);
     socket.close();
+  }
+
+  #note(silent) {
+    if (silent === this.silent) return;
+    this.silent = silent;
+    this.#onSilence();
   }
 
   #receive(message) {
@@ -111,6 +127,7 @@ export class Connection {
     if (socket !== this.#socket) return;
     this.#socket = null;
     this.up = false;
+    this.silent = false;
     for (const id of [...this.#asked.keys()]) this.#answer(unanswered(id, "the connection to the gateway broke"));
     this.#onChange(false);
     if (this.closeReason) this.#wait = CLOSED_WAIT_MS;

@@ -1,6 +1,7 @@
 // How far robots have to stay from the ball, from the signal of a restart until the ball is in play.
 
-import { SIDES, circle, write } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
+import { circle, write } from "./shared/shapes.js";
 
 const SIDED = new Set(["kick_off", "free_kick", "goal_kick", "throw_in", "corner", "penalty"]);
 

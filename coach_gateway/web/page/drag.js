@@ -1,6 +1,7 @@
 // Pointing at the field: choosing a robot, dragging ball and robots to a place, picking points.
 
 import { byId, setText, show } from "./elements.js";
+import { inPicture } from "./shared/bodies.js";
 import { metres } from "./text.js";
 
 const REACH_PX = 20; // a finger is thicker than a ball
@@ -133,7 +134,8 @@ export class Drag {
     const { projection, world } = this.pitchCanvas;
     if (world === null) return null;
     let nearest = null, least = REACH_PX;
-    for (const [body, { x, y }] of [["ball", world.ball], ...Object.entries(world.robots)]) {
+    const robots = Object.entries(world.robots).map(([name, robot]) => [name, inPicture(projection, robot, this.match.radiusOf(name))]);
+    for (const [body, { x, y }] of [["ball", world.ball], ...robots]) {
       const off = Math.hypot(projection.x(x) - left, projection.y(y) - top) - (body === "ball" ? 3 : 0);
       if (off < least) [nearest, least] = [body, off];
     }

@@ -1,7 +1,7 @@
 // Where everything is at the time of drawing: interpolated between received worlds, a little behind the newest.
 
 const KEPT = 40; // worlds
-const DELAY_MS = 45; // behind the newest: worlds come every 20 ms, and some are late
+const DELAY_MS = 75; // behind the newest: worlds come every 40 ms, and some are late
 const SETTLE_MS = 180; // time constant with which the shown time approaches its target
 const STALE_MS = 260; // without a new world for this long, the newest is shown as it is
 const JUMP_M = 0.5; // a body that moves farther between two worlds than this and its speed allow was placed there

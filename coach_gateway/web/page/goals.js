@@ -1,7 +1,8 @@
 // Which side defends which goal: the goals in the colours of their sides, and the teams' names above their halves.
 
 import { goalPath } from "./shared/pitch.js";
-import { SIDES, write } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
+import { write } from "./shared/shapes.js";
 
 const ENDS = [-1, 1];
 

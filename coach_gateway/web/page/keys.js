@@ -1,10 +1,10 @@
-// The keys of the page. The space bar always stops, wherever the focus is.
+// The keys of the page. The space bar stops wherever the focus is, except where a text is typed.
 
 import { byId } from "./elements.js";
 
 /** Keys and what they do, for the help. */
 export const KEYS = [
-  ["space", "stop: the match, or your own side; in a recording, pause and play"],
+  ["space", "stop: the match, or your own side; in a recording, pause and play; in a text, a space"],
   ["?", "this list"],
   ["v", "see the field from another side"],
   ["[ ]", "choose the previous or next robot"],
@@ -38,7 +38,7 @@ export function listenForKeys({ match, buttons, manualControl, drag, replay, lay
   const stops = () => (match.live ? match.may("stop") || match.may("order", match.role) : match.may("replay"));
 
   addEventListener("keydown", (event) => {
-    if (event.code === "Space" && stops()) {
+    if (event.code === "Space" && stops() && !isWriting(event.target)) {
       event.preventDefault();
       if (event.repeat) return;
       manualControl.giveBack();
@@ -65,13 +65,16 @@ export function listenForKeys({ match, buttons, manualControl, drag, replay, lay
     does(event);
   }, { capture: true });
   addEventListener("keyup", (event) => {
-    if (event.code === "Space" && stops()) event.preventDefault(); // otherwise a button with the focus would be pressed, too
+    if (event.code === "Space" && stops() && !isWriting(event.target)) event.preventDefault(); // otherwise a button with the focus would be pressed, too
     manualControl.key(event, false);
   }, { capture: true });
 }
 
 /** Whether keys are typed into a field. */
 const isTyping = (target) => target.matches?.("input:not([type=checkbox]):not([type=range]), select, textarea") ?? false;
+
+/** Whether a space is typed into a text. A number has none: there the space bar stops. */
+const isWriting = (target) => target.matches?.("input[type=text]:not([inputmode=decimal]), input[type=search], input[type=password], textarea") ?? false;
 
 function chooseNext(match, selection, step) {
   const all = match.robots;

@@ -13,9 +13,12 @@ import { Layers } from "./layers.js";
 import { Match } from "./match.js";
 import { Panels } from "./panels.js";
 import { Parameters } from "./parameters.js";
+import { Pending } from "./pending.js";
 import { Replay } from "./replay.js";
+import { Result } from "./result.js";
 import { Scenes } from "./scenes.js";
 import { Scoreboard } from "./scoreboard.js";
+import { Seats } from "./seats.js";
 import { Selection } from "./selection.js";
 import { Connection } from "./connection.js";
 import { PitchCanvas } from "./canvas.js";
@@ -24,7 +27,7 @@ import { keepToken, tokenHere } from "./token.js";
 
 const match = new Match();
 const selection = new Selection();
-const connection = new Connection(tokenHere(), (message) => match.receive(message), (up) => changed(up));
+const connection = new Connection(tokenHere(), (message) => match.receive(message), (up) => changed(up), () => board.update());
 const requests = new Requests(connection);
 const layers = new Layers(match);
 const pitchCanvas = new PitchCanvas(byId("ground"), byId("moving"), match, layers, selection);
@@ -32,6 +35,7 @@ const board = new Scoreboard(match, connection);
 const replay = new Replay(match, requests);
 const events = new EventList(match, (time) => replay.seek(time));
 const buttons = new Buttons(match, requests, selection);
+new Pending(match, requests, buttons);
 const drag = new Drag(byId("moving"), pitchCanvas, match, requests, selection);
 const manualControl = new ManualControl(match, pitchCanvas, requests, selection);
 const parameters = new Parameters(match, requests);
@@ -39,7 +43,9 @@ new Panels(match, pitchCanvas, selection);
 new HealthPanel(match, pitchCanvas);
 new Coach(match, pitchCanvas, requests, selection);
 new Scenes(match, requests, drag);
+new Result(match);
 const tabs = new Tabs((name) => name === "settings" && parameters.stale && parameters.load());
+new Seats(match, (seat) => tabs.fit(seat));
 listenForKeys({ match, buttons, manualControl, drag, replay, layers, selection });
 
 selection.on(() => buttons.update());
@@ -58,6 +64,7 @@ const ROLE_TEXT = {
 
 /** Handles that the connection came up or broke. */
 async function changed(up) {
+  if (!up && match.over) tabs?.open("result");
   board?.update();
   if (up && connection.token) await claim(connection.token);
 }
@@ -90,8 +97,7 @@ byId("token-form").addEventListener("submit", (event) => {
 match.on("welcome", () => {
   setText(byId("role-dialog-says"), ROLE_TEXT[match.role]);
   show(byId("leave"), match.role !== "spectator");
-  for (const id of ["token-form", "watching"]) show(byId(id), match.role === "spectator");
-  if (!match.live && ["match", "coach", "drive", "settings", "log"].includes(tabs.opened)) tabs.open("host");
+  show(byId("token-form"), match.role === "spectator");
 });
 byId("help-open").addEventListener("click", () => byId("help").showModal());
 byId("keys").append(...KEYS.map(([keys, does]) => element("div", {}, element("dt", {}, keys), element("dd", {}, does))));

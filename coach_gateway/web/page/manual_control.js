@@ -1,6 +1,6 @@
 // One robot driven by keyboard, gamepad or buttons in place of its brain.
 
-import { byId, offer, setText, show } from "./elements.js";
+import { byId, mark, offer, setText } from "./elements.js";
 import { readGamepad } from "./gamepad.js";
 
 const SEND_EVERY_MS = 50;
@@ -88,9 +88,8 @@ export class ManualControl {
     byId("dribble").setAttribute("aria-pressed", this.#dribble);
     for (const id of ["dribble", "kick-ground", "kick-lob"]) byId(id).disabled = this.robot === null;
     for (const button of byId("pad").children) button.disabled = this.robot === null;
-    const words = this.robot ? `${this.robot} is driven by this page.` : "";
-    setText(byId("driven"), words);
-    show(byId("driven"), words !== "");
+    setText(byId("driven"), this.robot ? `This page drives ${this.robot}.` : "This page drives no robot.");
+    mark(byId("driven"), "now", this.robot !== null);
   }
 
   /** Buttons for a finger; each acts like a key that is held down. */

@@ -1,18 +1,19 @@
 // Bodies with what the page marks on them: selection, roles, trouble, velocities; obstacles, and the ghost of a drag.
 
-import { HOLDS, drawRobot, drawnRadius } from "./shared/bodies.js";
+import { HOLDS } from "./shared/palette.js";
+import { drawRobot, drawnRadius, inPicture } from "./shared/bodies.js";
 import { circle, write } from "./shared/shapes.js";
 import { numberOf } from "./text.js";
 
 const AHEAD_S = 0.5; // how far a line of velocity leads
 
 /** One robot; `look` has whether it is selected, whether it holds the ball, and the label below it. */
-export function drawMarkedRobot(context, projection, match, name, robot, look) {
-  const side = match.sideOf(name), radius = match.radiusOf(name);
+export function drawMarkedRobot(context, projection, match, name, truth, look) {
+  const side = match.sideOf(name), radius = match.radiusOf(name), robot = inPicture(projection, truth, radius);
   const number = numberOf(name, match.setup.teams[side].robots);
   const ring = look.holding ? HOLDS : look.selected ? "#ffffff" : null;
   context.save();
-  if (robot.off_field) context.globalAlpha = 0.45;
+  if (robot.off_field) context.globalAlpha = 0.7;
   drawRobot(context, projection, robot, { side, radius, number }, ring, look.selected ? 3 : 2);
   context.translate(projection.x(robot.x), projection.y(robot.y));
   const size = drawnRadius(projection, radius);

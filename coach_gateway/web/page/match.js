@@ -20,6 +20,7 @@ const emptyMatch = () => ({
   events: [],
   eventCount: 0, // events so far, including dropped ones
   replay: null,
+  result: null, // what is known once the match is over: figures and where they stand
   refbox: { connected: false, team: null },
   hostThere: true,
   episode: 1,
@@ -58,6 +59,9 @@ const READERS = {
     match.replay = replay;
     match.frames.still = replay.paused;
   },
+  result(match, { figures, statistics, replay }) {
+    match.result = { figures, statistics, replay };
+  },
   refbox(match, { connected, team }) {
     match.refbox = { connected, team };
   },
@@ -79,6 +83,11 @@ export class Match {
   receive(message) {
     READERS[message.kind]?.(this, message);
     for (const does of this.#handlers.get(message.kind) ?? []) does(this);
+  }
+
+  /** Whether a match has been played to its end. */
+  get over() {
+    return this.live && this.state?.phase === "full_time";
   }
 
   /** All robots: those of the setup in order, then others on the pitch. */

@@ -6,7 +6,7 @@ import { degreeText, metres, numberOf, placeText, readable } from "./text.js";
 
 const EVERY_MS = 200;
 const HIGH_M = 0.25; // the centre of a ball that is off the ground
-/** Key, label, and the text from what is known of the robot; an empty text hides the line. */
+/** Key, label, and the text from what is known of the robot. Each line has its place, so that no other one ever moves. */
 const LINES = [
   ["intention", "intends", ({ word }) => word?.intention ?? ""],
   ["pose", "at", ({ body }) => (body ? `${placeText(body)} ${degreeText(body.heading)}` : "")],
@@ -58,7 +58,7 @@ export class Panels {
       element("span", { class: `mark ${side}` }, number), element("b", {}, name), role, badge,
     );
     const lines = LINES.map(([key, word, text]) => {
-      const value = element("dd", { data: { is: key } });
+      const value = element("dd", { data: { is: key }, on: { mouseenter: () => { value.title = value.textContent; } } });
       return { value, row: element("div", {}, element("dt", {}, word), value), text };
     });
     const card = element("li", { class: `panel ${side}`, data: { robot: name } }, head, element("dl", {}, ...lines.map(({ row }) => row)));
@@ -86,10 +86,8 @@ export class Panels {
     mark(card, "holds", known.holds);
     mark(card, "away", !body || body.off_field !== null);
     head.setAttribute("aria-pressed", this.selection.robot === name);
-    for (const { value, row, text } of lines) {
-      const says = text(known);
-      show(row, says !== "");
-      setText(value, says);
+    for (const { value, text } of lines) {
+      setText(value, text(known) || "–");
     }
   }
 }

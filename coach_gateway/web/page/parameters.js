@@ -37,8 +37,6 @@ export class Parameters {
   #changed() {
     this.stale = true;
     const { match } = this;
-    byId("parameters-reset").disabled = !match.may("parameters");
-    show(byId("parameters-away"), !match.deeds.has("read_parameters"));
     if (byId("parameters").offsetParent !== null) this.load();
   }
 
@@ -97,6 +95,7 @@ export class Parameters {
     for (const control of [input, set, reset]) {
       control.disabled = !may;
       control.title = one.live ? "" : one.fixed_reason;
+      if (control !== input) show(control, this.match.may("parameters"));
     }
     row.classList.toggle("changed", valueWords(one.value) !== valueWords(one.initial));
     reset.disabled = !may || valueWords(one.value) === valueWords(one.initial);

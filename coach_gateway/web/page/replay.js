@@ -2,7 +2,7 @@
 
 import { byId, mark, setText, show } from "./elements.js";
 import { SYMBOLS, jumpTarget } from "./shared/events.js";
-import { SIDES } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
 import { clockText } from "./text.js";
 
 const MARKED = new Set(["goal", "card", "foul", "half_time", "full_time"]);

@@ -1,6 +1,7 @@
 // Scenes: loading one, resetting, and placing a body by numbers.
 
 import { byId, offer, setText } from "./elements.js";
+import { onSecondPress } from "./presses.js";
 import { radians } from "./text.js";
 
 export class Scenes {
@@ -8,7 +9,7 @@ export class Scenes {
     Object.assign(this, { match, requests, drag });
     byId("scene-load").addEventListener("click", () => this.#ask("scene-load", `Scene ${byId("scene").value}`, { operation: "load", load: byId("scene").value }));
     byId("scene-reset").addEventListener("click", () => this.#ask("scene-reset", "Reset scene", { operation: "reset" }));
-    byId("match-reset").addEventListener("click", () => this.#ask("match-reset", "Reset match", { operation: "reset", to_match: true }));
+    onSecondPress(byId("match-reset"), () => this.#ask("match-reset", "Reset match", { operation: "reset", to_match: true }));
     byId("place").addEventListener("click", () => this.#place());
     byId("scene").addEventListener("change", () => this.update());
     match.on("welcome host", () => this.update());

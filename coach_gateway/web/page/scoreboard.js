@@ -3,9 +3,9 @@
 import { byId, mark, setText, show } from "./elements.js";
 import { clockText, halfText, phaseText, readable } from "./text.js";
 
-const ROLES = { spectator: "watching", referee: "referee", cyan: "coach of cyan", magenta: "coach of magenta" };
-
 export class Scoreboard {
+  #score = null;
+
   constructor(match, connection) {
     Object.assign(this, { match, connection });
     match.on("welcome state host refbox replay", () => this.update());
@@ -14,9 +14,6 @@ export class Scoreboard {
   /** Updates score, phase and cards; the clock follows the drawn frames. */
   update() {
     const { match } = this;
-    document.body.dataset.role = match.role;
-    document.body.dataset.live = match.live;
-    setText(byId("role"), match.live ? ROLES[match.role] : "recording");
     this.#notice();
     if (match.setup === null) return;
     const { teams } = match.setup;
@@ -24,13 +21,28 @@ export class Scoreboard {
     setText(byId("cyan-name"), teams.cyan.name);
     setText(byId("magenta-name"), teams.magenta.name);
     const { state } = match;
+    this.#announce(state, teams);
     setText(byId("score"), state ? `${state.score.cyan} : ${state.score.magenta}` : "– : –");
     setText(byId("phase"), state ? phaseText(state, teams) : "Not begun");
     byId("phase").dataset.side = state?.side ?? "";
-    mark(byId("phase"), "running", state?.running === true);
+    const heard = this.connection.up && !this.connection.silent && match.hostThere;
+    mark(byId("phase"), "running", heard && state?.running === true);
     setText(byId("half"), state ? halfText(state) : "");
     setText(byId("left"), state?.left !== null && state?.left !== undefined ? `${Math.ceil(state.left)} s left` : "");
     setText(byId("people"), state ? disciplineLine(state) : "");
+    byId("people").title = byId("people").textContent;
+  }
+
+  /** Announces a changed score to those who hear the page, not the score that it begins with. */
+  #announce(state, teams) {
+    const before = this.#score;
+    this.#score = state?.score ?? null;
+    if (before === null || this.#score === null) return;
+    const scored = ["cyan", "magenta"].filter((side) => this.#score[side] > before[side]);
+    const changed = scored.length > 0 || ["cyan", "magenta"].some((side) => this.#score[side] < before[side]);
+    if (!changed) return;
+    const what = scored.length ? `Goal for ${scored.map((side) => teams[side].name).join(" and ")}.` : "The score is corrected.";
+    setText(byId("announcer"), `${what} ${teams.cyan.name} ${this.#score.cyan}, ${teams.magenta.name} ${this.#score.magenta}.`);
   }
 
   /** Shows the clock of the drawn frame. */
@@ -41,17 +53,21 @@ export class Scoreboard {
   #notice() {
     const { match, connection } = this;
     const words = [];
-    if (connection.closeReason) words.push(`The gateway closed the connection: ${connection.closeReason}. The page reconnects by itself.`);
+    const over = match.over && (!connection.up || !match.hostThere);
+    if (over) words.push("The match is over. This page keeps its result until it is closed.");
+    else if (connection.closeReason) words.push(`The gateway closed the connection: ${connection.closeReason}. The page reconnects by itself.`);
     else if (!connection.up) words.push("The connection is broken; the page reconnects by itself.");
+    else if (connection.silent) words.push("Nothing arrives any more; the connection may be broken.");
     else if (match.setup === null) words.push("No host plays this match yet; the page waits for it.");
     else if (!match.hostThere) words.push(match.live ? "The host has left; the page waits for it." : "The replay has ended.");
     if (match.refbox.connected) {
       const whom = match.refbox.team ? ` of ${match.refbox.team}` : "";
-      words.push(`A referee box commands the match${whom}; the referee's buttons are locked.`);
+      words.push(`A referee box commands the match${whom}; all buttons but Stop are locked.`);
     }
     show(byId("notice"), words.length > 0);
     setText(byId("notice"), words.join(" "));
-    mark(document.body, "away", !connection.up || !match.hostThere);
+    byId("notice").title = words.join(" ");
+    mark(document.body, "away", !over && (!connection.up || connection.silent || !match.hostThere));
   }
 }
 

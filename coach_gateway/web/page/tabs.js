@@ -2,6 +2,9 @@
 
 import { byId, show } from "./elements.js";
 
+/** Seat → the tab that is open until another one is chosen. */
+const FIRST = { spectator: "result", coach: "match", referee: "match", operator: "settings" };
+
 export class Tabs {
   #tabs = [...document.querySelectorAll("[role=tab]")];
   #narrow = matchMedia("(max-width: 1000px)");
@@ -10,15 +13,23 @@ export class Tabs {
   constructor(seen) {
     this.seen = seen;
     for (const tab of this.#tabs) {
-      tab.addEventListener("click", () => this.open(tab.dataset.tab));
+      tab.addEventListener("click", () => this.#choose(tab.dataset.tab));
       tab.addEventListener("keydown", (event) => this.#key(event));
     }
     this.#narrow.addEventListener("change", () => this.open(this.opened));
-    this.open(this.#narrow.matches ? "robots" : "match");
+    this.open(this.#narrow.matches ? "robots" : "result");
   }
 
   /** The name of the tab that is open. */
-  opened = "match";
+  opened = "result";
+  #chosen = false;
+
+  /** Opens the first tab of a seat, unless one was chosen that the seat has, too. */
+  fit(seat) {
+    const kept = this.#chosen && this.#seen().some((tab) => tab.dataset.tab === this.opened);
+    const first = seat === "spectator" && this.#narrow.matches ? "robots" : FIRST[seat];
+    this.open(kept ? this.opened : first);
+  }
 
   open(name) {
     const tab = this.#seen().find((one) => one.dataset.tab === name) ?? this.#seen()[0];
@@ -33,6 +44,11 @@ export class Tabs {
     this.seen(this.opened);
   }
 
+  #choose(name) {
+    this.#chosen = true;
+    this.open(name);
+  }
+
   #seen() {
     return this.#tabs.filter((tab) => getComputedStyle(tab).display !== "none");
   }
@@ -42,7 +58,7 @@ export class Tabs {
     if (step === undefined) return;
     const seen = this.#seen();
     const next = seen[(seen.indexOf(event.currentTarget) + step + seen.length) % seen.length];
-    this.open(next.dataset.tab);
+    this.#choose(next.dataset.tab);
     next.focus();
     event.preventDefault();
     event.stopPropagation();

@@ -1,6 +1,6 @@
 // Where everything has been: a tail behind each body, or its whole path.
 
-import { SIDES } from "./shared/shapes.js";
+import { BALL, SIDES, TRAIL_ALPHA } from "./shared/palette.js";
 
 export const TRAILS = [
   ["off", "off"],
@@ -31,9 +31,9 @@ export class Trails {
     context.lineJoin = "round";
     for (const [name, way] of this.#ways) {
       const from = kept === "short" ? this.#time - SHORT_S : -Infinity;
-      context.strokeStyle = name === "ball" ? "#ffcf5c" : SIDES[match.sideOf(name)].line;
-      context.globalAlpha = kept === "short" ? 0.65 : 0.4;
-      context.lineWidth = name === "ball" ? 2 : 1.3;
+      context.strokeStyle = name === "ball" ? BALL.trail : SIDES[match.sideOf(name)].line;
+      context.globalAlpha = TRAIL_ALPHA[kept];
+      context.lineWidth = name === "ball" ? 2.2 : 1.6;
       trace(context, projection, way, from);
     }
     context.globalAlpha = 1;

@@ -1,9 +1,11 @@
 """Recording → the league's log, one zip: the world states that the teams would log with perfect sensors."""
 
 import math
+from collections.abc import Mapping
+from contextlib import ExitStack
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 from pydantic_core import to_json
@@ -11,6 +13,7 @@ from pydantic_core import to_json
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.exchange.msl.game_log import GameLog
+from recordings.exchange.omissions import omitted_messages
 from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
@@ -22,6 +25,7 @@ from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from schemas.topics import BELIEF, STATE, WORLD
 
+_TOPICS = (WORLD, STATE, BELIEF)
 FILES = {Side.CYAN: "A", Side.MAGENTA: "B"}
 """Side → letter of its file."""
 
@@ -35,24 +39,32 @@ def export(recording: Recording, out: Path) -> ExportSummary:
     setup = recording.manifest.setup
     if setup is None:
         raise TouchlineError(f"{recording.path}: its manifest has no setup, so the teams are unknown; record it again")
-    log = _Log(recording, setup)
-    for recorded, message in recording.decoded(*(topic.fill() for topic in (WORLD, STATE, BELIEF))):
-        log.add(recorded.topic.key, message)
-    log.flush()
-    started = log.started.strftime("%Y%m%d_%H%M%S")
-    with atomic_output(out) as file, ZipFile(file, "w", ZIP_DEFLATED) as archive:
-        archive.writestr(f"{started}.msl", "".join(f"{line}\n" for line in log.game.lines))
-        for side, letter in FILES.items():
-            archive.writestr(f"{started}.{letter}.msl", b"[" + b",\n".join(log.records[side]) + b"]")
-    written = {f"{started}.{letter}.msl": len(log.records[side]) for side, letter in FILES.items()}
-    return ExportSummary(out, written | {f"{started}.msl": len(log.game.lines)}, dict(recording.unreadable))
+    with atomic_output(out) as file:
+        # a zip is written one file after the other, and both teams' files grow at the same time
+        unzipped = {side: file.with_name(f"{letter}.msl") for side, letter in FILES.items()}
+        with ExitStack() as files:
+            log = _Log(
+                recording, setup, {side: files.enter_context(path.open("wb")) for side, path in unzipped.items()}
+            )
+            for recorded, message in recording.decoded(*(topic.fill() for topic in _TOPICS)):
+                log.add(recorded.topic.key, message)
+            log.end()
+        started = log.started.strftime("%Y%m%d_%H%M%S")
+        with ZipFile(file, "w", ZIP_DEFLATED) as archive:
+            archive.writestr(f"{started}.msl", "".join(f"{line}\n" for line in log.game.lines))
+            for side, letter in FILES.items():
+                archive.write(unzipped[side], f"{started}.{letter}.msl")
+    written = {f"{started}.{letter}.msl": log.written[side] for side, letter in FILES.items()}
+    written[f"{started}.msl"] = len(log.game.lines)
+    return ExportSummary(out, written, dict(recording.unreadable), omitted_messages(recording, *_TOPICS))
 
 
 class _Log:
-    """Collects the world states of both teams and the lines of the referee, message by message."""
+    """Writes the world states of both teams and collects the lines of the referee, message by message."""
 
-    def __init__(self, recording: Recording, setup: Setup) -> None:
-        self._setup = setup
+    def __init__(self, recording: Recording, setup: Setup, files: Mapping[Side, IO[bytes]]) -> None:
+        """The world states of a side are written to its file."""
+        self._setup, self._files = setup, files
         self._sides = sides_of(recording)
         self._numbers = numbers_of(self._sides)
         self._intentions: dict[str, str] = {}
@@ -61,7 +73,8 @@ class _Log:
         self.started = datetime.fromisoformat(recording.manifest.started)
         self._start_ms = round(self.started.timestamp() * 1e3)
         self.game = GameLog(self._start_ms, self._sides)
-        self.records: dict[Side, list[bytes]] = {side: [] for side in Side}
+        self.written = dict.fromkeys(Side, 0)
+        """Side → records."""
 
     def add(self, key: str, message: Any) -> None:
         """Add the next message of the recording; a world is held until its tick is complete."""
@@ -73,6 +86,12 @@ class _Log:
             self._intentions[message.robot] = message.radio.intention or ""
         else:
             self.game.update(message)
+
+    def end(self) -> None:
+        """Complete the files."""
+        self.flush()
+        for side, file in self._files.items():
+            file.write(b"]" if self.written[side] else b"[]")
 
     def flush(self) -> None:
         """Complete the newest tick."""
@@ -93,7 +112,8 @@ class _Log:
                 "gametimeMs": round(self.game.game_s(world.clock) * 1e3),
                 "worldstate": self._world_state(world, side, _attack_sign(state, side)),
             }
-            self.records[side].append(to_json(record))
+            self._files[side].write((b",\n" if self.written[side] else b"[") + to_json(record))
+            self.written[side] += 1
 
     def _world_state(self, world: World, side: Side, attack: int) -> dict[str, Any]:
         playing = {name: robot for name, robot in world.robots.items() if robot.off_field is None}

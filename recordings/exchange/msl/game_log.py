@@ -48,7 +48,7 @@ def _part(state: GameState) -> str:
         return "Pre-Game"
     if state.phase is Phase.FULL_TIME:
         return "End Game"
-    if state.phase is Phase.HALF_TIME:
+    if state.phase in (Phase.PARKING, Phase.HALF_TIME):
         return "Halftime" if state.stage is GameStage.REGULAR else "Overtime - Halftime"
     if state.stage is GameStage.SHOOT_OUT:
         return "Penalties" if state.running else "Penalties/STOP"

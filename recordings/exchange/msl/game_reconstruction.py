@@ -33,15 +33,15 @@ class GameReconstruction:
     _is_break: bool = False
 
     def reconstruct(self, lines: list[SignalLine], start_ms: float, duration: float) -> None:
-        """Follow all signals; those before the beginning of the log, or after its end, are moved there."""
+        """Follow all signals, to the end of the log or the last signal; earlier ones are moved to the beginning."""
         if not lines:
             self._now |= {"phase": Phase.PLAY, "running": True}
             self._clock_runs = True
         self._add_state()
         for line in lines:
-            self._advance_to(min(max(0.0, (line.epoch_ms - start_ms) / 1e3), duration), line.game_s)
+            self._advance_to(max(0.0, (line.epoch_ms - start_ms) / 1e3), line.game_s)
             self._apply(line)
-        self._advance_to(duration, None)
+        self._advance_to(max(duration, self._time), None)
         self._add_state()
 
     def attacks(self, times: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
@@ -86,20 +86,20 @@ class GameReconstruction:
         signal = line.signal
         half = signal.half or max(line.half, self._now["half"] + self._is_break)
         restarts = signal is START or signal.kind is EventKind.RESTART or bool(signal.half)
-        if restarts and half > self._now["half"]:
+        if line.is_shoot_out and self._now.get("stage") is not GameStage.SHOOT_OUT:
+            self._begin_shoot_out()
+        elif restarts and half > self._now["half"]:
             self._begin_half(half)
         if signal.phase is not None:
             side = line.side if signal.sided else None
             self._now |= {"phase": signal.phase, "side": side, "running": signal is START}
             self._is_break = signal.phase is Phase.HALF_TIME
-            self._clock_runs = (self._clock_runs or signal is START) and signal.phase not in (
-                Phase.HALF_TIME,
-                Phase.FULL_TIME,
-            )
+            stands = signal.phase in (Phase.HALF_TIME, Phase.FULL_TIME) or line.is_shoot_out
+            self._clock_runs = (self._clock_runs or signal is START) and not stands
         if signal.goals and line.side is not None:
-            before: Score = self._now["score"]
+            before: Score = self._now[self._counted]
             if before.of(line.side) + signal.goals >= 0:
-                self._now["score"] = before.plus(line.side, signal.goals)
+                self._now[self._counted] = before.plus(line.side, signal.goals)
         self._add_event(line)
         self._add_state()
 
@@ -112,15 +112,26 @@ class GameReconstruction:
         self._now["stage"] = GameStage.REGULAR if half <= 2 else GameStage.EXTRA_TIME
         self._base, self._clock_runs, self._is_break = self._clock, False, False
 
+    def _begin_shoot_out(self) -> None:
+        """Begin the penalty shoot-out: its goals count apart, and no clock runs."""
+        self._now |= {"stage": GameStage.SHOOT_OUT, "shoot_out": Score()}
+        self._clock_runs, self._is_break = False, False
+
+    @property
+    def _counted(self) -> str:
+        """The field of the game state in which goals count now."""
+        return "shoot_out" if self._now.get("stage") is GameStage.SHOOT_OUT else "score"
+
     def _add_event(self, line: SignalLine) -> None:
         signal = line.signal
+        is_shot = signal.kind is EventKind.GOAL and self._counted == "shoot_out"
         event = GameEvent(
             **self._tick_and_time(),
             clock=self._clock,
-            kind=signal.kind,
+            kind=EventKind.SHOT if is_shot else signal.kind,
             rule=RULE,
             side=line.side,
-            score=self._now["score"] if signal.goals else None,
+            score=self._now[self._counted] if signal.goals else None,
             card=signal.card,
             text=line.text,
         )

@@ -16,9 +16,11 @@ from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.manifest import Manifest, Result
 from recordings.editing.compose import TimedMessage, compose
 from recordings.exchange.msl import LOG_PERIOD
-from recordings.exchange.msl.event_log import TeamNames, read_events
+from recordings.exchange.msl.event_log import SignalLine, TeamNames, read_events
 from recordings.exchange.msl.game_reconstruction import GameReconstruction
 from recordings.exchange.msl.log_files import LogFiles, log_files
+from recordings.exchange.msl.pitch_size import RecognisedPitch, recognise_pitch
+from recordings.exchange.msl.robot_reports import belief_messages
 from recordings.exchange.msl.team_log import TeamLog, read_team
 from recordings.exchange.msl.tracks import Track, ball_track, fuse_balls, kicks, robot_tracks
 from schemas.config.match_config import MatchConfig
@@ -54,6 +56,10 @@ class ImportSummary:
     """Deviations from the schema without loss of data."""
     lost: list[Finding]
     """Data that could not be read."""
+    left_out: list[Finding]
+    """Data that was read and has no place in a recording."""
+    pitch: RecognisedPitch
+    """The profile with the pitch, and how it was chosen."""
 
     def to_json(self) -> dict[str, Any]:
         """The result as plain lists, numbers and strings."""
@@ -74,6 +80,9 @@ class ImportSummary:
             "kicks_inferred": self.kicks,
             "coped_with": [_plain(finding) for finding in self.coped],
             "not_read": [_plain(finding) for finding in self.lost],
+            "left_out": [_plain(finding) for finding in self.left_out],
+            "profile": self.pitch.profile,
+            "pitch": self.pitch.note,
         }
 
 
@@ -81,20 +90,22 @@ def _plain(finding: Finding) -> dict[str, Any]:
     return {"what": finding.what, "count": finding.count, "first": finding.first}
 
 
-def import_log(paths: list[Path], out: Path, profile: str = "msl", team_a: str | None = None) -> ImportSummary:
+def import_log(paths: list[Path], out: Path, profile: str | None = None, team_a: str | None = None) -> ImportSummary:
     """Read a log from its zip, its folder or its files, and write it as a recording.
 
-    Its ticks are `LOG_PERIOD` apart. `profile` defines the pitch, which is not in a log; `team_a` is the name of team A
-    in the referee's signals, if these use addresses.
+    Its ticks are `LOG_PERIOD` apart. `profile` defines the pitch, which is not in a log, and is recognised if None;
+    `team_a` is the name of team A in the referee's signals, if these use addresses.
 
     Raises:
         TouchlineError: not a log, no world state in it that can be read, or `out` cannot be written.
     """
-    files, findings = log_files(paths), Findings()
+    files, findings, left_out = log_files(paths), Findings(), Findings()
     for name in files.broken:
         findings.place = name
         findings.note("bytes that are not UTF-8", lost=True)
-    teams = {side: read_team(files.teams.get(letter, ""), letter, findings) for side, letter in _LETTERS.items()}
+    teams = {
+        side: read_team(files.teams.get(letter, ""), letter, findings, left_out) for side, letter in _LETTERS.items()
+    }
     times_ms = [epoch_ms for log in teams.values() for epoch_ms in log.times_ms]
     if not times_ms:
         raise TouchlineError(f"{files.name}: has no world state that could be read; {_main_reason(findings)}")
@@ -107,9 +118,12 @@ def import_log(paths: list[Path], out: Path, profile: str = "msl", team_a: str |
         findings.note("no signals of the referee: the ball counts as in play throughout")
     start_ms, end_ms = min(times_ms), max(times_ms)
     game = GameReconstruction()
-    game.reconstruct(signals, start_ms, (end_ms - start_ms) / 1e3)
-    setup = _setup(files, teams, profile)
-    world = _World(setup, teams, game, start_ms, end_ms)
+    game.reconstruct(_within(signals, start_ms, end_ms, findings), start_ms, (end_ms - start_ms) / 1e3)
+    pitch = recognise_pitch(teams.values(), profile)
+    if pitch.note:
+        findings.note(pitch.note)
+    setup = _setup(files, teams, pitch.profile)
+    world = _World(setup, teams, game, start_ms, end_ms, findings)
     manifest = Manifest(
         contract=VERSION,
         match=setup.match,
@@ -120,12 +134,31 @@ def import_log(paths: list[Path], out: Path, profile: str = "msl", team_a: str |
         libm=libm_fingerprint(),
         setup=setup,
     )
-    result = compose(
-        out, manifest, make_attachments(None), merge(world.messages(), _game_messages(game), key=lambda one: one.sim_ns)
+    reports = [belief_messages(side, log, start_ms) for side, log in teams.items()]
+    messages = merge(*reports, world.messages(), _game_messages(game), key=lambda one: one.sim_ns)
+    result = compose(out, manifest, make_attachments(None), messages)
+    return ImportSummary(
+        out, result, teams, len(signals), len(world.kicked), findings.coped, findings.lost, left_out.coped, pitch
     )
-    return ImportSummary(out, result, teams, len(signals), len(world.kicked), findings.coped, findings.lost)
 
 
+def _within(signals: list[SignalLine], start_ms: float, end_ms: float, findings: Findings) -> list[SignalLine]:
+    """The signals of a log's match; those before its first record are moved to the beginning."""
+    kept = []
+    for line in signals:
+        if line.epoch_ms < start_ms:
+            findings.note("signal before the first record: moved to the beginning")
+        elif line.epoch_ms > end_ms + _LATEST_MS:
+            findings.note("signal more than an hour after the last record", lost=True)
+            continue
+        elif line.epoch_ms > end_ms + 1e3 * LOG_PERIOD:
+            findings.note("signal after the last record: it has no world beside it")
+        kept.append(line)
+    return kept
+
+
+_LATEST_MS = 3_600_000
+"""ms after the last record from which a signal has a wrong clock. Chosen here."""
 _LETTERS = {Side.CYAN: "A", Side.MAGENTA: "B"}
 
 
@@ -166,7 +199,13 @@ class _World:
     """The world at each tick of the log."""
 
     def __init__(
-        self, setup: Setup, teams: dict[Side, TeamLog], game: GameReconstruction, start_ms: float, end_ms: float
+        self,
+        setup: Setup,
+        teams: dict[Side, TeamLog],
+        game: GameReconstruction,
+        start_ms: float,
+        end_ms: float,
+        findings: Findings,
     ) -> None:
         count = int((end_ms - start_ms) / 1e3 / LOG_PERIOD + 1e-6) + 1
         times = np.arange(count, dtype=np.float64) * LOG_PERIOD
@@ -179,9 +218,11 @@ class _World:
         self._robots: dict[str, Track] = {
             _name(side, number): track
             for side, log in teams.items()
-            for number, track in robot_tracks(log, grid_ms, attack[side]).items()
+            for number, track in robot_tracks(log, _LETTERS[side], grid_ms, attack[side], findings).items()
         }
-        balls = [ball_track(log, grid_ms, attack[side], radius) for side, log in teams.items()]
+        balls = [
+            ball_track(log, _LETTERS[side], grid_ms, attack[side], radius, findings) for side, log in teams.items()
+        ]
         self._ball = fuse_balls(balls[0], balls[1], radius)
         self.kicked = kicks(self._robots, self._ball, LOG_PERIOD)
         """Tick → robot that kicked."""

@@ -11,6 +11,9 @@ from schemas.errors import TouchlineError
 _MAX_BYTES = 2**31
 """Maximum size of one file in bytes; the log of a match has some tens of millions."""
 
+_ZIP = b"PK\x03\x04"
+"""First bytes of a zip."""
+
 
 @dataclass(slots=True)
 class LogFiles:
@@ -69,7 +72,13 @@ def _contents(paths: list[Path]) -> Iterator[tuple[str, bytes]]:
             elif is_zipfile(path):
                 yield from _zipped(path)
             else:
-                yield str(path), path.read_bytes()
+                content = path.read_bytes()
+                if content.startswith(_ZIP):
+                    raise TouchlineError(
+                        f"{path}: truncated zip, its table of contents is missing ({len(content)} bytes are there); "
+                        "use another copy, or give the files that can be unpacked from it"
+                    )
+                yield str(path), content
         except OSError as error:
             raise TouchlineError(f"{path}: {error.strerror or error}; give the path of a log") from None
 

@@ -12,15 +12,24 @@ from dataclasses import dataclass, field
 from statistics import median
 from typing import Any
 
+from recordings.exchange.msl.record_values import (
+    ROBOT_KEYS,
+    BallRow,
+    RobotReport,
+    RobotRow,
+    best_ball,
+    robot_report,
+    robot_row,
+    short_text,
+    unknown_keys,
+)
 from schemas.league.findings import Findings
-from schemas.league.lenient_json import REQUIRED, fields_of, items_of, number, vector
+from schemas.league.lenient_json import REQUIRED, fields_of, items_of, number
 
 GAP_S = 1.0
 """s without a record after which a team has a gap. Chosen here: ten times the longest period the league allows."""
 _BURST_S = 0.01
 """s between two records below which they are a burst. Chosen here: no team's program runs at 100 Hz."""
-_MAX_COORDINATE_M = 40.0
-"""m; a larger coordinate is an error. Chosen here: the league's longest pitch has 22 m, so goal lines at 11 m."""
 _MAX_OFFSET_MS = 6 * 3600 * 1000
 """ms from the median record; a record farther away has a wrong clock. Chosen here: no match lasts longer."""
 _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
@@ -28,10 +37,9 @@ _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
 _BETWEEN = re.compile(r"[\s,\[\]\x00]*")
 _DECODER = json.JSONDecoder(strict=False)
 
-RobotRow = tuple[float, float, float, float, float, float, float, float]
-"""Time in ms; x, y, heading, vx, vy, omega in the league's axes, NaN if unknown; 1 with the ball, else 0."""
-BallRow = tuple[float, float, float, float, float, float, float, float]
-"""Time in ms; x, y, z, vx, vy, vz in the league's axes, NaN if unknown; the team's confidence."""
+_RECORD_KEYS = frozenset({"teamName", "timestamp", "gametimeMs", "worldstate"})
+_WORLD_KEYS = frozenset(REQUIRED)
+"""Keys whose values are imported, or counted by themselves."""
 
 
 @dataclass(slots=True)
@@ -47,6 +55,8 @@ class TeamLog:
     """Times of the records that were read, in ms since 1970."""
     robots: dict[int, list[RobotRow]] = field(default_factory=dict)
     balls: list[BallRow] = field(default_factory=list)
+    reports: list[RobotReport] = field(default_factory=list)
+    """By time."""
 
 
 @dataclass(slots=True)
@@ -56,10 +66,13 @@ class _Record:
     team: str
     robots: dict[int, RobotRow]
     ball: BallRow | None
+    reports: list[RobotReport]
+    left_out: list[tuple[str, int]]
+    """Data that has no place in a recording, with its number."""
 
 
-def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
-    """Read the file of one team; `letter` is A or B."""
+def read_team(text: str, letter: str, findings: Findings, left_out: Findings) -> TeamLog:
+    """Read the file of one team; `letter` is A or B. Data without a place in a recording is counted in `left_out`."""
     log = TeamLog()
     found: list[_Record] = []
     for index, raw in enumerate(_raw_records(text, letter, findings), 1):
@@ -77,6 +90,10 @@ def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
             log.robots.setdefault(robot, []).append(row)
         if record.ball is not None:
             log.balls.append(record.ball)
+        log.reports += record.reports
+        left_out.place = f"{letter}, record {record.number}"
+        for what, count in record.left_out:
+            left_out.note(what, count=count)
     return log
 
 
@@ -126,82 +143,36 @@ def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
         if key not in world:
             findings.note(f"worldstate without {key}")
     robots: dict[int, RobotRow] = {}
+    reports: list[RobotReport] = []
+    left_out = unknown_keys(record, _RECORD_KEYS, "record") + unknown_keys(world, _WORLD_KEYS, "worldstate")
+    intention = short_text(world.get("intention"), "intention of a team", findings)
     for one in items_of(world.get("robots")):
-        read = _robot(fields_of(one, findings), epoch_ms, findings)
+        fields = fields_of(one, findings)
+        read = robot_row(fields, epoch_ms, findings)
         if read is None:
             continue
         name, row = read
         if name in robots:
             findings.note("robot twice in one record, the second left out", lost=True)
-        else:
-            robots[name] = row
+            continue
+        robots[name] = row
+        reports.append(robot_report(fields, name, row, intention, findings))
+        left_out += unknown_keys(fields, ROBOT_KEYS, "robot")
+    ball, further = best_ball(world, epoch_ms, findings)
+    obstacles = len(items_of(world.get("obstacles")))
+    left_out += [("obstacles that a team sees", obstacles), ("further balls that a team sees", further)]
+    if number(world.get("ageMs"), "ageMs", Findings()):
+        left_out.append(("ages of records that are not 0", 1))
     team = record.get("teamName") or world.get("teamName")
     return _Record(
-        epoch_ms, index, team if isinstance(team, str) else "", robots, _best_ball(world, epoch_ms, findings)
+        epoch_ms,
+        index,
+        team if isinstance(team, str) else "",
+        robots,
+        ball,
+        reports,
+        [(what, count) for what, count in left_out if count],
     )
-
-
-def _robot(robot: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[int, RobotRow] | None:
-    given = robot.get("id")
-    name = number(given, "id of a robot", findings)
-    if name is None or name != int(name) or not 0 <= name < 1000:
-        findings.note("robot without a number", lost=True)
-        return None
-    if isinstance(given, float):
-        findings.note("id of a robot written as 1.0")
-    pose = robot["pose"] if "pose" in robot else robot.get("position")
-    x, y, heading = vector(pose, 3, "pose", findings)
-    if x is None or y is None:
-        findings.note("robot without a position", lost=True)
-        return None
-    if max(abs(x), abs(y)) > _MAX_COORDINATE_M:
-        findings.note(f"robot more than {_MAX_COORDINATE_M:g} m from the centre", lost=True)
-        return None
-    if heading is None:
-        findings.note("robot without a heading: its last one is used")
-    velocity = vector(robot.get("velocity"), 3, "velocity of a robot", findings)
-    if velocity[0] is None or velocity[1] is None:
-        findings.note("robot without a velocity: derived from its positions")
-    engaged = robot.get("ballEngaged")
-    if isinstance(engaged, bool):
-        findings.note("ballEngaged is true or false, not 1 or 0")
-    has_ball = number(engaged, "ballEngaged", findings)
-    if has_ball is None:
-        findings.note("robot without ballEngaged: it counts as 0")
-    rest = [_or_nan(value) for value in (heading, *velocity)]
-    return int(name), (epoch_ms, x, y, rest[0], rest[1], rest[2], rest[3], float((has_ball or 0.0) > 0.5))
-
-
-def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> BallRow | None:
-    """The ball with the team's highest confidence."""
-    best: BallRow | None = None
-    for one in items_of(world.get("balls")):
-        ball = fields_of(one, findings)
-        x, y, z = vector(ball.get("position"), 3, "position of a ball", findings)
-        if x is None or y is None:
-            findings.note("ball without a position", lost=True)
-            continue
-        if max(abs(x), abs(y)) > _MAX_COORDINATE_M:
-            findings.note(f"ball more than {_MAX_COORDINATE_M:g} m from the centre", lost=True)
-            continue
-        velocity = vector(ball.get("velocity"), 3, "velocity of a ball", findings)
-        if velocity[0] is None or velocity[1] is None:
-            findings.note("ball without a velocity: derived from its positions")
-        confidence = number(ball.get("confidence"), "confidence", findings)
-        if confidence is None:
-            findings.note("ball without a confidence: it counts as 1")
-            confidence = 1.0
-        if not 0 <= confidence <= 1:
-            findings.note("confidence outside 0 to 1: limited to that range")
-            confidence = min(1.0, max(0.0, confidence))
-        if best is None or confidence > best[-1]:
-            vx, vy, vz = (_or_nan(value) for value in velocity)
-            best = (epoch_ms, x, y, _or_nan(z), vx, vy, vz, confidence)
-    return best
-
-
-def _or_nan(value: float | None) -> float:
-    return math.nan if value is None else value
 
 
 def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Record]:

@@ -9,8 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from recordings.exchange.msl.record_motion import BALL, ROBOT, BodyRecords, body_records, last_known
 from recordings.exchange.msl.team_log import GAP_S, TeamLog
 from schemas.league.axes import heading_across, vector_to_field
+from schemas.league.findings import Findings
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -34,28 +36,32 @@ class Track:
     """Robot: x, y, heading, vx, vy, omega, with the ball (1 or 0). Ball: x, y, z, vx, vy, vz, confidence."""
 
 
-def robot_tracks(log: TeamLog, grid_ms: Array, attack: Array) -> dict[int, Track]:
+def robot_tracks(log: TeamLog, letter: str, grid_ms: Array, attack: Array, findings: Findings) -> dict[int, Track]:
     """Number → track of each robot of a team; `attack` is its direction of attack at each time, +1 or −1."""
     tracks = {}
+    findings.place = letter
     for number in sorted(log.robots):
-        rows = _filled(np.array(log.robots[number]), velocity=(4, 5))
-        rows[:, 3] = np.unwrap(_last_known(rows[:, 3]))
+        body = body_records(log.robots[number], f"robot {number} of {letter}", ROBOT, findings)
+        rows = body.rows
+        rows[:, 3] = np.unwrap(last_known(rows[:, 3]))
         rows[:, 6] = np.nan_to_num(rows[:, 6])
-        known, at = _resampled(rows, grid_ms, kept=7)
+        known, at = _resampled(body, grid_ms, kept=7)
         x, y = vector_to_field(at[0], at[1], attack)
         vx, vy = vector_to_field(at[3], at[4], attack)
         tracks[number] = Track(known, np.array([x, y, heading_across(at[2], attack), vx, vy, at[5], at[6]]))
     return tracks
 
 
-def ball_track(log: TeamLog, grid_ms: Array, attack: Array, radius: float) -> Track:
+def ball_track(log: TeamLog, letter: str, grid_ms: Array, attack: Array, radius: float, findings: Findings) -> Track:
     """The ball as seen by one team; on the ground if its height is unknown."""
     if not log.balls:
         return Track(np.zeros(len(grid_ms), bool), np.full((7, len(grid_ms)), np.nan))
-    rows = _filled(np.array(log.balls), velocity=(4, 5))
+    findings.place = letter
+    body = body_records(log.balls, f"the ball of {letter}", BALL, findings)
+    rows = body.rows
     rows[:, 3] = np.fmax(rows[:, 3], radius)
     rows[:, 6] = np.nan_to_num(rows[:, 6])
-    known, at = _resampled(rows, grid_ms, kept=None)
+    known, at = _resampled(body, grid_ms, kept=7)
     x, y = vector_to_field(at[0], at[1], attack)
     vx, vy = vector_to_field(at[3], at[4], attack)
     return Track(known, np.array([x, y, at[2], vx, vy, at[5], at[6]]))
@@ -64,10 +70,12 @@ def ball_track(log: TeamLog, grid_ms: Array, attack: Array, radius: float) -> Tr
 def fuse_balls(first: Track, second: Track, radius: float) -> Track:
     """Where both teams agree, the mean of both balls, weighted with their confidence; else the more confident one.
 
-    While neither team sees the ball it stays at its last position, and before the first one on the centre mark.
+    An unknown confidence counts as hardly less than the other team's. While neither team sees the ball it stays at its
+    last position, and before the first one on the centre mark.
     """
     a, b = np.nan_to_num(first.values), np.nan_to_num(second.values)
-    sure_a, sure_b = a[6] * first.known, b[6] * second.known
+    sure_a, sure_b = _confidences(first.values[6], second.values[6])
+    sure_a, sure_b = sure_a * first.known, sure_b * second.known
     both = first.known & second.known
     agree = both & (np.hypot(a[0] - b[0], a[1] - b[1]) <= _AGREE_M)
     total = sure_a + sure_b
@@ -101,33 +109,27 @@ def kicks(robots: dict[str, Track], ball: Track, period: float) -> dict[int, str
     return found
 
 
-def _filled(rows: Array, velocity: tuple[int, int]) -> Array:
-    """Fill in missing velocities from the positions of neighbouring records."""
-    for place, column in enumerate(velocity, 1):
-        missing = np.isnan(rows[:, column])
-        if missing.any():
-            ways = np.gradient(rows[:, place], (rows[:, 0] - rows[0, 0]) / 1e3) if len(rows) > 1 else np.zeros(1)
-            rows[missing, column] = ways[missing]
-    return rows
+def _confidences(first: Array, second: Array) -> tuple[Array, Array]:
+    """Both teams' confidences, in place of unknown ones values that the other team's exceed."""
+    other_a, other_b = np.where(np.isnan(second), 0.5, second), np.where(np.isnan(first), 0.5, first)
+    return np.where(np.isnan(first), 0.999 * other_a, first), np.where(np.isnan(second), 0.999 * other_b, second)
 
 
-def _last_known(values: Array) -> Array:
-    """Replace unknown values by the last known one, or 0."""
-    newest = np.maximum.accumulate(np.where(np.isnan(values), -1, np.arange(len(values))))
-    return np.where(newest >= 0, values[np.maximum(newest, 0)], 0.0)
+def _resampled(body: BodyRecords, grid_ms: Array, kept: int) -> tuple[Mask, Array]:
+    """All columns but the time on the grid; column `kept` is not interpolated, but that of the record before.
 
-
-def _resampled(rows: Array, grid_ms: Array, kept: int | None) -> tuple[Mask, Array]:
-    """All columns but the time on the grid; column `kept` is not interpolated, but that of the record before."""
+    Before a jump, the body stays where it was.
+    """
+    rows = body.rows
     times = rows[:, 0]
     before = np.searchsorted(times, grid_ms, side="right") - 1
     first = np.maximum(before, 0)
     second = np.minimum(first + 1, len(times) - 1)
     gap_ms = times[second] - times[first]
     near = (gap_ms > 0) & (gap_ms <= GAP_S * 1e3)
-    share = np.where(near, (grid_ms - times[first]) / np.where(near, gap_ms, 1.0), 0.0)
+    moves = near & ~body.jumps[second]
+    share = np.where(moves, (grid_ms - times[first]) / np.where(near, gap_ms, 1.0), 0.0)
     known = (before >= 0) & (near | (grid_ms - times[first] <= _EXTRAPOLATE_S * 1e3))
     values = rows[first] + share[:, None] * (rows[second] - rows[first])
-    if kept is not None:
-        values[:, kept] = rows[first, kept]
+    values[:, kept] = rows[first, kept]
     return known, np.where(known[:, None], values, np.nan)[:, 1:].T

@@ -11,9 +11,11 @@ from recordings.container.environment import library
 from recordings.container.file_descriptors import file_descriptor_set
 from recordings.container.typed_writer import TypedWriter
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.exchange.omissions import omitted_messages
 from recordings.exchange.protobuf.message_type import message_type
 from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
+from schemas.topics import TOPICS
 
 ORIGIN = "exported_from"
 """Name of the metadata record that describes the original recording."""
@@ -50,4 +52,4 @@ def export(recording: Recording, out: Path) -> ExportSummary:
                 recorded.key, payload.SerializeToString(), recorded.log_ns, recorded.sent_ns, recorded.sequence
             )
             written[recorded.key] = written.get(recorded.key, 0) + 1
-    return ExportSummary(out, written, dict(recording.unreadable))
+    return ExportSummary(out, written, dict(recording.unreadable), omitted_messages(recording, *TOPICS.values()))

@@ -20,6 +20,7 @@ from schemas.errors import TouchlineError
 
 SCRIPTS = (
     "shared/projection.js",
+    "shared/palette.js",
     "shared/shapes.js",
     "shared/pitch.js",
     "shared/bodies.js",

@@ -7,5 +7,6 @@ export function fitted(canvas, pitch, margin) {
   const projection = new Projection();
   projection.fit(pitch, canvas.clientWidth || canvas.parentElement.clientWidth || 320, margin);
   canvas.style.height = `${projection.height}px`;
+  canvas.dataset.scale = String(projection.scale);
   return { projection, context: projection.resize(canvas) };
 }

@@ -11,6 +11,7 @@ from recordings.container.manifest import Manifest
 from recordings.stats.figures import MatchFigures
 from recordings.stats.kicks import SHOTS, KickOutcome, KickRecord
 from recordings.stats.page.game_history import GameHistory
+from recordings.stats.page.shot_lines import end_of_shot
 from recordings.stats.table import ROBOT_HEADINGS, remarks, robot_rows, side_rows
 from recordings.stats.tracks import Tracks
 from schemas.game import EventKind
@@ -49,7 +50,7 @@ def content_of(
         "intervals": [dataclasses.asdict(interval) for interval in history.intervals],
         "clock": history.clock,
         "events": _events(figures),
-        "shots": _shots(figures, history),
+        "shots": _shots(figures, history, tracks, setup.pitch.length / 2),
         "momentum": {"width": figures.momentum_width, "values": [round(value, 3) for value in figures.momentum]},
         "sides": [list(row) for row in side_rows(figures)],
         "table": {"headings": list(ROBOT_HEADINGS), "rows": [list(row) for row in robot_rows(figures)]},
@@ -120,14 +121,16 @@ def _shot(kick: KickRecord) -> dict[str, Any]:
     }
 
 
-def _shots(figures: MatchFigures, history: GameHistory) -> list[dict[str, Any]]:
-    """Positions of shots, mirrored so that cyan always attacks +x."""
+def _shots(figures: MatchFigures, history: GameHistory, tracks: Tracks, half_length: float) -> list[dict[str, Any]]:
+    """Positions and ends of shots, mirrored so that cyan always attacks +x."""
     shots = []
     for kick in figures.kicks:
         if kick.outcome in SHOTS:
             sign = history.cyan_attacks(kick.time)
             place = {"x": round(sign * kick.x, 2), "y": round(sign * kick.y, 2)}
-            shots.append({**place, "side": kick.side.value, "outcome": kick.outcome.value})
+            end_x, end_y = end_of_shot(kick, tracks, half_length)
+            end = {"x": round(sign * end_x, 2), "y": round(sign * end_y, 2)}
+            shots.append({**place, "end": end, "side": kick.side.value, "outcome": kick.outcome.value})
     return shots
 
 

@@ -1,6 +1,6 @@
 // The list of events: each is a button that jumps there.
 
-import { LEAD_S, SYMBOLS, indexAt, isKey, jumpTarget } from "./shared/events.js";
+import { LEAD_S, SYMBOLS, indexAt, isKey, jumpTarget, withNames } from "./shared/events.js";
 import { formatClock } from "./match.js";
 
 export class EventList {
@@ -28,7 +28,7 @@ export class EventList {
     const time = element("time", formatClock(event.clock)), symbol = element("span", SYMBOLS[event.kind] ?? "·");
     symbol.className = "symbol";
     symbol.setAttribute("aria-hidden", "true");
-    const text = element("span", ""), kind = element("span", event.kind.replaceAll("_", " ")), what = element("span", event.text);
+    const text = element("span", ""), kind = element("span", event.kind.replaceAll("_", " ")), what = element("span", withNames(event.text, this.match.teams));
     kind.className = "kind";
     what.className = "what";
     text.append(kind, what);

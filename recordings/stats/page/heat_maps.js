@@ -34,7 +34,7 @@ export function redrawHeatMaps(place) {
 }
 
 function drawMap(canvas, match, body) {
-  const { pitch } = match, { projection, context } = fitted(canvas, pitch, 0.6);
+  const { pitch } = match, { projection, context } = fitted(canvas, pitch, pitch.goal_depth + 0.4);
   drawGrass(context, projection, pitch, true);
   const columns = Math.ceil(pitch.length / CELL), rows = Math.ceil(pitch.width / CELL);
   const cells = blurred(counted(match, body, columns, rows), columns, rows);

@@ -50,7 +50,7 @@ function show({ time, playing }) {
   scrub.setAttribute("aria-valuetext", formatClock(time - match.start, true));
   byId("clock").textContent = formatClock(match.clockAt(time), true);
   byId("phase").textContent = interval ? phaseText(interval) : "";
-  byId("score").textContent = interval?.score ? interval.score.join(" : ") : "– : –";
+  byId("score-now").textContent = interval?.score ? interval.score.join(" : ") : "";
   byId("play").classList.toggle("playing", playing);
   byId("play").setAttribute("aria-label", playing ? "Pause (space)" : "Play (space)");
 }
@@ -64,6 +64,7 @@ for (const [side, ids] of [["cyan", ["cyan-name", "cyan-up", "cyan-right"]], ["m
   for (const id of ids) byId(id).textContent = match.teams[side];
 }
 byId("about").textContent = [match.match, match.started.slice(0, 16).replace("T", " ") + " UTC", ...match.about].join(" · ");
+byId("score").textContent = match.finalScore?.join(" : ") ?? "– : –";
 byId("in-play").textContent = match.in_play.seconds === null
   ? ""
   : `${formatClock(match.end - match.start)} recorded, ball in play ${formatClock(match.in_play.seconds)} (${Math.round(100 * match.in_play.share)} %)`;
@@ -93,4 +94,5 @@ new ResizeObserver(() => {
   width = document.body.clientWidth;
   fit();
 }).observe(document.body);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", fit); // marks are drawn in the colour of texts
 window.touchline = { match, player, view };

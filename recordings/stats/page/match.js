@@ -25,7 +25,9 @@ export function readMatch(text) {
 class Match {
   constructor(content) {
     Object.assign(this, content);
-    this.end = this.start + Math.max(0, this.samples - 1) / this.rate;
+    const last = [...this.intervals, ...this.events].map(({ time }) => time);
+    // The last sample may lie before full time, by less than the time between two samples.
+    this.end = Math.max(this.start + Math.max(0, this.samples - 1) / this.rate, ...last);
   }
 
   /** Samples before and after a time, and the fraction of the interval between them. */
@@ -61,10 +63,17 @@ class Match {
 
   /** The game clock at a time. */
   clockAt(time) {
+    const over = this.events.findLast((event) => event.kind === "full_time" && event.time <= time + 1e-6);
+    if (over) return over.clock;
     const at = Math.min(Math.max(time - this.start, 0), this.clock.length - 1);
     const second = Math.floor(at);
     const next = Math.min(second + 1, this.clock.length - 1);
     return this.clock[second] + (this.clock[next] - this.clock[second]) * (at - second);
+  }
+
+  /** The score at the end; null where none was recorded. */
+  get finalScore() {
+    return this.intervals.findLast(({ score }) => score !== null)?.score ?? null;
   }
 
   /** Intervals in which the ball was in play: begin, end, and game state. */

@@ -1,6 +1,7 @@
 // Everything that moves, at one time: robots, and the ball with its trail.
 
-import { HOLDS, drawBall, drawRobot } from "./shared/bodies.js";
+import { HOLDS } from "./shared/palette.js";
+import { drawBall, drawRobot, inPicture } from "./shared/bodies.js";
 import { line } from "./shared/shapes.js";
 
 const TRAIL_S = 1.6;
@@ -11,7 +12,7 @@ export function drawMovingBodies(context, projection, match, time) {
   const { robots, ball, holder } = match.bodies(time);
   drawTrail(context, projection, match, time);
   robots.forEach((robot, number) => {
-    if (robot) drawRobot(context, projection, robot, match.robots[number], number === holder ? HOLDS : null);
+    if (robot) drawRobot(context, projection, inPicture(projection, robot, match.robots[number].radius), match.robots[number], number === holder ? HOLDS : null);
   });
   drawBall(context, projection, ball, match.ball.radius);
 }

@@ -1,7 +1,7 @@
 // Momentum over time, with goals and shots; a click jumps to that time.
 
 import { SYMBOLS } from "./shared/events.js";
-import { SIDES } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
 
 export class Timeline {
   constructor(canvas, match, seek) {

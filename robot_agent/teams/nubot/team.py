@@ -55,6 +55,7 @@ class NuBot(Player):
     """One of the five robots; alone, the paper's robot."""
 
     plays_alone = True
+    tests = Player.tests | {CoachTest.MACHINE}
 
     def __init__(self, briefing: Briefing) -> None:
         super().__init__(briefing)

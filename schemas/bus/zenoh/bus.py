@@ -18,8 +18,8 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
-from schemas.bus.endpoint import DEFAULT_ENDPOINT
-from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.mailbox import FifoMailbox
+from schemas.bus.zenoh.match_at import match_at
 from schemas.bus.zenoh.newest import ZenohNewest
 from schemas.bus.zenoh.presence import ZenohPresenceWatch
 from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer
@@ -33,32 +33,52 @@ from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import WireMessage
 
 
-def open_host(match: str, clock: Clock, listen: str = DEFAULT_ENDPOINT) -> "ZenohBus":
-    """Open the host's bus: a router that listens on one endpoint.
+def open_host(match: str, clock: Clock, listen: str | None = None) -> "ZenohBus":
+    """Open the host's bus: a router that listens on one endpoint, the bus's `endpoint`.
+
+    Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
 
     Raises:
+        EndpointInUseError: another process listens on the endpoint.
         BusError: it cannot listen on the endpoint.
     """
-    return ZenohBus(match, clock, open_router(listen), is_client=False)
+    session, endpoint = open_router(listen)
+    return ZenohBus(match, clock, session, endpoint, is_client=False)
 
 
-def open_client(match: str, clock: Clock, connect: str = DEFAULT_ENDPOINT, patience: float = 10.0) -> "ZenohBus":
+def open_client(match: str | None, clock: Clock, connect: str | None = None, patience: float = 10.0) -> "ZenohBus":
     """Open a client's bus, with attempts for `patience` s of wall time.
 
+    Without an endpoint it connects to the running match of this machine, without a name to the match at the endpoint.
+
     Raises:
-        BusError: no host answers at that endpoint.
+        TouchlineError: no endpoint is given, and several matches run on this machine.
+        BusError: no host answers at the endpoint, or no match is played there.
     """
-    return ZenohBus(match, clock, open_connection(connect, clock, patience), is_client=True)
+    if connect is None:
+        from schemas.bus.find_host import endpoint_of  # needs file locks, which not every system of a robot has
+
+        connect = endpoint_of(match)
+    deadline = clock.now() + patience
+    session = open_connection(connect, clock, patience)
+    try:
+        name = match or match_at(session, connect, clock, deadline)
+    except BaseException:
+        session.close()  # type: ignore[no-untyped-call]
+        raise
+    return ZenohBus(name, clock, session, connect, is_client=True)
 
 
 class ZenohBus(Bus):
     """A bus on a Zenoh network."""
 
-    def __init__(self, match: str, clock: Clock, session: zenoh.Session, *, is_client: bool) -> None:
+    def __init__(self, match: str, clock: Clock, session: zenoh.Session, endpoint: str, *, is_client: bool) -> None:
         super().__init__(match, clock)
         self.session = session
+        self.endpoint = endpoint
+        """Where the host listens; of a client, where it is connected."""
         self._context = SessionContext(session, key_prefix(match), clock, is_client, WaitTimer(clock), self)
-        self._mailboxes: list[EveryMailbox[Any]] = []
+        self._mailboxes: list[FifoMailbox[Any]] = []
         self._subscriptions: list[ZenohReader] = []
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         _close_at_exit(self)

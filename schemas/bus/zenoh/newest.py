@@ -29,7 +29,7 @@ class ZenohNewest(ZenohReader):
         if newest is None:
             return None
         sample, payload = newest
-        return message_in(sample, self._topic, self._key, payload, self._timed)
+        return message_in(sample, self._topic, self._key, payload, self._has_arrival_time)
 
     def receive_payload(self, timeout: float | None = 0.0) -> bytes | None:
         newest = self._newest(timeout)

@@ -7,7 +7,7 @@ from schemas.bus.contract import (
     PresenceKind,
     PresenceWatch,
 )
-from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topics import TOPICS
 
@@ -16,7 +16,7 @@ _KINDS = frozenset(kind.value for kind in PresenceKind)
 
 class ZenohPresenceWatch(PresenceWatch):
     def __init__(self, context: SessionContext) -> None:
-        self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+        self.mailbox: FifoMailbox[Presence] = FifoMailbox()
         self.is_empty = self.mailbox.is_empty
         start = len(context.prefix)
         row = TOPICS["alive"]

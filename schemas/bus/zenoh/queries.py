@@ -8,7 +8,7 @@ from schemas.bus.contract import (
     Query,
     Server,
 )
-from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 from schemas.wire.message import WireMessage
@@ -33,7 +33,7 @@ class ZenohQuery(Query):
 
 class ZenohServer(Server):
     def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
-        self.mailbox: EveryMailbox[Query] = EveryMailbox()
+        self.mailbox: FifoMailbox[Query] = FifoMailbox()
 
         def receive(query: zenoh.Query) -> None:
             self.mailbox.put("", ZenohQuery(topic, query))
@@ -52,7 +52,7 @@ class ZenohPendingReply(PendingReply):
     ) -> None:
         super().__init__(topic)
         self._key = key
-        mailbox: EveryMailbox[bytes | str] = EveryMailbox()
+        mailbox: FifoMailbox[bytes | str] = FifoMailbox()
         self._mailbox = mailbox
 
         def receive(reply: zenoh.Reply) -> None:

@@ -27,7 +27,7 @@ class ZenohReader(Subscription):
         self._topic = topic
         self._context = context
         self._clock = context.clock
-        self._timed = not context.is_client
+        self._has_arrival_time = not context.is_client
         self._ended = False
         self._full_key = context.prefix + key
         self._wake_up_key = self._full_key.replace("*", WAKE_UP)

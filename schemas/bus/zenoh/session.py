@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import zenoh
 
-from schemas.bus.contract import LEASE_S, Bus, BusError
+from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 
@@ -25,7 +26,7 @@ _RETRY = {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 
 _TRY_S = (0.5, 2.0)
 """Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
 at once. Ctrl-C takes effect between attempts."""
-_ROOM_US = 1_000_000
+_CONGESTION_TIMEOUT_US = 1_000_000
 """Wall time in which a client has to make room for data that must not be dropped, in µs; then its link is closed, and
 it may connect again."""
 
@@ -45,25 +46,42 @@ class SessionContext:
     """The bus, which must be closed before the interpreter ends, and exists as long as the session is in use."""
 
 
-def open_router(listen: str) -> zenoh.Session:
-    """The host's session: a router that listens on one endpoint.
+def open_router(listen: str | None) -> tuple[zenoh.Session, str]:
+    """The host's session, a router that listens on one endpoint, and that endpoint.
+
+    Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
 
     Raises:
+        EndpointInUseError: another process listens on the endpoint.
         BusError: it cannot listen on the endpoint.
     """
+    if listen is not None:
+        return _listen_on(listen)
+    try:
+        return _listen_on(DEFAULT_ENDPOINT)
+    except EndpointInUseError:
+        return _listen_on(FREE_ENDPOINT)
+
+
+def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
+    try:
+        endpoint = with_free_port(listen)
+    except OSError as error:
+        raise BusError(f"--listen {listen} cannot be listened on ({error.strerror}); choose another address") from None
     config = _config(
         "router",
         {
-            "listen/endpoints": [listen],
-            "transport/link/tx/queue/congestion_control/block/wait_before_close": _ROOM_US,
+            "listen/endpoints": [endpoint],
+            "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTION_TIMEOUT_US,
         },
     )
     try:
-        return _open(config, _HOST_THREADS)
+        return _open(config, _HOST_THREADS), endpoint
     except zenoh.ZError as error:
-        busy = "ddress already in use" in str(error)
-        why = "is in use by another process" if busy else f"cannot be listened on ({error})"
-        raise BusError(f"--listen {listen} {why}; choose another port, or tcp/127.0.0.1:0 for a free one") from None
+        remedy = f"choose another port, or {FREE_ENDPOINT} for a free one"
+        if "ddress already in use" in str(error):
+            raise EndpointInUseError(f"--listen {listen} is in use by another process; {remedy}") from None
+        raise BusError(f"--listen {listen} cannot be listened on ({first_line(error)}); {remedy}") from None
 
 
 def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Session:

@@ -123,4 +123,4 @@ class ZenohSubscription(ZenohReader):
         key = str(sample.key_expr)[self._start :]
         if (not payload and is_wake_up(sample)) or (key in _LITERAL_KEYS and key != self._topic.key):
             return None
-        return message_in(sample, self._topic, key, payload, self._timed)
+        return message_in(sample, self._topic, key, payload, self._has_arrival_time)

@@ -9,6 +9,7 @@ from sim_host.referee.actions import (
     cancel_goal,
     confirm,
     corner,
+    double_yellow,
     drop_ball,
     end_game,
     end_half,
@@ -17,6 +18,8 @@ from sim_host.referee.actions import (
     goal,
     goal_kick,
     kick_off,
+    name_robot,
+    naming,
     overrule,
     park,
     penalty,
@@ -59,11 +62,13 @@ ACTIONS: Mapping[ActionName, Action] = {
     ActionName.GOAL: Action(goal.why_illegal, goal.apply),
     ActionName.CANCEL_GOAL: Action(cancel_goal.why_illegal, cancel_goal.apply),
     ActionName.YELLOW_CARD: Action(yellow_card.why_illegal, yellow_card.apply),
+    ActionName.DOUBLE_YELLOW: Action(double_yellow.why_illegal, double_yellow.apply),
     ActionName.RED_CARD: Action(red_card.why_illegal, red_card.apply),
     ActionName.REPAIR: Action(repair.why_illegal, repair.apply),
     ActionName.SUBSTITUTE: Action(substitute.why_illegal, substitute.apply),
     ActionName.PARK: Action(park.why_illegal, park.apply),
     ActionName.ENTER: Action(enter.why_illegal, enter.apply),
+    ActionName.NAME_ROBOT: Action(name_robot.why_illegal, name_robot.apply),
     ActionName.CONFIRM: Action(confirm.why_illegal, confirm.apply, can_be_undone=False),
     ActionName.OVERRULE: Action(overrule.why_illegal, overrule.apply, can_be_undone=False),
     ActionName.UNDO: Action(undo.why_illegal, undo.apply, can_be_undone=False),
@@ -74,11 +79,19 @@ ACTIONS: Mapping[ActionName, Action] = {
 
 
 def execute(draft: RulingDraft, action: RefereeAction) -> ActionReply:
-    """Carry out an action, or refuse it with the reason."""
+    """Carry out an action, or refuse it with the reason; if it may concern several robots of a side, ask which one."""
+    if naming.names_no_robot(action):
+        robots = naming.possible_robots(draft, action)
+        if not robots:
+            return _refused(draft, action, naming.why_none(draft, action))
+        if len(robots) > 1:
+            naming.ask(draft, action, robots)
+            return ActionReply(accepted=True, tick=draft.snapshot.tick)
+        action = naming.for_robot(action, robots[0])
     row = ACTIONS[action.action]
     reason = row.why_illegal(draft, action)
     if reason is not None:
-        return ActionReply(accepted=False, reason=f"{action.action}: {reason}", tick=draft.snapshot.tick)
+        return _refused(draft, action, reason)
     place = (action.place.x, action.place.y) if action.place is not None else None
     owner = f" for {action.side}" if action.side is not None else ""
     where = f" at {place_text(place)}" if place is not None else ""
@@ -89,3 +102,7 @@ def execute(draft: RulingDraft, action: RefereeAction) -> ActionReply:
         save_for_undo(draft)
     row.apply(draft, action)
     return ActionReply(accepted=True, tick=draft.snapshot.tick)
+
+
+def _refused(draft: RulingDraft, action: RefereeAction, reason: str) -> ActionReply:
+    return ActionReply(accepted=False, reason=f"{action.action}: {reason}", tick=draft.snapshot.tick)

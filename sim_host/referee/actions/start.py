@@ -3,15 +3,15 @@
 Before the match it signals the first kick-off; in the break, or while robots park, that of the next half. It gives
 START of a signalled restart at once, also while robots are in wrong positions. After STOP it signals the restart that
 is due without waiting any longer. If none is due, because people stopped the game, it signals a drop ball where the
-ball is, or the kick-off if the half has not begun.
+ball is, the kick-off if the half has not begun, or the next penalty of a shoot-out.
 """
 
 from collections.abc import Callable, Mapping
 
-from schemas.game import RESTARTS, Phase
+from schemas.game import RESTARTS, GameStage, Phase
 from schemas.messages.game import RefereeAction
 from sim_host.referee.placement.spots import restart_at
-from sim_host.referee.procedures import periods, restart
+from sim_host.referee.procedures import penalties, periods, restart
 from sim_host.referee.ruling_draft import RulingDraft
 
 
@@ -36,8 +36,11 @@ def apply(draft: RulingDraft, _action: RefereeAction) -> None:
 
 def _after_stop(draft: RulingDraft) -> None:
     due = draft.state.pending
+    out = draft.state.shoot_out
     if due is not None:
         restart.signal(draft, due)
+    elif draft.state.stage is GameStage.SHOOT_OUT and out is not None:
+        restart.signal(draft, penalties.penalty_for(draft, out.next_side()))
     elif draft.state.timing.runs:
         restart.signal(draft, restart_at(draft.match, draft.state, Phase.DROP_BALL, None, draft.ball_spot))
     else:

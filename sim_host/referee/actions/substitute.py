@@ -15,7 +15,13 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """Why the action is illegal now, or None."""
-    return no_match(draft) or no_robot(draft, action) or sent_off(draft, action) or _too_late(draft, action)
+    return (
+        no_match(draft)
+        or no_robot(draft, action)
+        or sent_off(draft, action)
+        or _is_out(draft, action)
+        or _too_late(draft, action)
+    )
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
@@ -25,6 +31,16 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
     made = {**participation.substitutions, side: participation.substitutions.get(side, 0) + 1}
     draft.state = draft.state._replace(participation=dataclasses.replace(participation, substitutions=made))
     discipline.take_out(draft, action.action, name, Absence(OffField.SUBSTITUTION, draft.book.people.substitution))
+
+
+def _is_out(draft: RulingDraft, action: RefereeAction) -> str | None:
+    """A substitution that is under way is not begun again."""
+    name = named_robot(action)
+    absence = draft.state.participation.absences.get(name)
+    if absence is None or absence.why is not OffField.SUBSTITUTION:
+        return None
+    left = f", {absence.left:.0f} s left" if absence.left is not None else ""
+    return f"{name} is being substituted already{left}"
 
 
 def _too_late(draft: RulingDraft, action: RefereeAction) -> str | None:

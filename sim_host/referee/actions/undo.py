@@ -1,4 +1,7 @@
-"""Undo: restores the state before the last decision or action, with its score and cards; the clock goes on."""
+"""Undo: restores the state before the last decision or action, with its score and cards; the clock goes on.
+
+Further decisions of the half can be undone after it, the newest first.
+"""
 
 from schemas.messages.game import RefereeAction
 from sim_host.referee import authority

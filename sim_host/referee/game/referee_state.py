@@ -8,6 +8,7 @@ from schemas.side import Side
 from sim_host.referee.evidence import NO_EVIDENCE, Evidence
 from sim_host.referee.game.decision import Proposal
 from sim_host.referee.game.participation import Participation
+from sim_host.referee.game.question import Question
 from sim_host.referee.game.restart import Restart, Spot
 from sim_host.referee.game.set_piece import SetPiece
 from sim_host.referee.game.shoot_out import ShootOut
@@ -41,14 +42,26 @@ class RefereeState(NamedTuple):
     shoot_out: ShootOut | None = None
     proposal: Proposal | None = None
     """In mixed officiating, the decision that people may overrule."""
-    before: "RefereeState | None" = None
-    """The state before the last decision, for `undo`."""
+    history: "tuple[RefereeState, ...]" = ()
+    """The states before the last decisions of this half, the newest last, each without a history of its own: for
+    `undo`."""
     still: float = 0.0
     """s for which the ball in play has not moved."""
     ball: tuple[float, float, float] | None = None
     """Position of the ball's centre at the last tick."""
     evidence: Evidence = NO_EVIDENCE
     """The evidence since START."""
+    refbox_gone: float | None = None
+    """s since the referee box that officiates has gone; 0 while it is connected, None where none officiates."""
+    questions: tuple[Question, ...] = ()
+    """Actions that wait for a side to name its robot."""
+    offender: str | None = None
+    """The robot that committed the last foul that the referee saw."""
+
+    @property
+    def refbox_decides(self) -> bool:
+        """Whether a league's referee box alone ends halves, breaks and the match."""
+        return self.refbox_gone is not None
 
     @property
     def last_touch(self) -> str | None:
@@ -91,6 +104,8 @@ class RefereeState(NamedTuple):
             robots=participation.disciplinary_records(sorted({*participation.cards, *participation.absences})),
             proposal=None if self.proposal is None else self.proposal.text,
             episode=episode,
+            refbox=self.refbox_gone is not None,
+            questions=[question.published() for question in self.questions],
         )
 
 

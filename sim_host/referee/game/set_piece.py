@@ -18,7 +18,7 @@ KICK_DURATION = 0.1
 
 
 class SetPiece(NamedTuple):
-    """One started restart; the phase of the game tells whether the ball is in play."""
+    """One started restart; the phase of the game shows whether the ball is in play."""
 
     restart: Restart
     roll_start: Spot

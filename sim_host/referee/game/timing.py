@@ -22,10 +22,11 @@ class Timing(NamedTuple):
     until: float | None = None
     """The limit of the timer, or None."""
 
-    def after(self, dt: float, in_play: bool) -> "Timing":
-        """The clocks `dt` s later."""
+    def after(self, dt: float, in_play: bool, *, limited: bool = True) -> "Timing":
+        """The clocks `dt` s later; if `limited`, the game clock stops at the end of the half."""
+        clock = self.clock + dt if self.runs else self.clock
         return self._replace(
-            clock=min(self.clock + dt, self.limit) if self.runs else self.clock,
+            clock=min(clock, self.limit) if limited and self.runs else clock,
             effective=self.effective + dt if in_play else self.effective,
             timer=self.timer + dt,
         )

@@ -1,6 +1,6 @@
 """Carries out a decision of a rule or of people: score, event, card and restart."""
 
-from schemas.game import Score
+from schemas.game import EventKind, Score
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.procedures import discipline, penalties, periods, restart
@@ -30,6 +30,8 @@ def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
         unit=decision.unit,
         card=decision.card,
     )
+    if decision.kind is EventKind.FOUL and decision.robot is not None:
+        draft.state = draft.state._replace(offender=decision.robot)
     if decision.card is not None and decision.robot is not None:
         discipline.show_card(draft, rule, decision.robot, decision.card)
     if decision.shot_scored is not None:

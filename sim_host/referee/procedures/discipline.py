@@ -24,23 +24,28 @@ from sim_host.referee.placement.bench import bench_pose, entry_pose
 from sim_host.referee.ruling_draft import RulingDraft
 
 RULE = "discipline"
+_SECOND = 2
+"""Yellow cards of a robot after its second one."""
 WAITS_FOR_PEOPLE = frozenset({OffField.PARKED})
 """Reasons that only a person ends: the robot comes back on request."""
 STOPPAGES = RESTARTS | {Phase.STOPPED, Phase.HALF_TIME, Phase.PARKING}
 """Phases in which robots may come back, before START is given."""
 
 
-def show_card(draft: RulingDraft, rule: str, name: str, card: Card) -> None:
-    """Show a robot a card, and send it off if the rule book requires it."""
+def show_card(draft: RulingDraft, rule: str, name: str, card: Card, *, second: bool = False) -> None:
+    """Show a robot a card, and send it off if the rule book requires it; a referee box decides that itself.
+
+    A yellow card that is the `second` suspends the robot, whatever it was shown before.
+    """
     participation, book = draft.state.participation, draft.book.discipline
     record = participation.cards.get(name, CardCount())
     absence = None
     if card is Card.YELLOW:
-        record = record._replace(yellow=record.yellow + 1)
-        if book.yellows_to_red and record.yellow >= book.yellows_to_red:
-            card = Card.RED
-        elif book.yellows_to_suspension and record.yellow == book.yellows_to_suspension:
+        record = record._replace(yellow=_SECOND if second else record.yellow + 1)
+        if second:
             absence = Absence(OffField.SECOND_YELLOW, book.suspension)
+        elif not draft.state.refbox_decides:
+            card, absence = _after_yellow(book, record.yellow)
     if card is Card.RED:
         before = _count_reds(draft, draft.match.roster.side_of(name))
         record = CardCount(0, record.red + 1)
@@ -178,6 +183,14 @@ REASONS: Mapping[OffField, str] = {
     OffField.SILENT: "its agent does not answer",
     OffField.PARKED: "parked",
 }
+
+
+def _after_yellow(book: Discipline, yellows: int) -> tuple[Card, Absence | None]:
+    """The card that the last of these yellow cards becomes, and the suspension that follows from it."""
+    if book.yellows_to_red and yellows >= book.yellows_to_red:
+        return Card.RED, None
+    suspends = book.yellows_to_suspension and yellows == book.yellows_to_suspension
+    return Card.YELLOW, Absence(OffField.SECOND_YELLOW, book.suspension) if suspends else None
 
 
 def _is_gone(absence: Absence) -> bool:

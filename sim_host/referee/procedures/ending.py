@@ -28,6 +28,7 @@ def suspend_play(draft: RulingDraft, phase: Phase, until: float | None) -> None:
 def end_match(draft: RulingDraft, rule: str, text: str) -> None:
     """End the match at full time."""
     suspend_play(draft, Phase.FULL_TIME, None)
+    draft.state = draft.state._replace(questions=())
     draft.add_event(EventKind.FULL_TIME, rule, text, score=draft.state.score)
 
 

@@ -22,7 +22,7 @@ def begin(draft: RulingDraft) -> None:
     """Signal the first penalty, for the side that would have kicked off."""
     state = draft.state
     out = ShootOut(state.kick_off.opponent)
-    draft.state = state._replace(stage=GameStage.SHOOT_OUT, shoot_out=out, before=None)
+    draft.state = state._replace(stage=GameStage.SHOOT_OUT, shoot_out=out, history=())
     restart.signal(draft, penalty_for(draft, out.next_side()))
 
 
@@ -40,6 +40,9 @@ def next_penalty(draft: RulingDraft, rule: str) -> None:
     if out is None:
         return
     kicks = periods.shoot_out_kicks
+    if state.refbox_decides:
+        restart.stop(draft, rule, None)
+        return
     leader = out.leader(kicks)
     result = f"cyan {out.goals.cyan} : {out.goals.magenta} magenta"
     if leader is not None:

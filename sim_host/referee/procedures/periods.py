@@ -29,7 +29,7 @@ HALF_PHASES = RESTARTS | {Phase.STOPPED, Phase.PLAY}
 
 def begin_half(draft: RulingDraft) -> None:
     """Signal the kick-off of the half, unless a side forfeits."""
-    if not end_if_forfeited(draft):
+    if draft.state.refbox_decides or not end_if_forfeited(draft):
         restart.signal(draft, Restart(Phase.KICK_OFF, draft.state.kick_off, CENTRE))
 
 
@@ -43,11 +43,23 @@ def end_half(draft: RulingDraft, rule: str, text: str) -> None:
     if draft.book.periods.parking:
         suspend_play(draft, Phase.PARKING, draft.book.periods.parking)
     else:
-        suspend_play(draft, Phase.HALF_TIME, _break_duration(draft))
+        suspend_play(draft, Phase.HALF_TIME, break_limit(draft))
 
 
 def what_follows(draft: RulingDraft) -> GameStage | None:
-    """The stage of the next half or of the shoot-out; None after the last period."""
+    """The stage of the next half or of the shoot-out; None after the last period that the match requires."""
+    state = draft.state
+    is_open = draft.match.needs_winner and state.score.cyan == state.score.magenta
+    return _next_stage(draft, beyond_regular=is_open)
+
+
+def break_limit(draft: RulingDraft) -> float | None:
+    """Duration in s of the break before the next period; None while a referee box decides when it ends."""
+    return None if draft.state.refbox_decides else _break_duration(draft)
+
+
+def _next_stage(draft: RulingDraft, *, beyond_regular: bool) -> GameStage | None:
+    """The stage that follows; extra time and shoot-out only if `beyond_regular`."""
     state, periods = draft.state, draft.book.periods
     if state.stage is GameStage.SHOOT_OUT:
         return None
@@ -55,7 +67,7 @@ def what_follows(draft: RulingDraft) -> GameStage | None:
         return GameStage.REGULAR
     if state.half > periods.halves and state.half < periods.halves + periods.extra_halves:
         return GameStage.EXTRA_TIME
-    if not draft.match.needs_winner or state.score.cyan != state.score.magenta:
+    if not beyond_regular:
         return None
     if state.half == periods.halves and periods.extra_halves:
         return GameStage.EXTRA_TIME
@@ -63,11 +75,10 @@ def what_follows(draft: RulingDraft) -> GameStage | None:
 
 
 def begin_next_period(draft: RulingDraft) -> None:
-    """Begin the next period after a break, or end the match."""
-    stage = what_follows(draft)
+    """Begin the next period after a break, or end the match; a referee box may go on where the rules would not."""
+    stage = _next_stage(draft, beyond_regular=True) if draft.state.refbox_decides else what_follows(draft)
     if stage is None:
-        score = draft.state.score
-        end_match(draft, RULE, f"full time, cyan {score.cyan} : {score.magenta} magenta")
+        _end_at_full_time(draft)
     elif stage is GameStage.SHOOT_OUT:
         _place_at_start_poses(draft)
         penalties.begin(draft)
@@ -82,8 +93,14 @@ def advance(draft: RulingDraft) -> None:
         step(draft)
     restart.drop_settled_set_piece(draft)
     discipline.advance(draft)
-    if draft.state.participation.absences and draft.state.phase in HALF_PHASES:
+    state = draft.state
+    if state.participation.absences and state.phase in HALF_PHASES and not state.refbox_decides:
         end_if_forfeited(draft)
+
+
+def _end_at_full_time(draft: RulingDraft) -> None:
+    score = draft.state.score
+    end_match(draft, RULE, f"full time, cyan {score.cyan} : {score.magenta} magenta")
 
 
 def _change_sides(draft: RulingDraft, stage: GameStage) -> None:
@@ -97,7 +114,7 @@ def _change_sides(draft: RulingDraft, stage: GameStage) -> None:
         kick_off=state.kick_off.opponent,
         cyan_attacks=-state.cyan_attacks,
         participation=discipline.for_next_half(state.participation, draft.book.discipline),
-        before=None,
+        history=(),
     )
     _place_at_start_poses(draft)
     begin_half(draft)
@@ -113,7 +130,7 @@ def _place_at_start_poses(draft: RulingDraft) -> None:
 
 
 def _before_match(draft: RulingDraft) -> None:
-    if draft.match.automatic:
+    if draft.match.automatic and not draft.state.refbox_decides:
         begin_half(draft)
 
 
@@ -133,13 +150,13 @@ def _while_parking(draft: RulingDraft) -> None:
     if not reached(draft.state.timing.timer, draft.book.periods.parking):
         return
     if what_follows(draft) is None:
-        begin_next_period(draft)
+        _end_at_full_time(draft)
     else:
-        suspend_play(draft, Phase.HALF_TIME, _break_duration(draft))
+        suspend_play(draft, Phase.HALF_TIME, break_limit(draft))
 
 
 def _during_break(draft: RulingDraft) -> None:
-    if reached(draft.state.timing.timer, _break_duration(draft)):
+    if not draft.state.refbox_decides and reached(draft.state.timing.timer, _break_duration(draft)):
         begin_next_period(draft)
 
 

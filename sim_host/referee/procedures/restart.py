@@ -158,6 +158,7 @@ def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[Positi
             limit=fault.limit,
             unit="m",
         )
+        draft.state = draft.state._replace(offender=fault.robot)
         if numbers.moves_offenders:
             draft.place_robot(fault.robot, legal_pose(draft.match, draft.state, restart, draft.snapshot, fault))
         if numbers.position_card and draft.match.mode is OfficiatingMode.AUTOMATIC:

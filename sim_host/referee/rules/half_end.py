@@ -1,4 +1,4 @@
-"""End of a half: its playing time is up.
+"""End of a half: its playing time is up. While a league's referee box officiates, it alone ends the half.
 
 Section: match.
 Measures: the game clock, which runs from the first START of a half, also in stoppages.
@@ -14,7 +14,7 @@ from sim_host.referee.situation import Situation
 def judge(situation: Situation) -> Decision | None:
     """The immediate end of the half, or None."""
     state = situation.state
-    if not state.timing.runs or not reached(state.clock, state.timing.limit):
+    if state.refbox_decides or not state.timing.runs or not reached(state.clock, state.timing.limit):
         return None
     return Decision(
         kind=EventKind.HALF_TIME,

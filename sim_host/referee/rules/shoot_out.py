@@ -43,7 +43,7 @@ def _missed(situation: Situation, piece: SetPiece, side: Side) -> tuple[str, flo
     """Why the attempt has ended without a goal: text, measured quantity, limit and unit; or None."""
     state, snapshot, match = situation.state, situation.snapshot, situation.match
     ball, end, limit = snapshot.ball, state.attack(side), match.book.periods.shoot_out_limit
-    if reached(state.timing.timer, limit):
+    if reached(state.timing.timer, limit) and not state.refbox_decides:
         return f"no goal within {limit:g} s", state.timing.timer, limit, "s"
     holder = snapshot.possession
     if holder is not None and match.roster.side_of(holder) is not side:

@@ -12,6 +12,9 @@ from sim_host.server.services.action_handler import ActionHandler
 from sim_host.server.services.order_handler import OrderHandler
 from sim_host.server.services.query_handler import QueryHandler
 
+_CLAIMS = {"claims": True}
+"""`PresenceTracker` serves the agents' claims."""
+
 
 class Services:
     """All services of a host, processed between two ticks."""
@@ -26,10 +29,10 @@ class Services:
     ) -> None:
         """`has_referee_box` returns whether a league's referee box is connected, which then officiates alone."""
         self._batches = batches
-        self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup(), invalid_log)
+        self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup().model_copy(update=_CLAIMS), invalid_log)
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
-        self._orders = OrderHandler(bus, simulation.orders, invalid_log, batches)
+        self._orders = OrderHandler(bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches)
         self._actions = ActionHandler(bus, invalid_log, has_referee_box)
 
     @property
@@ -46,10 +49,10 @@ class Services:
             handler.process()
         self._batches.process()
 
-    def attend_meanwhile(self) -> None:
-        """Answer what may not wait for the end of a tick.
+    def serve_while_waiting(self) -> None:
+        """Serve the requests that cannot wait for the end of a tick.
 
-        An agent that is waited for may have to know the setup first, a recorder that is waited for may need batches.
+        The host may be waiting for an agent that needs the setup first, or for a recorder that needs batches.
         """
         self._setup.process()
         self._batches.process()

@@ -10,16 +10,23 @@ from schemas.wire.message import BadMessageError
 from sim_host.server.invalid_log import InvalidLog
 
 REFEREE_BOX_DECIDES = ActionReply(
-    accepted=False, reason="a league's referee box is connected and officiates; only stop is accepted"
+    accepted=False,
+    reason="a league's referee box is connected and officiates; only stop, and name robot when it is asked for, are "
+    "accepted",
 )
+_UNLOCKED = (ActionName.STOP, ActionName.NAME_ROBOT)
+"""Actions of other clients while a referee box officiates."""
 
 
 class ActionHandler:
-    """Queues requested actions; while a league's referee box officiates, other clients may only stop the game."""
+    """Queues requested actions.
+
+    While a league's referee box officiates, other clients may only stop the game, and name robots that it asks for.
+    """
 
     def __init__(self, bus: Bus, invalid_log: InvalidLog, has_referee_box: Callable[[], bool]) -> None:
         """`has_referee_box` returns whether a referee box is connected."""
-        self._questions = bus.serve(ACTION)
+        self._server = bus.serve(ACTION)
         self._invalid_log = invalid_log
         self._has_referee_box = has_referee_box
         self._pending: list[Query] = []
@@ -28,14 +35,14 @@ class ActionHandler:
 
     def process(self) -> None:
         """Queue the actions that have been requested."""
-        while (query := self._questions.receive()) is not None:
+        while (query := self._server.receive()) is not None:
             try:
                 action: RefereeAction = query.message()
             except BadMessageError as error:
                 self._invalid_log.add(query.key, str(error), query.payload)
                 query.fail(str(error))
                 continue
-            if self._has_referee_box() and action.source != REFBOX and action.action is not ActionName.STOP:
+            if self._has_referee_box() and action.source != REFBOX and action.action not in _UNLOCKED:
                 query.reply(REFEREE_BOX_DECIDES)
             else:
                 self.actions.append(action)

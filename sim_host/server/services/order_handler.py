@@ -1,7 +1,10 @@
 """The handler of the coaches' orders: the newest order of each side is active."""
 
+from collections.abc import Callable
+
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, ReceivedMessage
+from schemas.config.sections import Pitch
 from schemas.messages.coach import CoachOrder
 from schemas.side import Side
 from schemas.topics import ORDER
@@ -13,11 +16,17 @@ class OrderHandler:
     """Keeps the active orders."""
 
     def __init__(
-        self, bus: Bus, active: dict[Side, CoachOrder], invalid_log: InvalidLog, batches: BatchPublisher
+        self,
+        bus: Bus,
+        active: dict[Side, CoachOrder],
+        pitch: Callable[[], Pitch],
+        invalid_log: InvalidLog,
+        batches: BatchPublisher,
     ) -> None:
-        """`active` maps each side to its newest order, and is updated in place."""
+        """`active` maps each side to its newest order, and is updated in place; `pitch` returns the pitch in force."""
         self._orders = bus.subscribe(ORDER)
         self._active = active
+        self._pitch = pitch
         self._invalid_log = invalid_log
         self._batches = batches
 
@@ -33,7 +42,7 @@ class OrderHandler:
             active = self._active.get(side)
             if order == active:
                 continue  # sent twice
-            reason = order.refusal_after(active)
+            reason = order.refusal_after(active) or order.refusal_on(self._pitch())
             if reason:
                 self._invalid_log.add(received.key, reason, received.payload)
             else:

@@ -14,13 +14,13 @@ class QueryHandler:
 
     def __init__(self, bus: Bus, topic: Topic, answer: Callable[[Any], Message], invalid_log: InvalidLog) -> None:
         """`answer` returns the reply to a valid query."""
-        self._questions = bus.serve(topic)
+        self._server = bus.serve(topic)
         self._answer = answer
         self._invalid_log = invalid_log
 
     def process(self) -> None:
         """Reply to all queries that have arrived."""
-        while (query := self._questions.receive()) is not None:
+        while (query := self._server.receive()) is not None:
             try:
                 asked = query.message()
             except BadMessageError as error:

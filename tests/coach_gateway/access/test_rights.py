@@ -7,7 +7,7 @@ from coach_gateway.access.roles import Role
 from schemas.side import Side
 
 ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
-OWN = ("repair", "substitute", "enter")
+OWN = ("repair", "substitute", "enter", "name_robot")
 """Actions that a coach may ask for, for its own robots."""
 
 
@@ -30,7 +30,7 @@ def allowed(role: Role) -> list[str]:
         (Role.MAGENTA, ["read_parameters"]),
     ],
 )
-def test_each_role_may_do_what_the_table_says_to_cyan_and_no_more(role: Role, deeds: list[str]) -> None:
+def test_each_role_has_exactly_the_rights_of_the_table_over_cyan(role: Role, deeds: list[str]) -> None:
     assert allowed(role) == deeds
 
 

@@ -3,7 +3,7 @@ import threading
 import pytest
 
 from coach_gateway.match.change_log import log_changes
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
@@ -16,7 +16,7 @@ class HostOf:
     """A host that publishes its next message whenever the watcher's clock advances, and leaves after the last."""
 
     def __init__(self, *messages: GameState | GameEvent) -> None:
-        self.medium = Medium()
+        self.medium = SharedState()
         self.bus = self.medium.open_bus("friendly", SteppedClock())
         self.bus.declare_alive("host", "host")
         self._messages = list(messages)
@@ -68,7 +68,7 @@ def test_every_event_is_logged_with_its_text() -> None:
 
 
 def test_watching_a_match_without_a_host_is_an_error_with_the_reason() -> None:
-    bus = Medium().open_bus("cup", SteppedClock())
+    bus = SharedState().open_bus("cup", SteppedClock())
     with pytest.raises(TouchlineError, match='match "cup": no host plays it there'):
         log_changes(bus, lambda line: None, threading.Event())
 

@@ -1,6 +1,6 @@
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from schemas.bus.contract import Bus, ReceivedMessage
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.game import GameEvent, GameState
@@ -13,12 +13,12 @@ from schemas.topics import ACTIVE_ORDER, BELIEF, EVENT, HEALTH, STATE, WORLD
 
 
 def seats() -> tuple[Bus, MatchFollower]:
-    medium = Medium()
+    medium = SharedState()
     return medium.open_bus("friendly", SteppedClock()), MatchFollower(medium.open_bus("friendly", SteppedClock()))
 
 
-def detailed() -> tuple[Medium, Bus, MatchFollower]:
-    medium = Medium()
+def detailed() -> tuple[SharedState, Bus, MatchFollower]:
+    medium = SharedState()
     host = medium.open_bus("friendly", WallClock())
     return medium, host, MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
 
@@ -71,7 +71,7 @@ def test_missed_messages_are_completed_from_a_recording_and_none_is_there_twice(
     follower.update()
     said = [(EVENT, goal(1)), (STATE, state(1)), (EVENT, goal(2)), (STATE, state(3, Phase.FULL_TIME))]
     kept = [ReceivedMessage(topic, topic.key, message.encode(), None) for topic, message in said]
-    assert follower.complete([*kept, ReceivedMessage(STATE, STATE.key, b"{", None)]) == [
+    assert follower.merge_recorded([*kept, ReceivedMessage(STATE, STATE.key, b"{", None)]) == [
         goal(2),
         state(3, Phase.FULL_TIME),
     ]
@@ -113,7 +113,7 @@ def test_waiting_for_a_state_ends_after_its_patience() -> None:
 
 def test_the_first_state_of_many_that_come_is_not_taken_for_the_newest() -> None:
     """The host's cache may deliver all of them to a late subscriber, the oldest first, and not at once."""
-    bus = Medium().open_bus("friendly", SteppedClock())
+    bus = SharedState().open_bus("friendly", SteppedClock())
     follower = MatchFollower(bus)
     states = [
         GameState(tick=tick, time=tick * 0.02, phase=Phase.PLAY, clock=0.0, score=Score()) for tick in (1, 50, 600)
@@ -129,7 +129,7 @@ def test_the_first_state_of_many_that_come_is_not_taken_for_the_newest() -> None
 
 
 def test_worlds_beliefs_orders_and_past_events_belong_to_the_details() -> None:
-    medium = Medium()
+    medium = SharedState()
     host = medium.open_bus("friendly", WallClock())
     host.publisher(EVENT).put(goal(1))
     outline = MatchFollower(medium.open_bus("friendly", SteppedClock()))
@@ -173,7 +173,7 @@ def test_with_the_first_message_of_another_host_what_the_host_before_published_i
     another = medium.open_bus("friendly", WallClock())
     another.publisher(WORLD).put(world(1))
     news = follower.update()
-    assert (news.new_host, follower.hosts, follower.events) == (True, 1, [])
+    assert (news.new_host, follower.host_changes, follower.events) == (True, 1, [])
     assert follower.world == world(1)
     another.publisher(EVENT).put(goal(7))
     assert not follower.update().new_host
@@ -197,10 +197,10 @@ def test_a_host_is_there_from_its_coming_to_its_going() -> None:
     assert not follower.update().presence_changed
     host.declare_alive("host", "host")
     assert follower.update().presence_changed
-    assert (follower.there, follower.gone) == (True, False)
+    assert (follower.host_present, follower.gone) == (True, False)
     host.close()
     assert follower.update().presence_changed
-    assert (follower.there, follower.gone) == (False, True)
+    assert (follower.host_present, follower.gone) == (False, True)
 
 
 def test_base_stations_that_connect_to_a_referee_box_are_listed() -> None:

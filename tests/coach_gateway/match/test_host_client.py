@@ -5,7 +5,7 @@ import pytest
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
@@ -20,16 +20,16 @@ MICROSECONDS = 1_795_275_009_214_000
 
 
 @pytest.fixture
-def medium() -> Medium:
-    return Medium()
+def medium() -> SharedState:
+    return SharedState()
 
 
-def seat(medium: Medium) -> Bus:
+def seat(medium: SharedState) -> Bus:
     return medium.open_bus("friendly", SteppedClock())
 
 
 @pytest.fixture
-def host(medium: Medium):
+def host(medium: SharedState):
     """Answers how the match is set up, and refuses every action but `stop`; gives the actions it was asked for.
 
     Magenta has an order already, of a program whose clock counts in microseconds.
@@ -59,7 +59,9 @@ def host(medium: Medium):
         thread.join()
 
 
-def test_an_action_reaches_the_referee_and_its_answer_comes_back(medium: Medium, host: list[RefereeAction]) -> None:
+def test_an_action_reaches_the_referee_and_its_answer_comes_back(
+    medium: SharedState, host: list[RefereeAction]
+) -> None:
     gateway = HostClient(seat(medium))
     assert gateway.act(RefereeAction(action=ActionName.STOP)).accepted
     refused = gateway.act(RefereeAction(action=ActionName.CORNER, side=Side.MAGENTA))
@@ -70,12 +72,14 @@ def test_an_action_reaches_the_referee_and_its_answer_comes_back(medium: Medium,
     ]
 
 
-def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: Medium) -> None:
+def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: SharedState) -> None:
     with pytest.raises(TouchlineError, match=r'match "friendly": no process answers game/action; name the match'):
         HostClient(seat(medium)).act(RefereeAction(action=ActionName.STOP))
 
 
-def test_orders_go_to_their_side_alone_and_each_has_a_higher_number(medium: Medium, host: list[RefereeAction]) -> None:
+def test_orders_go_to_their_side_alone_and_each_has_a_higher_number(
+    medium: SharedState, host: list[RefereeAction]
+) -> None:
     listener = seat(medium)
     cyan, magenta = listener.subscribe(ORDER, side="cyan"), listener.subscribe(ORDER, side="magenta")
     gateway = HostClient(seat(medium))
@@ -90,7 +94,7 @@ def test_orders_go_to_their_side_alone_and_each_has_a_higher_number(medium: Medi
 
 
 def test_an_order_of_a_later_process_counts_more_than_one_of_an_earlier_process(
-    medium: Medium, host: list[RefereeAction]
+    medium: SharedState, host: list[RefereeAction]
 ) -> None:
     sequences = []
     for moment in (1000.0, 1000.5):
@@ -101,19 +105,21 @@ def test_an_order_of_a_later_process_counts_more_than_one_of_an_earlier_process(
 
 
 def test_an_order_about_a_robot_of_the_other_side_is_refused_with_a_hint(
-    medium: Medium, host: list[RefereeAction]
+    medium: SharedState, host: list[RefereeAction]
 ) -> None:
     with pytest.raises(TouchlineError, match='robot_a is "cyan7", no robot of cyan; did you mean "cyan'):
         HostClient(seat(medium)).order(Side.CYAN, robot_a="cyan7")
 
 
-def test_an_order_that_contradicts_itself_is_refused_with_the_reason(medium: Medium, host: list[RefereeAction]) -> None:
+def test_an_order_that_contradicts_itself_is_refused_with_the_reason(
+    medium: SharedState, host: list[RefereeAction]
+) -> None:
     with pytest.raises(TouchlineError, match="the order cannot be given: the test move needs robot_a and point_a"):
         HostClient(seat(medium)).order(Side.CYAN, mode=CoachMode.TEST, test="move")
 
 
 def test_an_order_is_numbered_after_the_active_one_whatever_the_clock_has(
-    medium: Medium, host: list[RefereeAction]
+    medium: SharedState, host: list[RefereeAction]
 ) -> None:
     gateway = HostClient(seat(medium))
     gateway.orders.update()
@@ -124,7 +130,7 @@ def test_an_order_is_numbered_after_the_active_one_whatever_the_clock_has(
 
 
 def test_a_new_coach_goes_on_from_the_number_of_the_active_order_however_large(
-    medium: Medium, host: list[RefereeAction]
+    medium: SharedState, host: list[RefereeAction]
 ) -> None:
     first = HostClient(seat(medium)).order(Side.MAGENTA)
     assert first.sequence == MICROSECONDS + 1
@@ -142,7 +148,7 @@ class AnsweringClock(SteppedClock):
 
 
 def test_robots_are_waited_for_until_all_have_acknowledged_or_patience_ends(
-    medium: Medium, host: list[RefereeAction]
+    medium: SharedState, host: list[RefereeAction]
 ) -> None:
     clock = AnsweringClock()
     gateway = HostClient(medium.open_bus("friendly", clock))

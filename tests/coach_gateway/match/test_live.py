@@ -6,7 +6,7 @@ from typing import Any
 
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox.call_generator import CallGenerator
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.game import REFBOX, ActionName, Phase, Score
 from schemas.messages.game import GameState, RefereeAction
@@ -21,7 +21,7 @@ def test_without_a_host_the_reply_is_a_refusal_with_the_reason(opened: Any, unti
     async def play() -> None:
         async with opened() as bench:
             bench.stage.bus.close()
-            await until(lambda: not bench.live.there)
+            await until(lambda: not bench.live.host_present)
             reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
             assert not reply.accepted and "no process answers game/action" in reply.reason
 
@@ -60,7 +60,7 @@ def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_ma
             await until(lambda: bench.live.events and bench.live.state.score.cyan == 2)
             assert len(bench.live.sides) == 6
             bench.stage.bus.close()
-            await until(lambda: not bench.live.there)
+            await until(lambda: not bench.live.host_present)
             another = type(bench.stage)(
                 bench.stage.medium, load_match(None, {f"teams.{side}.size": 1 for side in Side})
             )
@@ -83,7 +83,7 @@ def test_events_of_another_host_before_its_first_state_count(opened: Any, until:
             bench.stage.tell("of the old match")
             await until(lambda: bench.live.events and bench.live.state.tick > 90)
             bench.stage.bus.close()
-            await until(lambda: not bench.live.there)
+            await until(lambda: not bench.live.host_present)
             another = type(bench.stage)(bench.stage.medium, load_match(None, {}))
             bench.start(another)
             for number in range(3):
@@ -169,7 +169,7 @@ def test_an_order_of_one_side_does_not_wait_for_the_other_side(opened: Any, unti
 
 def test_a_setup_that_changes_while_the_host_replies_is_queried_again(until: Any) -> None:
     async def play() -> None:
-        medium, clock = Medium(), SteppedClock()
+        medium, clock = SharedState(), SteppedClock()
         host, live = medium.open_bus("friendly", WallClock()), LiveMatch(medium.open_bus("friendly", clock))
         server, states = host.serve(SETUP), host.publisher(STATE)
         asked: list[Any] = []
@@ -210,11 +210,11 @@ def test_unreadable_messages_are_counted_and_left_out(opened: Any, until: Any) -
 
 def test_a_gateway_that_ends_sends_no_more_requests() -> None:
     async def play() -> None:
-        live = LiveMatch(Medium().open_bus("friendly", WallClock()))
+        live = LiveMatch(SharedState().open_bus("friendly", WallClock()))
         stop = asyncio.Event()
         stop.set()
         await live.serve(stop)
         reply = await live.act(RefereeAction(action=ActionName.STOP))
-        assert (reply.accepted, reply.reason) == (False, "the gateway ends")
+        assert (reply.accepted, reply.reason) == (False, "the gateway is shutting down")
 
     asyncio.run(play())

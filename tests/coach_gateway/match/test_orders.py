@@ -3,7 +3,7 @@
 import pytest
 
 from coach_gateway.match.orders import OrderBook, OrderFollower, OrderStatus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
@@ -61,7 +61,7 @@ def test_with_another_host_no_order_is_active() -> None:
 
 @pytest.mark.parametrize("payload", [b"{", b"[]", b"\xff"])
 def test_the_follower_returns_the_sides_with_news_and_counts_unreadable_messages(payload: bytes) -> None:
-    medium = Medium()
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     watch = OrderFollower(medium.open_bus("friendly", SteppedClock()))
     assert watch.update() == []

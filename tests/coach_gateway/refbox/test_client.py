@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.refbox import client as client_module
+from coach_gateway.refbox import signal_queue
 from coach_gateway.refbox.client import UPLOAD_S, BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
 from schemas.game import REFBOX, ActionName, Phase
@@ -33,7 +33,7 @@ def met(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
         async with opened() as bench:
             box = Box(**box_is)
             port = await box.open()
-            client = RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port, protocol), bench.said.append)
+            client = RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port, protocol), bench.logged.append)
             bench.start(client)
             try:
                 await until(lambda: box.links and client.connected, "the connection, on both sides")
@@ -107,12 +107,14 @@ def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any,
             await until(lambda: bench.stage.asked)
             assert asked(bench) == ["corner magenta"]
             await until(lambda: client.counts["unreadable"] == 5)  # a broken piece counts what is before its brace, too
-            assert any('"DANCE" is not a command' in line for line in bench.said)
+            assert any('"DANCE" is not a command' in line for line in bench.logged)
 
     asyncio.run(play())
 
 
-def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any, until: Any) -> None:
+def test_cards_repairs_and_substitutions_find_their_robot_by_its_number_or_else_their_side(
+    met: Any, until: Any
+) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
@@ -121,10 +123,11 @@ def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any
             box.say("RED_CARD", MAGENTA_AT, robotID=-1)
             box.say("SUBSTITUTION", CYAN_AT, robotID=9)
             box.say("REPAIR_END", MAGENTA_AT, robotID=3)
-            await until(lambda: len(bench.stage.asked) == 3)
-            assert asked(bench) == ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
-            assert client.counts["not forwarded"] == 2
-            assert any("RED_CARD for magenta names no robot" in line for line in bench.said)
+            await until(lambda: len(bench.stage.asked) == 5)
+            named = ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
+            assert asked(bench) == [*named[:2], "red_card magenta", "substitute cyan", named[2]]
+            assert client.counts["not forwarded"] == 0
+            assert any("SUBSTITUTION names robot 9, and no robot of cyan" in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -153,7 +156,31 @@ def test_start_lets_the_game_run_though_our_referee_takes_it_in_steps(met: Any, 
             await until(lambda: bench.live.state.running)
             await asyncio.sleep(0.2)
             assert asked(bench) == ["start", "start", "start"]
-            assert not any("put back" in line for line in bench.said)
+            assert not any("put back" in line for line in bench.logged)
+
+    asyncio.run(play())
+
+
+def test_a_card_right_behind_start_does_not_keep_the_game_from_running(met: Any, until: Any) -> None:
+    """The league's box sends cards when its own state has changed, which is at START."""
+
+    async def play() -> None:
+        async with met() as (bench, box, _):
+            bench.stage.say(phase=Phase.THROW_IN, side=Side.CYAN)
+            refusals = ["the ball is being put back"] * 3
+
+            def answer(action: RefereeAction) -> ActionReply:
+                if action.action is ActionName.START and refusals:
+                    return ActionReply(accepted=False, reason=refusals.pop())
+                if action.action is ActionName.START:
+                    bench.stage.say(running=True)
+                return ActionReply(accepted=True, tick=bench.stage.state.tick)
+
+            bench.stage.answer = answer
+            box.say("START")
+            box.say("YELLOW_CARD", CYAN_AT)
+            await until(lambda: bench.live.state.running and len(bench.stage.asked) == 5)
+            assert asked(bench) == ["start"] * 4 + ["yellow_card cyan"]
 
     asyncio.run(play())
 
@@ -170,7 +197,7 @@ def test_a_stop_is_not_held_up_by_a_start_that_leads_nowhere(met: Any, until: An
             box.say("STOP")
             await until(lambda: asked(bench)[-1] == "stop")
             assert client.counts["refused"] == 1
-            assert "referee box: not now" in bench.said
+            assert "referee box: not now" in bench.logged
 
     asyncio.run(play())
 
@@ -228,7 +255,7 @@ def test_manual_actions_are_locked_while_the_link_is_up_and_not_after(met: Any, 
 def test_a_referee_of_ours_that_decides_beside_the_box_is_logged(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, _, _):
-            await until(lambda: any("--referee manual" in line for line in bench.said))
+            await until(lambda: any("--referee manual" in line for line in bench.logged))
 
     asyncio.run(play())
 
@@ -261,7 +288,7 @@ def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, u
 
         async with opened() as bench, await asyncio.start_server(meet, "127.0.0.1", 0) as tunnel:
             port = tunnel.sockets[0].getsockname()[1]
-            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.logged.append))
             await until(lambda: len(came) == 4)
             first, second, third = (b - a for a, b in itertools.pairwise(came))
             assert first >= 0.24 and second >= 0.49 and third >= 0.99
@@ -271,7 +298,7 @@ def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, u
 
 
 def test_of_too_many_commands_the_newest_count(met: Any, until: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(client_module, "_MOST_WAITING", 3)
+    monkeypatch.setattr(signal_queue, "MOST_WAITING", 3)
 
     async def play() -> None:
         async with met() as (bench, box, client):
@@ -302,7 +329,7 @@ def test_unknown_commands_do_not_fill_the_log(met: Any, until: Any) -> None:
             for _ in range(500):
                 box.say("DANCE")
             await until(lambda: client.counts["unreadable"] == 500)
-            assert 5 <= sum("is not a command" in line for line in bench.said) < 60
+            assert 5 <= sum("is not a command" in line for line in bench.logged) < 60
 
     asyncio.run(play())
 
@@ -313,12 +340,12 @@ def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
             box = Box()
             port = await box.open()
             await box.close()
-            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append)
+            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.logged.append)
             bench.start(client)
-            await until(lambda: any("is not there" in line for line in bench.said))
+            await until(lambda: any("is not there" in line for line in bench.logged))
             await box.open(port)
             await until(lambda: client.connected)
-            assert sum("is not there" in line for line in bench.said) == 1
+            assert sum("is not there" in line for line in bench.logged) == 1
             bench.stop.set()
             await box.close()
 
@@ -328,7 +355,7 @@ def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
 def test_a_box_that_never_reads_misses_world_states_and_delays_nothing(
     met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
+    monkeypatch.setattr("coach_gateway.refbox.client.UNREAD_BYTES", 20_000)
     monkeypatch.setattr("coach_gateway.refbox.client.UPLOAD_S", 0.0005)
 
     async def play() -> None:
@@ -346,9 +373,9 @@ def test_a_box_that_never_reads_misses_world_states_and_delays_nothing(
 def test_a_box_that_has_not_read_for_long_is_left_and_met_again(
     met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
+    monkeypatch.setattr("coach_gateway.refbox.client.UNREAD_BYTES", 20_000)
     monkeypatch.setattr("coach_gateway.refbox.client.UPLOAD_S", 0.0005)
-    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD_S", 0.1)
+    monkeypatch.setattr("coach_gateway.refbox.client.UNREAD_S", 0.1)
 
     async def play() -> None:
         async with met(reads=False) as (bench, _, client):
@@ -372,7 +399,7 @@ def test_a_gateway_that_waits_for_a_box_ends_when_stopped(opened: Any, until: An
                     other.connect(full.getsockname())
             async with opened() as bench:
                 box = BoxAddress(Side.CYAN, "127.0.0.1", full.getsockname()[1])
-                task = bench.start(RefBoxClient(bench.live, box, bench.said.append))
+                task = bench.start(RefBoxClient(bench.live, box, bench.logged.append))
                 await asyncio.sleep(0.05)
                 bench.stop.set()
                 await until(task.done)
@@ -388,7 +415,7 @@ def test_two_base_stations_of_ours_at_one_box_pass_each_command_on_once(opened: 
             box = Box()
             port = await box.open()
             for number, team in enumerate(Side, 1):
-                bench.start(RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port), bench.said.append))
+                bench.start(RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port), bench.logged.append))
                 await until(lambda number=number: len(box.links) == number)
             await until(lambda: bench.live.refboxes == list(Side))
             bench.stage.say(phase=Phase.STOPPED)

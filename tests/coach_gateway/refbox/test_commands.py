@@ -46,7 +46,7 @@ def test_every_command_is_read_and_written(name: str) -> None:
 def test_every_character_is_read_and_written(character: str, name: str) -> None:
     signal, side = characters.read(character)
     assert (signal.name, side) == (name, None)
-    assert characters.write(signal) == character
+    assert characters.write(signal) == character.encode()
 
 
 @pytest.mark.parametrize("side", list(Side))
@@ -55,12 +55,12 @@ def test_capital_letters_are_cyans_and_small_ones_magentas(character: str, name:
     spelled = character if side is Side.CYAN else character.lower()
     signal, whose = characters.read(spelled)
     assert (signal.name, whose) == (name, side)
-    assert characters.write(signal, side) == spelled
+    assert characters.write(signal, side) == spelled.encode()
 
 
 @pytest.mark.parametrize("name", ["END_PART", "SUBSTITUTION", "IS_ALIVE"])
 def test_what_came_with_json_has_no_character(name: str) -> None:
-    assert characters.write(commands.read({"command": name}).signal, Side.CYAN) is None
+    assert characters.write(commands.read({"command": name}).signal, Side.CYAN) == b""
 
 
 @pytest.mark.parametrize(

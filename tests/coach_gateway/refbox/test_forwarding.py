@@ -49,13 +49,15 @@ def test_every_signal_has_its_row() -> None:
         ("GOAL", CYAN, None, STOPPED, ["goal cyan"]),
         ("SUBGOAL", CYAN, None, STOPPED, ["cancel_goal cyan"]),
         ("YELLOW_CARD", CYAN, "cyan3", STOPPED, ["yellow_card cyan3"]),
-        ("DOUBLE_YELLOW", CYAN, "cyan3", STOPPED, ["yellow_card cyan3"]),
+        ("DOUBLE_YELLOW", CYAN, "cyan3", STOPPED, ["double_yellow cyan3"]),
         ("RED_CARD", CYAN, "cyan3", STOPPED, ["red_card cyan3"]),
         ("REPAIR", CYAN, "cyan3", STOPPED, ["repair cyan3"]),
         ("REPAIR_END", CYAN, "cyan3", STOPPED, ["enter cyan3"]),
         ("SUBSTITUTION", CYAN, "cyan3", STOPPED, ["substitute cyan3"]),
         ("HALF_TIME", None, None, STOPPED, ["end_half"]),
         ("END_PART", None, None, STOPPED, ["end_half"]),
+        ("END_PART", None, None, {**STOPPED, "half": 4, "stage": GameStage.SHOOT_OUT}, ["end_game"]),
+        ("HALF_TIME", None, None, {**STOPPED, "half": 4, "stage": GameStage.SHOOT_OUT}, ["end_game"]),
         ("END_GAME", None, None, {**STOPPED, "half": 2}, ["end_half"]),
         ("END_GAME", None, None, {**STOPPED, "half": 1}, ["end_game"]),
         ("END_GAME", None, None, {**STOPPED, "half": 4, "stage": GameStage.SHOOT_OUT}, ["end_game"]),
@@ -82,10 +84,21 @@ def test_a_signal_without_a_counterpart_in_our_game_has_a_reason(name: str) -> N
     assert not found.actions and name in found.reason
 
 
-@pytest.mark.parametrize("name", ["YELLOW_CARD", "DOUBLE_YELLOW", "RED_CARD", "REPAIR", "REPAIR_END", "SUBSTITUTION"])
-def test_a_card_or_a_repair_for_no_robot_in_particular_cannot_be_carried_out(name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "action"),
+    [
+        ("YELLOW_CARD", "yellow_card"),
+        ("DOUBLE_YELLOW", "double_yellow"),
+        ("RED_CARD", "red_card"),
+        ("REPAIR", "repair"),
+        ("REPAIR_END", "enter"),
+        ("SUBSTITUTION", "substitute"),
+    ],
+)
+def test_a_card_or_a_repair_for_no_robot_in_particular_is_requested_for_the_side(name: str, action: str) -> None:
+    """The referee asks the side which robot it is."""
     found = led_to(name, CYAN)
-    assert not found.actions and "names no robot" in found.reason
+    assert said(found) == [f"{action} cyan"] and not found.reason
 
 
 @pytest.mark.parametrize("name", ["KICKOFF", "GOAL", "REPAIR"])

@@ -10,7 +10,7 @@ from coach_gateway.refbox.own_world_state import own_world_state
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import OffField, Phase
+from schemas.game import OffField, Phase, Point
 from schemas.messages.game import GameState
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.setup import Setup
@@ -122,6 +122,13 @@ def test_the_ball_is_where_it_was_seen_last_and_the_less_sure_the_longer_ago(
 
 def test_a_team_that_sees_no_ball_sends_none(view: View) -> None:
     assert view(Side.CYAN, cyan1=word("cyan1", role="searcher"))["balls"] == []
+
+
+def test_obstacles_are_where_the_robots_believe_them(view: View) -> None:
+    """Magenta's robots send them in their own team's frame."""
+    seen = view(Side.MAGENTA, magenta1=word("magenta1", obstacles=[Point(x=2.0, y=-3.0)]))
+    assert [one["position"] for one in seen["obstacles"]] == [[3.0, 2.0]]
+    assert len(view(Side.MAGENTA, magenta1=word("magenta1", role="keeper"))["obstacles"]) == 2
 
 
 def test_what_stands_on_the_pitch_is_an_obstacle(view: View) -> None:

@@ -12,6 +12,8 @@ import pytest
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.refbox import server as server_module
 from coach_gateway.refbox.audience_feed import AudienceFeed
+from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.refbox.team_world_state import TeamWorldState
 from schemas.errors import TouchlineError
@@ -65,7 +67,7 @@ def boxed(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
     async def make(*server_addresses: ServerAddress, **settings: Any) -> Any:
         names = {"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"} | settings.pop("names", {})
         async with opened(**names) as bench:
-            box = RefBoxServer(bench.live, server_addresses or (ServerAddress(0),), bench.said.append, **settings)
+            box = RefBoxServer(bench.live, server_addresses or (ServerAddress(0),), bench.logged.append, **settings)
             bench.start(box)
             await until(lambda: len(box.ports) == max(1, len(server_addresses)))
             teams: list[Team] = []
@@ -100,7 +102,7 @@ def world_state(team: str, **more: Any) -> dict[str, Any]:
     }
 
 
-def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, until: Any) -> None:
+def test_a_whole_game_is_sent_to_both_teams_in_the_leagues_terms(boxed: Any, until: Any) -> None:
     """Cards and repairs follow at the next change of the game, as in RefBox."""
 
     async def play() -> None:
@@ -125,18 +127,131 @@ def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, unt
             )
             say(phase=Phase.CORNER, side=Side.MAGENTA)
             say(running=True)
-            say(phase=Phase.HALF_TIME, side=None, running=False)
+            say(phase=Phase.PARKING, side=None, running=False)
+            say(phase=Phase.HALF_TIME)
             say(phase=Phase.KICK_OFF, side=Side.MAGENTA, half=2)
             say(phase=Phase.FULL_TIME, side=None)
-            await until(lambda: "END_GAME" in cyan.commands() and "END_GAME" in magenta.commands())
+            await until(lambda: "GAMEOVER" in cyan.commands() and "GAMEOVER" in magenta.commands())
             game = [
                 *("FIRST_HALF", "KICKOFF Sapphire", "START"),
                 *("STOP", "GOAL Ruby", "REPAIR Sapphire 3", "YELLOW_CARD Ruby 2"),
-                *("SUBSTITUTION Sapphire 1", "CORNER Ruby", "REPAIR_END Sapphire 3", "START", "HALF_TIME"),
-                *("SECOND_HALF", "KICKOFF Ruby", "END_GAME"),
+                *("SUBSTITUTION Sapphire 1", "CORNER Ruby", "REPAIR_END Sapphire 3", "START"),
+                *("STOP", "HALF_TIME", "PARK", "SECOND_HALF", "KICKOFF Ruby", "END_GAME", "GAMEOVER"),
             ]
             assert cyan.commands() == ["WELCOME Sapphire", "STOP", *game]
             assert magenta.commands() == ["WELCOME Ruby", "STOP", *game]
+
+    asyncio.run(play())
+
+
+class OldTeam:
+    """A base station of the years before 2020: reads single bytes, and uploads world states."""
+
+    def __init__(self, port: int) -> None:
+        self.port = port
+        self.heard = b""
+
+    async def come(self, *objects: dict[str, Any]) -> "OldTeam":
+        self._reader, self.writer = await asyncio.open_connection("127.0.0.1", self.port)
+        for sent in objects:
+            self.writer.write(json.dumps(sent).encode() + b"\x00")
+        self._task = asyncio.create_task(self._hear())
+        return self
+
+    async def leave(self) -> None:
+        self.writer.transport.abort()
+        await self._task
+
+    async def _hear(self) -> None:
+        try:
+            while byte := await self._reader.read(1):
+                self.heard += byte
+        except OSError:
+            self.writer.transport.abort()
+
+
+def play_a_short_game(say: Callable[..., Any]) -> None:
+    say(phase=Phase.KICK_OFF, side=Side.CYAN)
+    say(running=True)
+    say(phase=Phase.PLAY, side=None)
+    say(phase=Phase.STOPPED, running=False, score=Score(magenta=1))
+    say(
+        phase=Phase.THROW_IN,
+        side=Side.MAGENTA,
+        robots={
+            "magenta2": DisciplinaryRecord(yellow=1),
+            "cyan1": DisciplinaryRecord(off_field=OffField.SUBSTITUTION),
+        },
+    )
+    say(running=True)
+    say(phase=Phase.PARKING, side=None, running=False)
+    say(phase=Phase.FULL_TIME)
+
+
+GAME_IN_CHARACTERS = b"1KsSatysShLz"
+"""That game; a substitution has no character."""
+
+
+@pytest.mark.parametrize("by", ["port", "hello"])
+def test_software_of_before_2020_reads_the_game_as_single_characters(by: str, boxed: Any, until: Any) -> None:
+    """As the NuBot coach does; a base station of today at the same box reads JSON."""
+
+    async def play() -> None:
+        old_port = ServerAddress(0, protocol=BoxProtocol.CHARACTERS if by == "port" else BoxProtocol.JSON)
+        async with boxed(old_port, ServerAddress(0)) as (bench, box, come):
+            hello = {"type": "hello", "team": "cyan", "protocol": "characters"}
+            sent = world_state("Sapphire", robots=[{"id": 1, "pose": [0.0, 1.0, 0.0]}])
+            old = await OldTeam(box.ports[0]).come(*([hello, sent] if by == "hello" else [sent]))
+            new = await come(box.ports[1], team="magenta")
+            await until(lambda: old.heard == b"WS" and box.team_states[Side.CYAN].states == 1)
+            play_a_short_game(bench.stage.say)
+            await until(lambda: old.heard.endswith(b"z") and "GAMEOVER" in new.commands())
+            assert old.heard == b"WS" + GAME_IN_CHARACTERS
+            assert "SUBSTITUTION Sapphire 1" in new.commands() and "YELLOW_CARD Ruby 2" in new.commands()
+            await old.leave()
+
+    asyncio.run(play())
+
+
+def test_our_own_base_station_understands_our_box_in_characters(boxed: Any, until: Any) -> None:
+    """Both ends of the old protocol, against each other."""
+
+    async def play() -> None:
+        async with boxed(ServerAddress(0, protocol=BoxProtocol.CHARACTERS)) as (bench, box, _):
+            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", box.ports[0]), bench.logged.append)
+            bench.start(client)
+            bench.stage.show()
+            await until(lambda: client.connected and box.team_states[Side.CYAN].states)
+            play_a_short_game(bench.stage.say)
+            await until(lambda: client.counts["received"] == len(GAME_IN_CHARACTERS) + 2)
+            assert client.counts["unreadable"] == 0
+
+    asyncio.run(play())
+
+
+def test_an_unknown_protocol_in_a_hello_is_named_and_ends_the_connection(boxed: Any) -> None:
+    async def play() -> None:
+        async with boxed() as (bench, _, come):
+            assert (await come(team="cyan", protocol="morse")).gone
+            assert any('protocol is "morse"; it is json or characters' in line for line in bench.logged)
+
+    asyncio.run(play())
+
+
+def test_software_without_a_hello_gets_the_league_address_of_its_side(boxed: Any, until: Any) -> None:
+    """A real base station waits for its own multicast address in targetTeam."""
+
+    async def play() -> None:
+        addresses = {Side.CYAN: "224.16.32.44"}
+        async with boxed(addresses=addresses) as (bench, _, come):
+            cyan, magenta = await come(), await come(team="Ruby")
+            cyan.say(**world_state("Sapphire"))
+            await until(lambda: "WELCOME 224.16.32.44" in cyan.commands())
+            bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
+            await until(lambda: "CORNER 224.16.32.44" in magenta.commands())
+            bench.stage.say(phase=Phase.STOPPED, side=None)
+            bench.stage.say(phase=Phase.THROW_IN, side=Side.MAGENTA)
+            await until(lambda: "THROWIN Ruby" in cyan.commands())
 
     asyncio.run(play())
 
@@ -152,8 +267,8 @@ def test_a_team_may_be_called_by_an_address_of_its_own(boxed: Any, until: Any) -
     asyncio.run(play())
 
 
-def test_a_team_against_itself_is_told_apart_by_its_suffix(boxed: Any) -> None:
-    """RefBox tells teams apart by the network they connect from; here the address does not matter."""
+def test_a_team_against_itself_is_distinguished_by_its_suffix(boxed: Any) -> None:
+    """RefBox distinguishes teams by the network they connect from; here the address does not matter."""
 
     async def play() -> None:
         async with boxed(names={"teams.cyan.name": "Twins", "teams.magenta.name": "Twins"}) as (_, _, come):
@@ -172,7 +287,7 @@ def test_a_token_identifies_the_side_and_an_unknown_one_is_turned_away(boxed: An
             right = await come(token="secret-of-magenta")
             assert right.commands()[0] == "WELCOME Ruby"
             assert (await come(token="guessed", team="cyan")).gone
-            assert any("unknown token" in line for line in bench.said)
+            assert any("unknown token" in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -185,7 +300,7 @@ def test_half_a_letter_in_a_hello_is_an_unknown_name(boxed: Any, until: Any, wor
         async with boxed(of_token=lambda token: role_side(Tokens.random().role_of(token))) as (bench, _, come):
             stranger = await come(**{word: "\ud800"})
             await until(lambda: stranger.gone)
-            assert any("is gone" in line for line in bench.said)
+            assert any("is gone" in line for line in bench.logged)
             assert (await come(team="cyan")).commands()[0].startswith("WELCOME")
         assert faults == []
 
@@ -265,7 +380,7 @@ def test_world_states_are_read_leniently_and_counted(boxed: Any, until: Any) -> 
             assert found["robot without a position"] == 1
             assert found["worldstate without balls"] == 1
             await team.leave()
-            await until(lambda: any("3 world states" in line and "1 pieces" in line for line in bench.said))
+            await until(lambda: any("3 world states" in line and "1 pieces" in line for line in bench.logged))
 
     asyncio.run(play())
 
@@ -295,7 +410,7 @@ def test_a_base_station_that_never_reads_is_dropped_and_the_others_receive_every
             await asyncio.get_running_loop().sock_sendall(deaf, b'{"type": "hello", "team": "magenta"}\x00')
             cyan = await come(team="cyan")
             told = 0
-            while not any("does not read and is dropped" in line for line in bench.said):
+            while not any("does not read and is dropped" in line for line in bench.logged):
                 box.send([Call(BY_NAME["CORNER"], Side.CYAN)] * 1000)
                 told += 1000
                 assert told < 1_000_000
@@ -360,7 +475,7 @@ def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
             taken.bind(("127.0.0.1", 0))
             taken.listen()
             async with opened() as bench:
-                box = RefBoxServer(bench.live, [ServerAddress(taken.getsockname()[1])], bench.said.append)
+                box = RefBoxServer(bench.live, [ServerAddress(taken.getsockname()[1])], bench.logged.append)
                 with pytest.raises(TouchlineError, match=r"--refbox-server \d+ cannot be listened on"):
                     await box.serve(bench.stop)
 
@@ -389,7 +504,7 @@ def test_the_audience_receives_teams_and_events(
             loop = asyncio.get_running_loop()
             transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
             address = transport.get_extra_info("sockname")[:2]
-            bench.start(AudienceFeed(bench.live, [address], bench.said.append, box.team_states))
+            bench.start(AudienceFeed(bench.live, [address], bench.logged.append, box.team_states))
             await until(lambda: display.said, "the feed")
             bench.stage.show()
             cyan = await come(team="cyan")
@@ -438,7 +553,9 @@ def test_a_world_state_that_is_too_large_does_not_silence_the_audience_feed(
             loop = asyncio.get_running_loop()
             transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
             bench.start(
-                AudienceFeed(bench.live, [transport.get_extra_info("sockname")[:2]], bench.said.append, box.team_states)
+                AudienceFeed(
+                    bench.live, [transport.get_extra_info("sockname")[:2]], bench.logged.append, box.team_states
+                )
             )
             bench.stage.show()
             cyan = await come(team="cyan")
@@ -447,7 +564,7 @@ def test_a_world_state_that_is_too_large_does_not_silence_the_audience_feed(
             told = len(display.said)
             await until(lambda: len(display.said) > told + 3)
             check_world_state(display.said[-1]["teamA"]["worldState"])
-            assert sum("larger than a datagram" in line for line in bench.said) == 1
+            assert sum("larger than a datagram" in line for line in bench.logged) == 1
             transport.close()
 
     asyncio.run(play())

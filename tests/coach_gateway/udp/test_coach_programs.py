@@ -262,7 +262,7 @@ def test_a_flood_is_dropped_and_stops_no_other_program(coaches: CoachPrograms, c
 
 
 def test_strangers_are_answered_so_often_and_no_more(coaches: CoachPrograms) -> None:
-    """Whoever sends from made-up addresses cannot have others flooded with refusals."""
+    """A sender with forged addresses cannot flood others with refusals."""
     answers = [coaches.handle(b"{}", ("127.0.0.1", port), 0.0, ROBOTS).ack for port in range(1000)]
     assert sum(ack is not None for ack in answers) == coaches_module.UNKNOWN_AT_ONCE
     assert coaches.left_out == 1000 - coaches_module.UNKNOWN_AT_ONCE

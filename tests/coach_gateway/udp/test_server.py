@@ -15,9 +15,9 @@ from coach_gateway.access.tokens import Tokens
 from coach_gateway.udp import session as session_module
 from coach_gateway.udp.server import UdpServer
 from schemas.errors import TouchlineError
-from schemas.game import Phase
+from schemas.game import REFBOX, ActionName, Phase, Point
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.game import ActionReply
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.messages.radio import Motion, Radio
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
@@ -65,7 +65,7 @@ def served(opened: Any, kicked_off: Any, until: Any) -> Any:
     @asynccontextmanager
     async def make(real: bool = False) -> Any:
         async with (kicked_off if real else opened)() as bench:
-            server = UdpServer(bench.live, TOKENS.role_of, bench.said.append, port=0)
+            server = UdpServer(bench.live, TOKENS.role_of, bench.logged.append, port=0)
             bench.start(server)
             await until(lambda: server.port)
             programs: list[Program] = []
@@ -106,7 +106,7 @@ def test_each_order_reaches_every_robot_of_the_side(served: Any, until: Any) -> 
                 assert ack["accepted"], ack
                 assert set(ack["acknowledged"]) | set(ack["missing"]) == {"cyan1", "cyan2"}
                 numbers.append(ack["order"])
-                expected = {"order": ack["order"], "acknowledged": {"cyan1": True, "cyan2": True}}
+                expected = {"order": ack["order"], "acknowledged": {"cyan1": True, "cyan2": True}, "refused": {}}
                 await until(lambda expected=expected: program.frame().get("orders", {}).get("cyan") == expected)
             brains = bench.stage.brains
             for robot in ("cyan1", "cyan2"):
@@ -150,6 +150,58 @@ def test_a_program_receives_game_events_and_the_beliefs_of_its_own_robots(served
             assert [one["event"]["text"] for one in cyan.of("event")] == ["something happens"]
             frame = cyan.frame()
             assert frame["host"] and frame["state"]["phase"] == "corner" and frame["events"] == 1
+
+    asyncio.run(play())
+
+
+def test_a_program_receives_the_obstacles_that_its_own_team_believes(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            cyan, referee = await come("cyan"), await come("referee")
+            bench.stage.believe("cyan2", Radio(self=Motion(x=1.0, y=2.0, heading=0.5), obstacles=[Point(x=3.0, y=1.0)]))
+            bench.stage.believe("magenta1", Radio(obstacles=[Point(x=-4.0, y=0.0)]))
+            bench.stage.show()
+            await until(lambda: len(referee.frame().get("obstacles", {}).get("magenta", [])) == 1)
+            await until(lambda: cyan.frame().get("obstacles", {}).get("cyan"))
+            (seen,) = cyan.frame()["obstacles"]["cyan"]
+            assert (seen["x"], seen["y"], seen["seen_by"]) == (3.0, 1.0, ["cyan2"])
+            assert list(cyan.frame()["obstacles"]) == ["cyan"]
+            assert any(one["belief"]["radio"]["obstacles"] for one in cyan.of("belief"))
+
+    asyncio.run(play())
+
+
+def test_a_program_receives_a_bye_when_the_gateway_ends(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            cyan, referee = await come("cyan"), await come("referee")
+            bench.stop.set()
+            await until(lambda: cyan.of("bye") and referee.of("bye"))
+            assert cyan.of("bye") == [{"kind": "bye", "reason": "the gateway is shutting down"}]
+
+    asyncio.run(play())
+
+
+def test_a_coach_names_the_robot_that_the_referee_box_asks_for(served: Any, until: Any) -> None:
+    """Each coach for its own side; the question is part of the game's state in each frame."""
+
+    async def play() -> None:
+        async with served(real=True) as (bench, _, come):
+            await until(lambda: bench.stage.state.phase is not Phase.PRE_GAME)
+            cyan, magenta = await come("cyan"), await come("magenta")
+            bench.live.connect_refbox(Side.CYAN, connected=True)
+            card = RefereeAction(action=ActionName.YELLOW_CARD, side=Side.CYAN, source=REFBOX)
+            assert (await bench.live.act(card)).accepted
+            await until(lambda: (cyan.frame().get("state") or {}).get("questions"))
+            assert cyan.frame()["state"]["questions"][0]["side"] == "cyan"
+            answers = []
+            for program, robot in ((magenta, "cyan1"), (cyan, "cyan1"), (cyan, "cyan1")):
+                number = program.send("action", action={"action": "name_robot", "robot": robot})
+                await until(lambda program=program, number=number: program.acks(number))
+                answers.append(program.acks(number)[0])
+            assert [answer["accepted"] for answer in answers] == [False, True, False]
+            assert "cyan1 is not for magenta's coach" in answers[0]["reason"]
+            assert bench.stage.state.participation.cards["cyan1"].yellow == 1
 
     asyncio.run(play())
 
@@ -310,7 +362,7 @@ def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
             taken.bind(("127.0.0.1", 0))
             async with opened() as bench:
-                server = UdpServer(bench.live, TOKENS.role_of, bench.said.append, port=taken.getsockname()[1])
+                server = UdpServer(bench.live, TOKENS.role_of, bench.logged.append, port=taken.getsockname()[1])
                 with pytest.raises(TouchlineError, match=r"--udp \d+ cannot be listened on"):
                     await server.serve(bench.stop)
 

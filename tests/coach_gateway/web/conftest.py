@@ -1,4 +1,4 @@
-"""A page's server on a real port of loopback, a host that is a seat beside it, and visitors with real WebSockets."""
+"""A page's server on a port of loopback, a fake host on its bus, and visitors with real WebSockets."""
 
 import threading
 from collections.abc import Callable, Iterator
@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.game import ActionName
 from schemas.messages.game import ActionReply, GameEvent, RefereeAction
@@ -29,8 +29,8 @@ from support.visitor import Visitor
 
 
 @pytest.fixture
-def medium() -> Medium:
-    return Medium()
+def medium() -> SharedState:
+    return SharedState()
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def tokens(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def host_of(medium: Medium) -> Iterator[Callable[..., FakeHost]]:
+def host_of(medium: SharedState) -> Iterator[Callable[..., FakeHost]]:
     """Makes hosts of two a side that refuse every action but `stop` and `repair`.
 
     With `recorded` it is a replay of these events; with `slow` parameters are answered once it is set.
@@ -82,11 +82,11 @@ def host(host_of: Callable[..., FakeHost]) -> FakeHost:
 
 
 @pytest.fixture
-def gateway_of(medium: Medium, tokens: Path) -> Iterator[Callable[..., Gateway]]:
+def gateway_of(medium: SharedState, tokens: Path) -> Iterator[Callable[..., Gateway]]:
     made: list[Gateway] = []
 
-    def make(tokens_file: Path | None = tokens, **words: Any) -> Gateway:
-        made.append(Gateway(medium, WebSettings(**{"port": 0, **words}), tokens_file))
+    def make(tokens_file: Path | None = tokens, result: Path | None = None, **words: Any) -> Gateway:
+        made.append(Gateway(medium, WebSettings(**{"port": 0, **words}), tokens_file, result))
         return made[-1]
 
     yield make

@@ -56,7 +56,7 @@ GARBAGE = [
     ("[]", "it is []; an object"),
     ('{"id": 4}', "deed is missing"),
     ('{"id": 4, "deed": "rule the world"}', "deed is 'rule the world'; one of action, order"),
-    ('{"id": -1, "deed": "token"}', "token.id is -1; at least 0"),
+    ('{"id": -1, "deed": "token"}', "id is -1; at least 0"),
     ('{"id": 4, "deed": "token", "more": 1}', "more is not known"),
     (
         '{"id": 4, "deed": "drive", "robot": "cyan1", "manual": {"drive": {"vx": NaN}}}',
@@ -90,7 +90,9 @@ def test_refusals_are_counted_and_logged_at_the_end(host: FakeHost, gateway_of: 
         Visitor(gateway.origin, claims="http://evil.example")
     page.close()
     gateway.close()
-    assert gateway.said == ["refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"]
+    assert gateway.logged == [
+        "refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"
+    ]
 
 
 def test_a_broken_message_is_answered_under_its_number_where_it_has_one(visit: Visit) -> None:
@@ -127,7 +129,7 @@ def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
     monkeypatch.setattr("coach_gateway.web.pages.STUCK_S", 0.5)
     gateway = gateway_of()
     reader = Visitor(gateway.origin)
-    stuck = Visitor(gateway.origin, max_queue=1)
+    stuck = Visitor(gateway.origin, max_queue=1, compression=None)
     deadline = time.monotonic() + SOON
     tick = 0
     while gateway.server.pages.counts["stuck"] == 0:
@@ -154,7 +156,7 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     narrow = socket.socket()
     narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     narrow.connect(("127.0.0.1", gateway.port))
-    quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1)
+    quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1, compression=None)
     slow.hear("host", there=True)
     pillar = ObstacleTruth(x=1, y=2, heading=0, radius=0.5, height=1, shape="cylinder", size_x=1, size_y=1)
     full = make_world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})

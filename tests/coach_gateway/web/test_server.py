@@ -7,7 +7,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from coach_gateway.web.protocol import SERVER_MESSAGE
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.scene import shipped_scenes
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.world import RobotTruth
@@ -151,7 +151,7 @@ def test_a_scene_with_other_robots_welcomes_all_pages_anew(visit: Visit, host: F
 
 
 def test_messages_repeated_when_a_link_comes_back_are_neither_news_nor_another_host(
-    visit: Visit, host: FakeHost, medium: Medium
+    visit: Visit, host: FakeHost, medium: SharedState
 ) -> None:
     page = visit()
     readers = tuple(medium.subscriptions["friendly/game/event"])

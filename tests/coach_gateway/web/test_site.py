@@ -1,8 +1,6 @@
 """The page's files: right types, strict headers, nothing beside them."""
 
 import http.client
-import socket
-import sys
 from collections.abc import Callable, Iterator
 from http.client import HTTPResponse
 
@@ -10,7 +8,6 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from coach_gateway.web.listener import free_port, listen
 from support.page_gateway import SOON, Gateway
 
 
@@ -82,13 +79,3 @@ def test_a_socket_at_another_door_is_refused(gateway_of: Callable[..., Gateway])
     gateway = gateway_of()
     with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{gateway.port}/elsewhere", open_timeout=SOON):
         pass
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a port is free only at the moment it is chosen")
-def test_a_port_that_was_chosen_for_the_page_stays_free_for_its_server() -> None:
-    port = free_port("127.0.0.1", 0)
-    with socket.socket() as other, pytest.raises(OSError, match="in use"):
-        other.bind(("127.0.0.1", port))
-    with listen("127.0.0.1", port):
-        pass
-    assert free_port("127.0.0.1", port) == port

@@ -72,15 +72,29 @@ def test_a_waiting_page_is_served_and_shows_that_there_is_no_host(binding: PageB
         welcome = page.hear("welcome")
         assert (welcome["setup"], welcome["deeds"], welcome["role"]) == (None, [], "spectator")
         assert page.hear("host")["there"] is False
-        page.say("action", action={"action": "stop"})
+        refused = page.ask("action", action={"action": "stop"})
+        assert (refused["accepted"], refused["reason"]) == (False, "no host plays this match yet")
         page.send(b"garbage")
         told = [json.loads(page.socket.recv(SOON))["kind"] for _ in range(2)]
-        assert told == ["alive", "alive"]  # no other message is sent there
+        assert told == ["alive", "alive"]
         with pytest.raises(InvalidStatus):
             Visitor(binding.origin, claims="http://evil.example")
     with pytest.raises(ConnectionClosed) as closed:
         page.hear("reply")
     assert closed.value.rcvd is not None and closed.value.rcvd.code == 1012  # come again
+
+
+def test_a_waiting_page_answers_each_token(binding: PageBinding) -> None:
+    with waiting_page(binding):
+        page = Visitor(binding.origin)
+        assert page.hear("welcome")["role"] == "spectator"
+        wrong = page.ask("token", token="nonsense")
+        assert not wrong["accepted"] and wrong["reason"].startswith("unknown token")
+        welcome = page.enter("cyan")
+        assert (welcome["role"], welcome["setup"], welcome["deeds"]) == ("cyan", None, [])
+        with pytest.raises(ConnectionClosed):
+            for _ in range(30):
+                page.ask("token", token="a guess")
 
 
 def test_the_next_server_has_the_same_address(binding: PageBinding) -> None:

@@ -7,6 +7,7 @@ from recordings.container.json_schema import flat_schema, whole_schema
 from schemas.topics import TOPICS
 from schemas.wire.faults import field_names
 from schemas.wire.message import Message
+from support.recorder_rig import ROBOTS
 
 MODELS = {
     topic.message.__name__: topic.message for topic in TOPICS.values() if topic.recorded or topic.key.endswith("sight")
@@ -61,6 +62,11 @@ def test_a_viewer_reads_the_schema_of_every_channel_of_a_recording(played):
         assert datatypes(schema, name)
     world = datatypes(texts["touchline.World"], "touchline.World")
     assert ("x", "float64") in world["touchline.World.ball"]
+    robots = [f"{side}{number}" for side in ("cyan", "magenta") for number in range(1, 6)]
+    for robot in robots:
+        assert ("x", "float64") in world[f"touchline.World.robots.{robot}"]
+    applied = datatypes(texts["touchline.Applied"], "touchline.Applied")
+    assert ("vx", "float64") in applied["touchline.Applied.inputs.magenta5.drive"]
 
 
 @pytest.mark.parametrize(
@@ -103,9 +109,35 @@ def test_an_optional_part_is_flattened_to_the_part():
     assert {name: field["type"] for name, field in kick["properties"].items()} == {"mode": "string", "speed": "number"}
 
 
-def test_what_stands_below_the_robots_names_is_told():
+def test_the_schema_describes_the_fields_below_the_names_of_robots():
     robots = flat_schema(MODELS["World"])["properties"]["robots"]
     assert robots["additionalProperties"]["properties"]["heading"]["type"] == "number"
+
+
+@pytest.mark.parametrize(("message", "field"), [("World", "robots"), ("Applied", "inputs"), ("GameState", "robots")])
+def test_each_robot_of_the_roster_is_a_member_of_what_is_told_by_robot(message, field):
+    schema = flat_schema(MODELS[message], ["striker", "keeper"])["properties"][field]
+    assert list(schema["properties"]) == ["striker", "keeper"]
+    assert schema["properties"]["striker"] == schema["additionalProperties"]
+
+
+def test_a_list_of_robots_is_left_as_it_is():
+    """The roster that an operator changed stands in the same message as the inputs by robot."""
+    assert flat_schema(MODELS["Applied"], ["striker"])["properties"]["robots"]["type"] == "array"
+
+
+def test_a_robot_that_joins_later_is_read_with_the_schema_of_the_others(make_rig):
+    rig = make_rig()
+    rig.begin()
+    rig.play(range(5))
+    rig.host.play(5, guests=("guest",))
+    rig.leave()
+    with rig.path.open("rb") as file:
+        reader = make_reader(file)
+        schema = next(one for one in reader.get_summary().schemas.values() if one.name == "touchline.World")
+    assert list(json.loads(schema.data)["properties"]["robots"]["properties"]) == [*ROBOTS]
+    worlds = [world for _, world in rig.read().decoded("world")]
+    assert "guest" in worlds[-1].robots
 
 
 def test_a_field_of_two_types_is_refused_with_a_remedy():

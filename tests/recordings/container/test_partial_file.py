@@ -1,4 +1,4 @@
-"""One file has one writer: whoever comes second is refused before it has written a byte, in any process."""
+"""One file has one writer: a second one is refused before it has written a byte, in any process."""
 
 import subprocess
 import sys
@@ -11,10 +11,10 @@ from recordings.container.partial_file import PartialFile
 from recordings.editing.filtering import filter_recording
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.errors import TouchlineError
 
-REFUSED = r"match\.mcap: is being written by another recorder; give another --out"
+REFUSED = r"match\.mcap: is being written by another recorder; name another file"
 
 HOLDER = """
 import sys

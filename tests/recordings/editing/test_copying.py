@@ -8,7 +8,7 @@ from recordings.editing.merging import merge_recordings
 from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.messages.command import Command, Drive
@@ -107,7 +107,7 @@ def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run,
     assert part.manifest.made == "filtered"
     assert part.manifest.setup == recording.manifest.setup
     assert part.attachments == recording.attachments
-    assert part.manifest.standing == 1  # the state that was said at tick 0
+    assert part.manifest.latched_count == 1  # the state of tick 0
     wanted = [m for m in told(recording) if m[0].startswith("robot/") and 1_000_000_000 <= m[3] < 2_000_000_000]
     assert told(part)[1:] == wanted
     assert told(part)[0][0] == "game/state"
@@ -133,7 +133,7 @@ def test_the_files_of_a_split_recording_are_merged_to_what_one_file_would_have_b
     merged = open_recording(copied.path, whole=True)
     assert told(merged) == told(whole)
     assert merged.result.keys == whole.result.keys
-    assert copied.dropped == sum(part.manifest.standing for part in parts)
+    assert copied.dropped == sum(part.manifest.latched_count for part in parts)
 
 
 def test_two_recordings_of_different_keys_become_one(run, tmp_path):
@@ -159,7 +159,7 @@ def test_two_runs_of_one_match_are_not_merged(run, make_rig, tmp_path):
     assert not list(tmp_path.glob("merged*"))
 
 
-def test_a_file_that_was_cut_off_can_be_filtered_and_says_so(run, tmp_path):
+def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_path):
     (recording,) = run("a")
     cut = tmp_path / "cut.mcap"
     data = recording.path.read_bytes()
@@ -167,3 +167,52 @@ def test_a_file_that_was_cut_off_can_be_filtered_and_says_so(run, tmp_path):
     filter_recording(open_recording(cut), tmp_path / "part.mcap", KeySelection(("world",)))
     facts = facts_of(open_recording(tmp_path / "part.mcap"))
     assert (facts.ended, facts.lost) == ("cut_off", 0)
+
+
+def test_the_name_of_a_split_recording_stands_for_all_its_files(run, tmp_path):
+    (whole,) = run("whole")
+    files = run("split", limits=FileLimits(duration=0.5))
+    assert len(files) > 3
+    split = open_recording(tmp_path / "split.mcap", whole=True)
+    assert told(split) == told(whole)
+    assert told_between(split, 0.7, 1.3) == told_between(whole, 0.7, 1.3)
+    assert split.result.keys == whole.result.keys
+    assert compare(split, whole).identical
+    facts, expected = facts_of(split), facts_of(whole)
+    assert (facts.messages, facts.lost, facts.tick, facts.duration) == (721, 0, expected.tick, expected.duration)
+    assert [(key.key, key.messages, key.rate) for key in facts.keys] == [
+        (key.key, key.messages, key.rate) for key in expected.keys
+    ]
+    assert facts.size == sum(file.path.stat().st_size for file in files)
+    copied = merge_recordings([split], tmp_path / "copy.mcap")
+    assert told(open_recording(copied.path)) == told(whole)
+
+
+def told_between(recording, start: float, end: float) -> list[tuple[str, int]]:
+    return [(one.key, one.log_ns) for one in recording.messages(start=start, end=end)]
+
+
+def test_a_recording_that_is_still_unfinished_is_named_where_its_name_is_given(make_rig, tmp_path):
+    make_rig(path=tmp_path / "match.mcap")
+    with pytest.raises(
+        TouchlineError, match=r"match\.mcap: No such file or directory, but .*match\.mcap\.part is there"
+    ):
+        open_recording(tmp_path / "match.mcap")
+
+
+@pytest.mark.parametrize("removed", range(3))
+def test_an_event_that_is_missing_among_others_of_its_tick_is_called_missing(make_rig, tmp_path, removed):
+    recordings = []
+    for name, left_out in (("a", -1), ("b", removed)):
+        rig = make_rig(path=tmp_path / f"{name}.mcap")
+        rig.begin()
+        rig.play(range(10))
+        for number in range(3):
+            if number != left_out:
+                rig.host.event(10, f"event {number}")
+        rig.play(range(10, 80))
+        rig.leave()
+        recordings.append(open_recording(rig.path))
+    for first, second, lacking in ((0, 1, "second"), (1, 0, "first")):
+        found = compare(recordings[first], recordings[second]).first
+        assert (found.key, found.number, found.missing_in, found.fields) == ("game/event", removed, lacking, [])

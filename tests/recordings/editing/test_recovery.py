@@ -13,6 +13,7 @@ from mcap.writer import CompressionType, Writer
 
 from recordings.editing.recovery import recover
 from recordings.inspection.recording_facts import facts_of
+from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
 
@@ -88,7 +89,7 @@ def test_a_part_that_was_left_becomes_a_recording_in_place(make_rig):
     assert not part.exists()
 
 
-def test_a_file_cut_off_anywhere_holds_an_exact_beginning_or_says_that_nothing_is_in_it(several_chunks, tmp_path, rng):
+def test_a_file_truncated_anywhere_has_an_exact_beginning_or_is_reported_as_empty(several_chunks, tmp_path, rng):
     data, whole = several_chunks.read_bytes(), told(several_chunks)
     path = tmp_path / "cut.mcap"
     lengths = []
@@ -167,6 +168,21 @@ def test_a_flipped_bit_is_reported_or_does_no_harm(several_chunks, tmp_path, rng
     assert harmless > TIMES / 10
 
 
+def test_a_complete_match_that_lost_a_chunk_is_still_complete(recorded):
+    with recorded.path.open("rb") as file:
+        chunk = make_reader(file).get_summary().chunk_indexes[0]
+    data = bytearray(recorded.path.read_bytes())
+    data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 4
+    recorded.path.write_bytes(data)
+    recover(recorded.path)
+
+    facts, before = facts_of(open_recording(recorded.path, whole=True)), recorded.result
+    assert (facts.ended, facts.phase, facts.score) == ("full_time", "full_time", {"cyan": 1, "magenta": 0})
+    assert facts.messages < before.messages
+    assert facts.messages == len(told(recorded.path))
+    check_with_the_stock_readers(recorded.path)
+
+
 def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
     whole = told(several_chunks)
     with several_chunks.open("rb") as file:
@@ -182,6 +198,28 @@ def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
     gone = [entry for entry in whole if chunk.message_start_time <= entry[2] <= chunk.message_end_time]
     assert told(several_chunks) == [entry for entry in whole if entry not in gone]
     assert facts_of(open_recording(several_chunks)).lost == len(gone)
+    check_with_the_stock_readers(several_chunks)
+
+
+@pytest.mark.parametrize("finished", [True, False])
+@pytest.mark.parametrize("field", [0, 8])
+def test_times_of_a_chunk_that_have_changed_are_put_right(several_chunks, finished, field):
+    """No checksum covers them, and readers skip chunks by them."""
+    whole, data = told(several_chunks), bytearray(several_chunks.read_bytes())
+    with several_chunks.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    chunk = summary.chunk_indexes[5]
+    data[chunk.chunk_start_offset + 9 + field + 3] ^= 0x40
+    if not finished:
+        last = summary.chunk_indexes[-1]
+        del data[last.chunk_start_offset + last.chunk_length + last.message_index_length :]
+    several_chunks.write_bytes(data)
+
+    recover(several_chunks)
+    assert told(several_chunks) == whole
+    cursor = Cursor(several_chunks)
+    cursor.seek(chunk.message_start_time)
+    assert cursor.peek().log_ns == chunk.message_start_time
     check_with_the_stock_readers(several_chunks)
 
 

@@ -19,7 +19,7 @@ STARTED = "2026-07-01T15:00:00.000+00:00"
 
 
 def played(table: InProcessMatch) -> Iterator[TimedMessage]:
-    """Everything that is said in the match, tick by tick."""
+    """All messages of the match, tick by tick."""
     simulation = table.simulation
     said = None
     tick = simulation.now

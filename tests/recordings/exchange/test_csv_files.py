@@ -20,7 +20,7 @@ def folder(recorded: Recording, tmp_path: Path) -> Path:
     return export(recorded, tmp_path / "tables").out
 
 
-def test_every_file_says_its_units_in_its_header(folder: Path) -> None:
+def test_every_file_has_units_in_its_header(folder: Path) -> None:
     assert {file.name for file in folder.iterdir()} == set(TABLES)
     for name, kind in TABLES.items():
         header = (folder / name).read_text("utf-8").splitlines()[0].split(",")

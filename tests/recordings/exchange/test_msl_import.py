@@ -1,4 +1,4 @@
-"""Real logs deviate from their schema: what can be read is, what cannot is counted and told."""
+"""Real logs deviate from their schema: readable data is read, the rest is counted and reported."""
 
 import json
 import math
@@ -19,45 +19,7 @@ from schemas.league.findings import Findings
 from schemas.messages.game import GameState
 from schemas.messages.world import World
 from schemas.topics import STATE, WORLD
-
-START_MS = 1467540000000
-
-
-def robot(number: Any = 2, pose: Any = (1.0, -2.0, 0.5), **more: Any) -> dict[str, Any]:
-    fields = {"velocity": [0.5, 0.0, 0.0], "intention": "", "batteryLevel": 90.0, "ballEngaged": 0}
-    return {"id": number, "pose": pose, "targetPose": pose, **fields, **more}
-
-
-def record(after_ms: float = 0, robots: Any = None, balls: Any = None, **more: Any) -> dict[str, Any]:
-    state = {
-        "type": "worldstate",
-        "teamName": "Reds",
-        "intention": "",
-        "robots": [robot()] if robots is None else robots,
-        "balls": [{"position": [0.0, 3.0, 0.2], "velocity": [0, 0, 0], "confidence": 0.9}] if balls is None else balls,
-        "obstacles": [],
-        "ageMs": 0,
-    }
-    return {"teamName": "Reds", "timestamp": START_MS + after_ms, "gametimeMs": 0, "worldstate": state | more}
-
-
-class Log:
-    """A log's files, written and imported."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder / "20160703_120000"
-        self.folder.mkdir()
-
-    def write(self, letter: str, records: list[Any] | str) -> None:
-        text = records if isinstance(records, str) else json.dumps(records)
-        (self.folder / f"20160703_120000.{letter}.msl").write_text(text, encoding="utf-8")
-
-    def events(self, *lines: str) -> None:
-        (self.folder / "20160703_120000.msl").write_text("\n".join(lines))
-
-    def read(self, **options: Any) -> tuple[ImportSummary, Recording]:
-        imported = import_log([self.folder], self.folder.with_suffix(".mcap"), **options)
-        return imported, open_recording(imported.out)
+from support.msl_log import START_MS, Log, record, robot
 
 
 @pytest.fixture
@@ -176,7 +138,7 @@ def test_a_team_that_is_silent_for_seconds_is_left_out_meanwhile(log: Log) -> No
     assert all("magenta1" in world.robots for world in worlds(recording))
 
 
-def test_a_velocity_that_is_not_said_comes_from_the_way_between_records(log: Log) -> None:
+def test_a_missing_velocity_is_computed_from_the_distance_between_records(log: Log) -> None:
     """1 m/s toward the opponents' goal."""
     log.write("A", [record(time, [robot(2, [0.0, time / 1e3, 0.0], velocity=[])]) for time in range(0, 401, 40)])
     moving = [world.robots["cyan2"] for world in worlds(log.read()[1])]
@@ -233,7 +195,7 @@ def test_no_cut_and_no_flipped_bit_is_ever_worse_than_counted() -> None:
         flipped[chance.randrange(len(whole))] ^= 1 << chance.randrange(8)
         for damaged in (cut, bytes(flipped)):
             findings = Findings()
-            log = read_team(damaged.decode("utf-8", errors="replace"), "A", findings)
+            log = read_team(damaged.decode("utf-8", errors="replace"), "A", findings, Findings())
             assert log.read <= log.records <= 10
             assert log.read >= 9 or findings.lost or len(damaged) < len(whole)
 
@@ -284,13 +246,17 @@ def test_signals_of_either_kind_tell_the_same_game(kind: str, log: Log) -> None:
     assert told[-1].phase is Phase.FULL_TIME
     assert (told[-1].score, told[-1].half, told[-1].cyan_attacks) == (Score(magenta=1), 2, -1)
     assert told[-1].clock == pytest.approx(2.5) and told[-1].effective == pytest.approx(2.0)
-    assert found(imported) == {"line that is not a signal": 1, "unknown signal": 1}
+    assert found(imported) == {
+        "signal before the first record: moved to the beginning": 1,
+        "line that is not a signal": 1,
+        "unknown signal": 1,
+    }
     by_time = {round(world.time, 2): world for world in worlds(recording)}
     assert by_time[1.76].robots["cyan2"].x == pytest.approx(-2.0)
     assert by_time[1.84].robots["cyan2"].x == pytest.approx(2.0), "the second half begins with its kick-off"
 
 
-def test_a_goal_for_an_address_that_nobody_named_is_told_and_not_given_to_anybody(log: Log) -> None:
+def test_a_goal_for_an_unknown_address_is_reported_and_counts_for_no_side(log: Log) -> None:
     log.write("A", [record(time) for time in range(0, 3001, 40)])
     log.events(*(as_json(line, "224.16.32.9", "224.16.32.8") for line in CHARACTERS))
     imported, recording = log.read()
@@ -349,6 +315,7 @@ def test_files_that_are_no_log_get_one_plain_sentence(tmp_path: Path) -> None:
     with ZipFile(packed, "w") as archive:
         archive.writestr("x.A.msl", json.dumps([record(time) for time in range(0, 4000, 40)]))
     content = bytearray(packed.read_bytes())
+    assert "truncated zip, its table of contents is missing" in said(bytes(content[:-100]), "cut.zip")
     content[80] ^= 0xFF
     assert "damaged zip" in said(bytes(content), "flipped.zip")
     with pytest.raises(TouchlineError, match="No such file"):

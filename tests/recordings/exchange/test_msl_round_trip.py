@@ -1,7 +1,10 @@
-"""A match exported to the league's log and imported again is the same match, as far as a log tells."""
+"""A match exported to the league's log and imported again is the same match, as far as the log records it."""
 
 import json
 import math
+import re
+import tracemalloc
+from collections.abc import Callable
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -17,7 +20,8 @@ from schemas.messages.game import GameState
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD
-from touchline.__main__ import app
+from support.recorder_rig import RecorderRig
+from touchline.command_line import app
 
 PRECISION = 0.5e-3 + 1e-9
 """Three digits after the point."""
@@ -30,8 +34,11 @@ def log(real: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def back(log: Path) -> Recording:
-    imported = IMPORTERS["msl-log"]([log], log.with_name("back.mcap"), "msl", None)
-    assert (imported.lost, imported.coped) == ([], [])
+    imported = IMPORTERS["msl-log"].import_log([log], log.with_name("back.mcap"), "msl", None)
+    assert imported.lost == []
+    assert [one.what for one in imported.left_out] == ["obstacles that a team sees"]
+    placed = [finding.what for finding in imported.coped]
+    assert all(re.match(r"jump of (robot \d|the ball) of [AB]?", what) for what in placed), placed
     return open_recording(imported.out)
 
 
@@ -150,7 +157,7 @@ def test_the_commands_say_what_they_wrote_and_read(real: Recording, tmp_path: Pa
 
 
 def test_figures_of_an_imported_match_are_those_of_the_match(real: Recording, back: Recording) -> None:
-    """What a log tells: score, and the distance each robot drove, here within 2 %."""
+    """The content of a log: score, and the distance each robot drove, here within 2 %."""
     mine, theirs = figures_of_recording(real), figures_of_recording(back)
     assert {side: figures.goals for side, figures in theirs.sides.items()} == {
         side: figures.goals for side, figures in mine.sides.items()
@@ -158,3 +165,40 @@ def test_figures_of_an_imported_match_are_those_of_the_match(real: Recording, ba
     for robot, true in zip(theirs.robots, mine.robots, strict=True):
         assert robot.name == true.name
         assert robot.distance == pytest.approx(true.distance, rel=0.02, abs=0.05)
+
+
+def test_a_long_match_takes_no_more_memory_than_a_short_one(
+    make_rig: Callable[..., RecorderRig], tmp_path: Path
+) -> None:
+    """Peak of the export of two recordings, of which one is five times as long."""
+    peaks = []
+    for ticks in (400, 2000):
+        rig = make_rig(path=tmp_path / f"{ticks}.mcap")
+        rig.begin()
+        rig.play(range(ticks), pump_every=20)
+        rig.leave()
+        recording = rig.read()
+        tracemalloc.start()
+        EXPORTERS["msl-log"].export(recording, tmp_path / f"{ticks}.zip")
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < peaks[0] + 300_000  # all records are 3 MB
+
+
+@pytest.mark.parametrize("to", ["csv", "msl-log", "protobuf", "ros2"])
+def test_an_export_lists_what_it_omits(real: Recording, tmp_path: Path, to: str) -> None:
+    omitted = {
+        "csv": {"host/applied": 1},
+        "msl-log": {"game/event": 1, "host/applied": 1, "robot/*/command": 1},
+        "protobuf": {},
+        "ros2": {"host/applied": 1},
+    }[to]
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["export", str(real.path), "--to", to, "--out", str(out)])
+    assert done.exit_code == 0, done.output
+    counts = {channel.key: channel.messages for channel in real.channels}
+    commands = sum(count for key, count in counts.items() if key.endswith("/command"))
+    listed = [line.split() for line in done.stdout.splitlines() if "have no place in this format" in line]
+    assert {words[3] for words in listed} == omitted.keys()
+    for words in listed:
+        assert int(words[0]) == (commands if words[3] == "robot/*/command" else counts[words[3]])

@@ -1,5 +1,6 @@
 """The bag is read back by two readers that know nothing of this project: rosbags and mcap-ros2-support."""
 
+import json
 import math
 import sys
 from pathlib import Path
@@ -11,11 +12,11 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
 
 from recordings.exchange.ros2 import export
-from recordings.reading.recording import Recording
+from recordings.reading.recording import Recording, open_recording
 from schemas.errors import TouchlineError
 from schemas.frames import from_body
 from schemas.messages.world import World
-from schemas.topics import COMMAND, WORLD
+from schemas.topics import COMMAND, EVENT, STATE, WORLD
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 
@@ -100,6 +101,45 @@ def test_commands_are_twists_under_each_robots_name(real: Recording, by_rosbags:
         ]
 
 
+def test_events_and_score_are_in_the_bag(real: Recording, by_mcap_ros2: dict[str, list[Any]]) -> None:
+    events = [json.loads(message.data) for _, message in by_mcap_ros2["/game/event"]]
+    assert [(event["tick"], event["kind"], event["text"]) for event in events] == [
+        (event.tick, event.kind, event.text) for _, event in real.decoded(EVENT.key)
+    ]
+    states = [state for _, state in real.decoded(STATE.key)]
+    assert [json.loads(message.data)["phase"] for _, message in by_mcap_ros2["/game/state"]] == [
+        state.phase for state in states
+    ]
+    for side in ("cyan", "magenta"):
+        score = [message.data for _, message in by_mcap_ros2[f"/game/score/{side}"]]
+        assert score == [getattr(state.score, side) for state in states]
+
+
+def test_beliefs_are_in_the_field_frame(played: Path, tmp_path: Path) -> None:
+    """A robot that plays in both directions believes itself to be near where it is."""
+    recording = open_recording(played)
+    true = {round(world.time, 6): world for world in worlds(recording)}
+    with AnyReader([export(recording, tmp_path / "bag").out]) as reader:
+        found = [(one.topic, at, reader.deserialize(data, one.msgtype)) for one, at, data in reader.messages()]
+    for robot in ("cyan2", "magenta2"):
+        poses = [(at, message) for topic, at, message in found if topic == f"/{robot}/belief/pose"]
+        assert len(poses) > 10
+        for at, message in poses:
+            place, truth = message.pose.position, true[round(at / 1e9, 6)].robots[robot]
+            assert math.dist((place.x, place.y), (truth.x, truth.y)) < 1.0
+            assert message.header.frame_id == "map"
+        texts = [json.loads(message.data) for topic, _, message in found if topic == f"/{robot}/belief"]
+        assert {text["robot"] for text in texts} == {robot}
+    balls = [(at, message) for topic, at, message in found if topic.endswith("/belief/ball")]
+    near = [
+        math.dist(
+            (message.point.x, message.point.y), (true[round(at / 1e9, 6)].ball.x, true[round(at / 1e9, 6)].ball.y)
+        )
+        for at, message in balls
+    ]
+    assert sorted(near)[len(near) // 2] < 0.5
+
+
 def test_the_bag_has_the_profile_and_the_quality_of_service_that_ros_asks_for(bag: Path) -> None:
     """Profile `ros2`, CDR throughout, `offered_qos_profiles` with each channel: rosbag2 refuses a bag without."""
     with (bag / f"{bag.name}.mcap").open("rb") as file:
@@ -114,7 +154,7 @@ def test_the_bag_has_the_profile_and_the_quality_of_service_that_ros_asks_for(ba
     assert "storage_identifier: mcap" in (bag / "metadata.yaml").read_text()
 
 
-def test_without_rosbags_the_line_that_brings_it_is_said(
+def test_without_rosbags_the_error_names_the_remedy(
     real: Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "rosbags.rosbag2", None)

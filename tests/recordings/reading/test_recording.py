@@ -148,7 +148,7 @@ def test_what_a_later_version_added_to_the_manifest_is_passed_over(recorded, tmp
     assert open_recording(path).manifest == recorded.manifest.model_copy(update={"attached": {}})
 
 
-def test_damage_inside_a_finished_file_is_said_and_not_passed_over(recorded):
+def test_damage_inside_a_finished_file_is_reported_and_not_skipped(recorded):
     data = bytearray(recorded.path.read_bytes())
     middle = data.rindex(b"zstd", 0, len(data) // 2) + 200
     data[middle : middle + 40] = bytes(40)

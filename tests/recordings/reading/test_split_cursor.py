@@ -8,7 +8,7 @@ import pytest
 from recordings.container.numbering import numbered
 from recordings.reading.recording import RecordedMessage, open_recording
 from recordings.reading.split_cursor import SplitCursor
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from recordings.replay.player import is_latched
 from recordings.replay.replay import Replay, ReplaySettings
 from recordings.replay.seek_targets import SeekTarget
@@ -139,7 +139,9 @@ def test_a_recording_is_followed_from_file_to_file_while_it_is_written(make_rig,
     assert cursor.finished
 
 
-def test_a_replay_behind_a_split_recording_says_everything_in_order(make_rig, tmp_path, wait_until_written):
+def test_a_replay_that_follows_a_split_recording_publishes_all_messages_in_order(
+    make_rig, tmp_path, wait_until_written
+):
     rig, clock = make_rig(path=tmp_path / "live" / "match.mcap", limits=FileLimits(duration=0.5)), SteppedClock()
     rig.begin()
     rig.play(range(30), pump_every=1)

@@ -5,18 +5,19 @@ from dataclasses import dataclass
 
 import pytest
 
-from recordings.recorder.batch_reader import ANSWER_S, GIVE_UP_S, QUIET_S, BatchReader
+from recordings.recorder.batch_reader import QUIET_S, REPLY_S, BatchReader
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Query
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.messages.record_batch import RecordBatchesRequest, write_batch, write_reply
 from schemas.process.clock import SteppedClock
+from schemas.recovery_window import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 
 
 @dataclass
 class Link:
-    """A host made by hand, and a reader whose link loses what it is told to lose."""
+    """A fake host, and a reader whose link loses chosen batches."""
 
     host: InProcessBus
     bus: InProcessBus
@@ -67,7 +68,7 @@ class Link:
 
 @pytest.fixture
 def link() -> Link:
-    medium = Medium()
+    medium = SharedState()
     link = Link(medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock()))
     link.publish(0, 1, 2)
     assert link.read() == [0, 1, 2]
@@ -104,9 +105,9 @@ def test_an_answer_that_never_came_is_asked_again(link):
     link.publish(5)
     link.read()
     assert link.asked() == [(3, 4)]
-    link.wait(ANSWER_S + 0.05)
+    link.wait(REPLY_S + 0.05)
     assert link.asked() == [(3, 4)]
-    link.wait(ANSWER_S + 0.05)
+    link.wait(REPLY_S + 0.05)
     assert link.answer(3, 4) == [(3, 4)]
     assert link.read() == [3, 4, 5]
 
@@ -193,8 +194,8 @@ def test_another_host_is_found_by_its_answer(link):
     assert link.read() == [0, 1, 2, 3, 4]
 
 
-def test_a_reader_that_never_heard_a_batch_asks_for_those_since_it_began():
-    medium = Medium()
+def test_a_reader_without_any_batch_requests_those_since_its_start():
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     batches = BatchPublisher(host)
     batches.send()

@@ -23,12 +23,12 @@ class Recorder:
 
     def hear(self, *numbers: int, stream: int = HOST) -> list[int]:
         for number in numbers:
-            self.sequence.take(batch(number, stream))
+            self.sequence.add(batch(number, stream))
         return self.ready()
 
     def answer(self, *numbers: int, oldest: int = 0, unreadable: int | None = None) -> list[int]:
         found = [(number, None if number == unreadable else batch(number)) for number in numbers]
-        self.sequence.take_again(found, oldest)
+        self.sequence.add_requested(found, oldest)
         return self.ready()
 
     def ready(self) -> list[int]:
@@ -127,7 +127,7 @@ def test_another_host_counts_from_its_own_beginning(recorder):
     assert recorder.hear(7, stream=ANOTHER) == [10, 11]
     assert recorder.sequence.lost == 2
     assert recorder.sequence.missing() == MissingBatches(ANOTHER, 0, 6, BEGAN_NS)
-    recorder.sequence.take_again([(number, batch(number, ANOTHER)) for number in (5, 6)], 5)
+    recorder.sequence.add_requested([(number, batch(number, ANOTHER)) for number in (5, 6)], 5)
     assert recorder.ready() == [5, 6, 7]
     assert recorder.hear(8, stream=ANOTHER) == [8]
     assert recorder.sequence.lost == 2

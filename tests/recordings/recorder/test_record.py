@@ -239,7 +239,7 @@ def test_a_recorder_that_stood_still_for_three_seconds_at_full_rate_has_lost_not
 
 
 @pytest.mark.processes
-def test_a_full_disk_ends_the_recorder_with_one_sentence_and_nobody_else(
+def test_a_full_disk_ends_only_the_recorder_with_an_error_of_one_line(
     make_fake_host, start_recorder, endpoint, tmp_path
 ):
     recorder = start_recorder()
@@ -267,7 +267,7 @@ def test_a_full_disk_ends_the_recorder_with_one_sentence_and_nobody_else(
 
 
 @pytest.mark.processes
-def test_without_a_host_the_recorder_says_what_to_do_and_leaves_no_file(start_recorder, tmp_path):
+def test_without_a_host_the_recorder_names_the_remedy_and_leaves_no_file(start_recorder, tmp_path):
     recorder = start_recorder(patience=0)
     _, error = recorder.communicate(timeout=LIMIT)
     assert recorder.returncode == 2

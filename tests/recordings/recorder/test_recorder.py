@@ -125,9 +125,9 @@ def test_the_manifest_stands_before_the_first_message_and_the_result_after_the_l
     found = records(rig.path)
     named = [(index, record.name) for index, record in enumerate(found) if isinstance(record, Metadata)]
     messages = [index for index, record in enumerate(found) if isinstance(record, Message)]
-    assert [name for _, name in named] == ["manifest", "result"]
-    assert named[0][0] < messages[0]
-    assert named[1][0] > messages[-1]
+    assert [name for _, name in named] == ["manifest", "manifest", "result"]
+    assert named[1][0] < messages[0]
+    assert named[2][0] > messages[-1]
 
 
 def test_log_time_never_runs_backward_though_simulated_time_does(rig):
@@ -154,7 +154,7 @@ def test_a_robot_that_claims_to_be_far_ahead_does_not_drag_the_time_of_the_file_
 
 def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_rig):
     rig = make_rig()
-    coach = rig.host.bus.medium.open_bus("friendly", type(rig.host.bus.clock)())
+    coach = rig.host.bus.shared_state.open_bus("friendly", type(rig.host.bus.clock)())
     order = coach.publisher(ORDER, side="cyan")
     rig.begin()
     rig.play(range(50))
@@ -213,7 +213,7 @@ def test_a_payload_that_cannot_be_read_is_recorded_as_it_is(rig):
 
 def test_a_message_without_a_stamp_is_recorded_and_counted_as_unstamped(rig):
     rig.play(range(5))
-    for reader in rig.recorder_bus.medium.subscriptions["friendly/" + COMMAND.key]:
+    for reader in rig.recorder_bus.shared_state.subscriptions["friendly/" + COMMAND.key]:
         reader.deliver("robot/cyan1/command", ReceivedMessage(COMMAND, "robot/cyan1/command", b"{}", None))
     rig.host.relay(5)
     summary = rig.leave()
@@ -323,7 +323,7 @@ def look_for(rig, seconds: float) -> None:
 
 def break_link(rig) -> Callable[[], None]:
     """Lose all batches from now on, until what is returned is called."""
-    (reader,) = rig.recorder_bus.medium.subscriptions[f"friendly/{RECORD_BATCH.key}"]
+    (reader,) = rig.recorder_bus.shared_state.subscriptions[f"friendly/{RECORD_BATCH.key}"]
     bring, reader.deliver = reader.deliver, lambda *message: None
 
     def mend() -> None:
@@ -436,7 +436,7 @@ def test_a_recorder_that_stood_still_fetches_what_it_missed_however_long_that_wa
 
 
 def test_another_host_is_followed_from_its_beginning(rig):
-    """It counts its batches from 0 again; what the first had said last and was lost stays lost."""
+    """It counts its batches from 0 again; the last messages of the first host, which were lost, stay lost."""
     rig.play(range(20))
     break_link(rig)()
     first = rig.host
@@ -444,7 +444,7 @@ def test_another_host_is_followed_from_its_beginning(rig):
     rig.play(range(20, 25))
     mend()
     first.bus.close()
-    rig.host.bus = first.bus.medium.open_bus("friendly", type(first.bus.clock)())
+    rig.host.bus = first.bus.shared_state.open_bus("friendly", type(first.bus.clock)())
     rig.host.bus.clock.sleep_until(7.0)
     rig.host.__post_init__()
     rig.play(range(10))

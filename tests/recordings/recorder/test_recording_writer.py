@@ -22,7 +22,7 @@ RESULT = Result(ended=EndReason.STOPPED, finished="2026-01-01T00:00:00.000+00:00
 
 
 def test_the_file_has_its_name_only_when_it_is_finished(recorded, manifest, tmp_path):
-    path = tmp_path / "new" / "final.mcap"
+    path = tmp_path / "final.mcap"
     writer = RecordingWriter(path, SteppedClock(), "friendly")
     writer.begin(manifest, {})
     writer.write(batch(1, 2))

@@ -1,6 +1,8 @@
 from recordings.recorder.sequence_tracker import SequenceTracker
 from schemas.bus.contract import Stamp
 
+SECOND = 1_000_000_000
+
 
 def count(*messages: tuple[int, int]):
     """The counts after messages given as (sequence, wall time of sending)."""
@@ -39,9 +41,35 @@ def test_a_first_number_above_zero_was_missed_before_the_start():
     assert (found.lost, found.missed_before_start) == (0, 7)
 
 
-def test_an_absurd_gap_costs_no_memory():
+def test_a_number_that_the_writer_cannot_have_reached_is_another_writer_s():
+    found = count((0, 0), (2**60, 1), (1, 2), (2**60 + 1, 3))
+    assert (found.lost, found.restarts, found.missed_before_start) == (0, 1, 2**60)
+
+
+def test_a_long_gap_is_lost_when_it_took_long():
+    assert count((0, 0), (200_001, 100 * SECOND)).lost == 200_000
+
+
+def test_two_writers_of_a_key_lose_nothing_by_taking_turns():
+    found = count(*(message for n in range(500) for message in ((n + 3_000, 2 * n), (n, 2 * n + 1))))
+    assert (found.messages, found.lost, found.restarts, found.duplicates, found.late) == (1000, 0, 1, 0, 0)
+
+
+def test_what_one_of_two_writers_loses_is_lost_once():
+    found = count((3000, 0), (0, 1), (3001, 2), (1, 3), (3002, 4), (4, 5), (3003, 6), (5, 7), (3006, 8))
+    assert (found.lost, found.restarts) == (4, 1)
+
+
+def test_a_restarted_writer_that_loses_messages_beside_its_former_numbers_has_lost_them():
+    before, after = [(n, n) for n in range(100)], [(n, 2 * SECOND + n) for n in range(98)]
+    found = count(*before, *after, (100, 2 * SECOND + 100), (101, 2 * SECOND + 101))
+    assert (found.lost, found.restarts, found.duplicates) == (2, 1, 0)
+
+
+def test_many_writers_of_a_key_cost_little_memory():
     tracker = SequenceTracker()
-    tracker.add(Stamp(0, 0, 0), 1)
-    tracker.add(Stamp(2**60, 1, 0), 1)
-    assert tracker.count().lost == 2**60 - 1
-    assert len(tracker._missing) == 0
+    for number in range(10_000):
+        tracker.add(Stamp(0, number, 0), 1)
+    found = tracker.count()
+    assert (found.lost, found.restarts) == (0, 9_999)
+    assert len(tracker._others) < 10

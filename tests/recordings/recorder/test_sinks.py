@@ -1,4 +1,4 @@
-"""What a recorder writes when it is told to choose, to split, to keep, to take snapshots, to pause."""
+"""The files of a recorder that selects keys, splits, keeps the newest files, takes snapshots or pauses."""
 
 import pytest
 from pydantic import ValidationError
@@ -8,7 +8,7 @@ from recordings.container.manifest import EndReason
 from recordings.container.numbering import files_at
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
@@ -19,7 +19,7 @@ from schemas.topics import RECORDER_CONTROL
 def ticks_in(path) -> list[int]:
     recording = open_recording(path, whole=True)
     worlds = [message.tick for _, message in recording.decoded("world")]
-    return worlds[1:] if recording.manifest.standing else worlds
+    return worlds[1:] if recording.manifest.latched_count else worlds
 
 
 def ask(rig, operation: RecorderOperation):
@@ -85,8 +85,8 @@ def test_a_recording_is_split_by_duration_and_each_file_is_whole_in_itself(make_
     assert third.manifest.part == 3
     assert third.result.ended is EndReason.SPLIT
     assert [state.tick for _, state in third.decoded("game/state")] == [0]
-    standing = [recorded.key for recorded in third.messages()][: third.manifest.standing]
-    assert sorted(standing) == ["game/state", "host/applied", "world"]
+    latched = [recorded.key for recorded in third.messages()][: third.manifest.latched_count]
+    assert sorted(latched) == ["game/state", "host/applied", "world"]
     facts = facts_of(third)
     assert (facts.lost, facts.messages) == (0, 50 * 6)
 

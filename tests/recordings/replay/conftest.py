@@ -1,4 +1,4 @@
-"""A recording of 200 ticks, a clock that passes when it is told to, and a player whose messages are kept."""
+"""A recording of 200 ticks, a stepped clock, and a player whose messages are kept."""
 
 from collections.abc import Callable
 
@@ -32,8 +32,8 @@ def make_player_rig(recorded: Recording) -> Callable[..., PlayerRig]:
     """Makes a player with the recording in it; the span is given in s."""
 
     def make(start: float = 0.0, end: float | None = None, **options) -> PlayerRig:
-        clock, heard = SteppedClock(), []
+        clock, published = SteppedClock(), []
         span = PlaybackRange(round(start * 1e9), None if end is None else round(end * 1e9))
-        return PlayerRig(Player(Cursor(recorded.path), clock, heard.append, span, **options), clock, heard)
+        return PlayerRig(Player(Cursor(recorded.path), clock, published.append, span, **options), clock, published)
 
     return make

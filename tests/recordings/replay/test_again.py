@@ -45,7 +45,7 @@ def test_a_match_of_ghosts_alone_is_the_recorded_match(played):
 
 
 def test_one_side_of_ghosts_does_what_it_did_whatever_the_other_does(played):
-    """Live robots see other noise from another seed: the world diverges, and ghosts are told what they were told."""
+    """Live robots see other noise from another seed: the world diverges, and ghosts keep their recorded inputs."""
     recorded, again = chains(played, ["magenta1", "magenta2"], seed=99)
     assert again[0] == recorded[0] and again[-1] != recorded[-1]
     ghost = Ghost("magenta1", inputs_of(played))
@@ -78,7 +78,7 @@ def test_a_ghost_side_takes_the_robots_that_were_recorded(played):
 @pytest.mark.parametrize(
     ("ghost", "word"), [("magenta", "write it as"), ("blue=a.mcap", "write it as"), ("cyan=none.mcap", "No such file")]
 )
-def test_a_ghost_that_is_none_is_said(ghost, word):
+def test_an_invalid_ghost_is_reported(ghost, word):
     with pytest.raises(TouchlineError, match=word):
         teams_of([ghost])
 
@@ -89,7 +89,7 @@ def test_a_recording_with_other_ticks_is_no_ghost_here(played):
 
 
 @pytest.mark.parametrize(("robot", "brain"), [("cyan2", SIMPLE), ("magenta2", NUBOT)])
-def test_the_brain_that_played_says_again_what_it_said(played, robot, brain):
+def test_the_brain_that_played_repeats_its_commands(played, robot, brain):
     verdict = compare_brain(played, robot, brain)
     assert (verdict.different, verdict.first, verdict.until) == (0, None, "")
     assert verdict.sights == "simulated"
@@ -97,7 +97,7 @@ def test_the_brain_that_played_says_again_what_it_said(played, robot, brain):
     assert "identical" in verdict.sentence()
 
 
-def test_another_brain_differs_and_it_is_said_where(played):
+def test_the_differences_of_another_brain_are_reported(played):
     verdict = compare_brain(played, "cyan2", NUBOT)
     assert verdict.different > 0 and verdict.first is not None
     assert f"first at tick {verdict.first.tick}" in verdict.sentence()
@@ -113,6 +113,6 @@ def test_a_brain_that_raises_is_named_with_the_tick(played, monkeypatch):
         compare_brain(played, "cyan2", SIMPLE)
 
 
-def test_a_robot_that_did_not_play_is_said(played):
+def test_a_robot_that_did_not_play_is_reported(played):
     with pytest.raises(TouchlineError, match='robot is "cyan9"'):
         compare_brain(played, "cyan9", SIMPLE)

@@ -1,4 +1,4 @@
-"""The host of a replay, on the in-process bus: what is heard, who is answered, and what a recorder makes of it."""
+"""The host of a replay, on the in-process bus: its messages, its replies, and a recording of it."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +13,7 @@ from recordings.recorder.recorder import Recorder
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.contract import NoReplyError
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
@@ -27,7 +27,7 @@ class Room:
     """A replay and those who listen to it, in one process, on one clock."""
 
     def __init__(self, match: str = "friendly") -> None:
-        self.medium, self.clock, self.match = Medium(), SteppedClock(), match
+        self.medium, self.clock, self.match = SharedState(), SteppedClock(), match
 
     def seat(self) -> InProcessBus:
         return self.medium.open_bus(self.match, SteppedClock())
@@ -51,7 +51,7 @@ def room() -> Iterator[Room]:
     yield Room()
 
 
-def test_what_is_recorded_is_heard_on_its_keys_in_its_order(recorded, room):
+def test_recorded_messages_are_published_on_their_keys_in_their_order(recorded, room):
     listener = room.seat()
     worlds, commands = listener.subscribe(WORLD), listener.subscribe(COMMAND)
     room.host(recorded.path, rate=None).run()
@@ -175,7 +175,7 @@ def test_a_newcomer_gets_the_latched_messages_while_it_is_paused(recorded, room)
     assert events.receive() is None
 
 
-def test_to_a_recorder_nothing_is_said_twice_while_it_stands_still(recorded, room):
+def test_a_paused_replay_publishes_no_message_twice_while_a_recorder_listens(recorded, room):
     host = room.host(recorded.path, start="1.0", paused=True)
     recorder = room.seat()
     recorder.declare_alive("recorder", "recorder")
@@ -204,7 +204,7 @@ def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written
     heard = []
     while (received := worlds.receive()) is not None:
         heard.append(received.message().tick)
-    assert list(dict.fromkeys(heard)) == list(range(heard[0], 200))  # while it stood still, it said where again
+    assert list(dict.fromkeys(heard)) == list(range(heard[0], 200))  # a paused replay repeats its latched messages
 
 
 @pytest.mark.parametrize(
@@ -218,7 +218,7 @@ def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written
         ({"start": "goal:7"}, "goal happened 1 times"),
     ],
 )
-def test_what_cannot_be_replayed_is_said_in_one_line(recorded, wanted, word):
+def test_an_impossible_replay_is_reported_in_one_line(recorded, wanted, word):
     with pytest.raises(TouchlineError) as error:
         Replay(ReplaySettings(recorded.path, **wanted))
     assert word in str(error.value) and "\n" not in str(error.value)

@@ -34,7 +34,7 @@ class Viewer:
         """Topic → log time and payload of what came."""
         self.sessions: list[str] = []
         self.states: list[tuple[int, int, float]] = []
-        """Status, time in ns and speed, as they were told."""
+        """Status, time in ns and speed, as published."""
         self.time_ns = -1
 
     def until(self, happened: Callable[[], object]) -> None:
@@ -103,7 +103,7 @@ def test_it_offers_every_key_and_every_topic_for_viewers_with_a_schema_that_they
         assert (offered[topic]["schemaName"], offered[topic]["encoding"]) == (message, "protobuf")
 
 
-def test_whoever_comes_late_is_given_what_was_said_last_and_then_all_that_is_said(viewer, recorded):
+def test_late_viewers_receive_the_latched_messages_and_then_all_others(viewer, recorded):
     viewer.subscribe()
     viewer.until(lambda: FIELD in viewer.data and "world" in viewer.data)
     field = SceneUpdate_pb2.SceneUpdate.FromString(viewer.data[FIELD][0][1])
@@ -119,7 +119,7 @@ def test_whoever_comes_late_is_given_what_was_said_last_and_then_all_that_is_sai
     } == {log_ns}
 
 
-def test_the_time_that_viewers_are_told_is_that_of_the_replay(viewer):
+def test_viewers_receive_the_time_of_the_replay(viewer):
     viewer.play(0.3)
     viewer.until(lambda: viewer.time_ns == viewer.player.position_ns)
     assert viewer.time_ns > 700_000_000
@@ -151,7 +151,7 @@ def test_after_seeking_back_viewers_begin_anew_with_the_pitch(viewer):
     viewer.until(lambda: viewer.data.get(TF, [(0, b"")])[-1][0] == viewer.player.position_ns)
 
 
-def test_a_port_that_is_taken_is_said_in_one_line(viewer, recorded):
+def test_a_port_in_use_is_reported_in_one_line(viewer, recorded):
     port = int(viewer.view.address.rpartition(":")[2])
     with pytest.raises(
         TouchlineError, match=rf"--foxglove-port {port} cannot be listened on .*; choose another"
@@ -160,7 +160,7 @@ def test_a_port_that_is_taken_is_said_in_one_line(viewer, recorded):
     assert "\n" not in str(told.value)
 
 
-def test_without_its_extra_the_line_that_brings_it_is_said(monkeypatch, recorded):
+def test_without_its_extra_the_error_names_the_remedy(monkeypatch, recorded):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     with pytest.raises(TouchlineError, match=r"pip install 'touchline\[viz\]'"):
         LiveView("a match", recorded.manifest.setup, None, 0)

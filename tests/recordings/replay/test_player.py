@@ -1,4 +1,4 @@
-"""The player: what is said when, in which order, and what its controls do."""
+"""The player: times and order of its messages, and its controls."""
 
 import math
 
@@ -15,22 +15,22 @@ def ask(make_player_rig, operation: ReplayOperation, **more):
 
 
 @pytest.mark.parametrize("rate", [0.25, 1.0, 7.0, 1000.0, math.inf])
-def test_at_any_rate_everything_is_said_in_the_recorded_order(make_player_rig, recorded, rate):
+def test_at_any_rate_all_messages_are_published_in_the_recorded_order(make_player_rig, recorded, rate):
     played = make_player_rig(rate=rate)
     played.finish()
-    assert played.heard == list(recorded.messages())
+    assert played.published == list(recorded.messages())
 
 
 @pytest.mark.parametrize("rate", [0.5, 1.0, 4.0])
 def test_messages_are_spaced_as_they_were(make_player_rig, rate):
-    """A message is said no sooner than its time and at the first look behind it, here of 1 ms."""
+    """A message is published not before its time, and at the first poll after it; polls are 1 ms apart."""
     played, said_at = make_player_rig(rate=rate), []
     for _ in range(round(4.2 / rate / 0.001)):
-        before = len(played.heard)
+        before = len(played.published)
         played.player.pump()
-        said_at += [(one.time, played.clock.now()) for one in played.heard[before:]]
+        said_at += [(one.time, played.clock.now()) for one in played.published[before:]]
         played.clock.sleep_until(played.clock.now() + 0.001)
-    assert len(said_at) == len(played.heard) > 1000
+    assert len(said_at) == len(played.published) > 1000
     assert all(-1e-9 <= at - time / rate <= 0.001 + 1e-9 for time, at in said_at)
 
 
@@ -51,7 +51,7 @@ def test_it_plays_from_one_time_up_to_and_with_another(make_player_rig):
 def test_before_it_begins_in_the_middle_it_publishes_latched_messages_and_no_event(make_player_rig, recorded):
     played = make_player_rig(3.0)
     played.player.pump()
-    told = [one for one in played.heard if one.time < 3.0]
+    told = [one for one in played.published if one.time < 3.0]
     newest = {one.key: one for one in recorded.messages() if one.time < 3.0 and one.topic.key in LATCHED_TOPICS}
     assert sorted(told) == sorted(newest.values())
     assert "game/state" in newest and "game/event" not in newest
@@ -61,9 +61,9 @@ def test_a_paused_replay_publishes_nothing_and_resumes_where_it_was(make_player_
     played = make_player_rig()
     played.run(1.0)
     ask(played, ReplayOperation.PAUSE)
-    heard = len(played.heard)
+    count = len(played.published)
     played.run(5.0, 0.1)
-    assert len(played.heard) == heard
+    assert len(played.published) == count
     ask(played, ReplayOperation.PLAY)
     played.finish()
     assert played.ticks() == list(range(200))
@@ -73,14 +73,14 @@ def test_a_paused_replay_publishes_nothing_and_resumes_where_it_was(make_player_
 def test_a_replay_that_begins_paused_publishes_nothing(make_player_rig):
     played = make_player_rig(paused=True)
     played.run(1.0, 0.1)
-    assert played.heard == []
+    assert played.published == []
 
 
 def test_a_step_publishes_one_tick_with_all_its_messages(make_player_rig, recorded):
     played = make_player_rig(paused=True)
     ask(played, ReplayOperation.STEP)
     played.run(0.1)
-    assert played.heard == [one for one in recorded.messages() if one.time == 0.0]
+    assert played.published == [one for one in recorded.messages() if one.time == 0.0]
     ask(played, ReplayOperation.STEP, ticks=3)
     played.run(0.1)
     assert played.ticks() == [0, 1, 2, 3]
@@ -100,16 +100,16 @@ def test_a_step_pauses_what_is_played(make_player_rig):
 def test_after_a_seek_it_publishes_the_latched_messages_and_goes_on_from_there(make_player_rig, to):
     played = make_player_rig()
     played.run(0.3)
-    heard = len(played.heard)
+    count = len(played.published)
     reply = ask(played, ReplayOperation.SEEK, to=str(to))
     assert reply.accepted and reply.time == pytest.approx(to)
-    latched = played.heard[heard:]
+    latched = played.published[count:]
     assert {one.key for one in latched} >= {"world", "game/state", "host/applied", "robot/cyan1/command"}
     assert max(one.time for one in latched) == pytest.approx(to)
     assert len({one.key for one in latched}) == len(latched)
-    heard = len(played.heard)
+    count = len(played.published)
     played.finish()
-    assert played.ticks(heard) == list(range(round(to / TICK), 200))
+    assert played.ticks(count) == list(range(round(to / TICK), 200))
 
 
 def test_a_seek_from_here_goes_so_far_and_stays_within_the_recording(make_player_rig):
@@ -155,11 +155,11 @@ def test_a_replay_with_stay_remains_at_its_end_and_can_seek_back(make_player_rig
 def test_latched_messages_can_be_published_again(make_player_rig):
     played = make_player_rig()
     played.run(1.0)
-    heard = len(played.heard)
+    count = len(played.published)
     played.player.republish_latched()
-    assert played.ticks(heard) == [50]
-    assert {one.key for one in played.heard[heard:]} == {
-        one.key for one in played.heard if one.topic.key in LATCHED_TOPICS
+    assert played.ticks(count) == [50]
+    assert {one.key for one in played.published[count:]} == {
+        one.key for one in played.published if one.topic.key in LATCHED_TOPICS
     }
 
 

@@ -35,7 +35,7 @@ def test_seconds_and_events_name_a_seek_target(words, time):
         ("", "give seconds, or an event"),
     ],
 )
-def test_what_is_no_seek_target_of_the_recording_is_said_in_one_line(words, answer):
+def test_an_unknown_seek_target_is_reported_in_one_line(words, answer):
     with pytest.raises(TouchlineError) as error:
         time_of(words, TARGETS)
     said = str(error.value).replace("not in this recording: ", "").replace(": it has", "; it has")

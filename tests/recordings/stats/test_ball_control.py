@@ -7,7 +7,7 @@ from schemas.game import Phase
 from schemas.side import Side
 
 
-def test_the_ball_is_in_play_while_the_state_says_so(script) -> None:
+def test_the_ball_is_in_play_while_the_game_state_is_running(script) -> None:
     script.rest(10)
     script.shot(phase=Phase.STOPPED, running=False)
     script.rest(20)

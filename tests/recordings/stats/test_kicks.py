@@ -83,7 +83,7 @@ def test_a_shot_that_goes_in_off_the_keeper_is_a_goal_and_no_save(script) -> Non
 
 
 @pytest.mark.parametrize(("off", "outcome"), [((), KickOutcome.BLOCKED), (("magenta1",), KickOutcome.SAVED)])
-def test_while_the_goalkeeper_is_off_the_field_a_shot_is_saved_by_who_keeps_in_its_place(script, off, outcome) -> None:
+def test_while_the_goalkeeper_is_off_the_field_its_substitute_saves_shots(script, off, outcome) -> None:
     kick(script)
     script.shot(touches=["magenta2"], off=off)
     script.shot(touches=["cyan1"], off=off)
@@ -103,7 +103,7 @@ def test_a_save_is_decided_when_somebody_else_has_the_ball(script) -> None:
     assert figures.sides[Side.CYAN].goals == 1 and figures.sides[Side.CYAN].kicks.goals == 0
 
 
-def test_the_keeper_who_kicks_a_saved_ball_away_has_saved_it(script) -> None:
+def test_a_keeper_that_kicks_a_saved_ball_away_has_saved_it(script) -> None:
     kick(script)
     script.shot(touches=["magenta1"])
     kick(script, (-3.0, 3.0, 0.0), "magenta1")

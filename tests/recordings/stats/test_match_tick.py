@@ -16,7 +16,7 @@ def test_the_state_of_a_tick_holds_from_the_next_one_on(script) -> None:
     assert [match_tick.state.running for match_tick in script.match_ticks()] == [True, True, False, False]
 
 
-def test_what_is_said_in_a_tick_without_a_world_belongs_to_the_next(script) -> None:
+def test_messages_of_a_tick_without_a_world_belong_to_the_next_tick(script) -> None:
     script.shot(events=[{"kind": EventKind.BALL_OUT}], placed=["cyan1"])
     script.rest(1)
     script.messages = [

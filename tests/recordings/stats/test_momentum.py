@@ -27,7 +27,7 @@ def test_it_is_mirrored_with_the_sides(new_script) -> None:
     assert values[2] == approx([-value for value in values[0]], abs=0.03)
 
 
-def test_a_free_ball_at_the_centre_and_a_stopped_game_are_nobodys(script) -> None:
+def test_a_free_ball_at_the_centre_and_a_stopped_game_give_no_side_momentum(script) -> None:
     script.rest(60)
     assert set(script.figures().momentum) == {0.0}
     script.held_by = "cyan2"

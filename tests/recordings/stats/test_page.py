@@ -1,5 +1,6 @@
 """The page in a real browser: what is drawn is what was recorded, wherever one jumps."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from recordings.stats.page import page, page_of, write_page
 from schemas.errors import TouchlineError
 from schemas.messages.world import World
 
-FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xC9, 0x23, 0x7B)}
+FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xEF, 0x4F, 0xA0)}
 
 PIXEL = """([x, y]) => {
     const canvas = document.getElementById("pitch"), context = canvas.getContext("2d");
@@ -53,7 +54,7 @@ class Opened:
         self.until("window.touchline !== undefined && document.getElementById('pitch').style.height !== ''")
 
     def until(self, holds: str) -> None:
-        """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
+        """Wait; the page's content security policy forbids evaluating text in it, so it is polled from outside."""
         for _ in range(500):
             if self.page.evaluate(holds):
                 return
@@ -147,6 +148,15 @@ def test_an_event_jumps_there_and_the_robots_with_it(opened: Opened, recording: 
     assert opened.time > before
 
 
+def test_events_call_the_teams_by_their_names(opened: Opened, recording: Recording) -> None:
+    opened.page.locator("#all-events").click()
+    texts = opened.page.locator("#events .what").all_text_contents()
+    assert [text for text in texts if re.search(r"\b(cyan|magenta)\b", text)] == []
+    assert recording.manifest.setup is not None
+    for team in recording.manifest.setup.teams.values():
+        assert any(re.search(rf"\b{team.name}\b", text) for text in texts)
+
+
 def test_the_clock_and_the_phase_are_those_of_the_moment(opened: Opened, recording: Recording) -> None:
     for time in (0.5, 8.0, 23.9):
         opened.scrub(time)
@@ -157,7 +167,7 @@ def test_the_clock_and_the_phase_are_those_of_the_moment(opened: Opened, recordi
         assert int(told_minutes) == int(minutes) and float(told_seconds) == pytest.approx(seconds, abs=0.25)
         *_, state = [state for _, state in recording.decoded("game/state", end=time)]
         assert opened.page.locator("#phase").inner_text().startswith(state.phase.value.replace("_", " "))
-        assert opened.page.locator("#score").inner_text() == f"{state.score.cyan} : {state.score.magenta}"
+        assert opened.page.locator("#score-now").inner_text() == f"{state.score.cyan} : {state.score.magenta}"
 
 
 def test_it_plays_pauses_and_changes_speed_by_keys_and_buttons(opened: Opened) -> None:
@@ -237,7 +247,9 @@ def test_a_link_opens_the_page_at_a_time(browser: Browser, made: tuple[MatchFigu
     tab.context.close()
 
 
-def test_a_recording_that_tells_little_makes_a_page_that_says_so(browser: Browser, script: Any, tmp_path: Path) -> None:
+def test_a_page_of_a_recording_with_little_evidence_names_what_is_missing(
+    browser: Browser, script: Any, tmp_path: Path
+) -> None:
     script.rest(5)
     script.messages = [(time, message) for time, message in script.messages if not hasattr(message, "phase")]
     write_page(tmp_path / "little.html", page(script.content()))
@@ -269,7 +281,82 @@ def test_names_are_shown_as_they_are_and_never_run(
     tab.context.close()
 
 
-def test_a_page_that_cannot_be_written_is_said_in_one_line(tmp_path: Path) -> None:
+def test_a_page_that_cannot_be_written_is_reported_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(TouchlineError, match=r"--html .*file/page\.html: .*; give a path that can be written"):
         write_page(tmp_path / "file" / "page.html", "")
+
+
+def test_the_headline_is_the_final_score_at_any_moment(opened: Opened, recording: Recording) -> None:
+    *_, final = [state for _, state in recording.decoded("game/state")]
+    for time in (0.0, 12.0, 24.0):
+        opened.scrub(time)
+        assert opened.page.locator("#score").inner_text() == f"{final.score.cyan} : {final.score.magenta}"
+
+
+def test_the_end_key_leads_to_the_last_thing_that_happened(opened: Opened, recording: Recording) -> None:
+    opened.page.keyboard.press("End")
+    *_, last = [event for _, event in recording.decoded("game/event")]
+    assert opened.time >= last.time
+    *_, state = [state for _, state in recording.decoded("game/state")]
+    assert opened.page.locator("#phase").inner_text().startswith(state.phase.value.replace("_", " "))
+
+
+@pytest.mark.parametrize("width", [390, 1360])
+def test_the_knob_stands_above_the_cursor(browser: Browser, made: tuple[MatchFigures, Path], width: int) -> None:
+    tab = Opened(browser, made[1], width, 844)
+    start, end = tab.page.evaluate("[window.touchline.match.start, window.touchline.match.end]")
+    cursor = tab.page.locator("#momentum").bounding_box()
+    scrub = tab.page.locator("#scrub").bounding_box()
+    assert cursor is not None and scrub is not None
+    for share in (0.0, 0.25, 0.8, 1.0):
+        tab.scrub(start + share * (end - start))
+        knob = scrub["x"] + 8 + share * (scrub["width"] - 16)  # the knob is 16 px wide
+        assert knob == pytest.approx(cursor["x"] + share * cursor["width"], abs=1.0)
+    tab.context.close()
+
+
+def test_the_goals_of_all_maps_are_inside_their_pictures(opened: Opened, made: tuple[MatchFigures, Path]) -> None:
+    shown = """() => {
+        const { pitch } = window.touchline.match, depth = pitch.length / 2 + pitch.goal_depth;
+        return [...document.querySelectorAll("#heat canvas, #shots")].map((canvas) => {
+            const scale = Number(canvas.dataset.scale);
+            return canvas.clientWidth / 2 - depth * scale;
+        });
+    }"""
+    assert all(room > 1.0 for room in opened.page.evaluate(shown))
+
+
+def test_marks_are_drawn_anew_when_the_colours_of_the_system_change(opened: Opened) -> None:
+    mark = """() => {
+        const { width, height } = document.getElementById("momentum");
+        const { data } = document.getElementById("momentum").getContext("2d").getImageData(0, height / 2, width, 1);
+        return [data[4 * 3], data[4 * 3 + 1], data[4 * 3 + 2]];
+    }"""
+    opened.page.emulate_media(color_scheme="light")
+    opened.until(f"(({mark})())[0] < 128")
+    opened.page.emulate_media(color_scheme="dark")
+    opened.until(f"(({mark})())[0] > 128")
+
+
+def test_print_keeps_bars_and_colours(opened: Opened) -> None:
+    opened.page.emulate_media(media="print")
+    kept = "[...document.querySelectorAll('.share i, .mark')].map((one) => getComputedStyle(one).printColorAdjust)"
+    assert set(opened.page.evaluate(kept)) == {"exact"}
+    assert not opened.page.locator("#scrub").is_visible()
+    assert opened.page.evaluate("getComputedStyle(document.getElementById('events')).overflowY") == "visible"
+
+
+def test_a_phone_shows_all_columns_of_the_robots(browser: Browser, made: tuple[MatchFigures, Path]) -> None:
+    tab = Opened(browser, made[1], 390, 844)
+    last = tab.page.locator("#robots thead th").last.bounding_box()
+    assert last is not None and last["x"] + last["width"] <= 390
+    tab.context.close()
+    narrow = Opened(browser, made[1], 300, 700)
+    room = narrow.page.evaluate(
+        "(() => { const box = document.querySelector('.scroll'); box.scrollLeft = 1000;"
+        " const last = document.querySelector('#robots thead th:last-child').getBoundingClientRect();"
+        " return box.getBoundingClientRect().right - last.right; })()"
+    )
+    assert room >= -1.0  # it scrolls to its last column
+    narrow.context.close()

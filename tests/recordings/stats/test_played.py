@@ -59,7 +59,7 @@ def test_the_time_in_play_is_the_referees_effective_time(recording: Recording, f
     assert figures.in_play_s == approx(figures.in_play * figures.duration)
 
 
-def test_possession_and_nobodys_time_make_up_the_time_in_play(figures: MatchFigures) -> None:
+def test_possession_and_the_time_of_a_free_ball_add_up_to_the_time_in_play(figures: MatchFigures) -> None:
     sides = [figures.sides[side] for side in Side]
     assert sum(side.possession_s for side in sides) + figures.free_s == approx(figures.in_play_s)
     assert sum(side.possession for side in sides) == approx(1.0)

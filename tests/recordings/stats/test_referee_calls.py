@@ -37,7 +37,7 @@ def test_fouls_are_counted_by_rule_and_offender_and_cards_by_colour(script) -> N
     assert figures.robots[3].cards == {"yellow": 1, "red": 0}
 
 
-def test_a_restart_is_counted_when_it_is_signalled_and_not_when_it_is_said_again(script) -> None:
+def test_a_restart_is_counted_when_it_is_signalled_and_not_when_its_state_is_repeated(script) -> None:
     for side, phase in ((Side.CYAN, Phase.THROW_IN), (Side.CYAN, Phase.THROW_IN), (Side.MAGENTA, Phase.CORNER)):
         script.out()
         script.shot(phase=phase, side=side, running=False)

@@ -1,15 +1,20 @@
-"""Recordings to verify, and copies of them in which somebody has changed something."""
+"""Recordings to verify, and copies of them with changes."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
 from pydantic_core import from_json, to_json
 
-from recordings.container.sealed_metadata import sealed
+from recordings.container.manifest import Result
+from recordings.container.mcap_file import DERIVED
+from recordings.container.sealed_metadata import digest, from_metadata, sealed, to_metadata
+from recordings.recorder.sequence_tracker import SequenceTracker
+from schemas.bus.contract import Stamp
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
@@ -55,44 +60,106 @@ def operated(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[
     return path
 
 
+class Copied(NamedTuple):
+    """A message of a recording, with its payload as fields."""
+
+    key: str
+    fields: Any
+    log_ns: int
+    sent_ns: int
+    sequence: int
+
+
+Messages = Callable[[list[Copied]], list[Copied]]
+"""The messages of a copy, from those of the original in the order of the file."""
 Editor = Callable[..., Path]
+
+
+def unchanged(_name: str, content: Any) -> Any:
+    return content
+
+
+def rewrite(
+    source: Path,
+    path: Path,
+    messages: Messages,
+    metadata: Callable[[str, dict[str, str]], dict[str, str]] = unchanged,
+    attachment: Callable[[str, bytes], bytes] = unchanged,
+    recount: bool = True,
+) -> Path:
+    """Copy a recording with other messages, attachments or metadata; every checksum is right again.
+
+    With `recount`, so are the counts in its result.
+    """
+    with source.open("rb") as file, path.open("wb") as out:
+        reader, writer = make_reader(file), Writer(out)
+        writer.start(profile="", library="touchline/test")
+        copied, originals, channels = [], {}, {}
+        for schema, channel, message in reader.iter_messages(log_time_order=False):
+            assert schema is not None
+            channels.setdefault(channel.topic, (schema, channel))
+            if DERIVED in channel.metadata:
+                continue
+            one = Copied(
+                channel.topic, from_json(message.data), message.log_time, message.publish_time, message.sequence
+            )
+            originals[id(one.fields)] = (message.data, to_json(one.fields))
+            copied.append(one)
+        copied = messages(copied)
+        attached = {one.name: (one.media_type, attachment(one.name, one.data)) for one in reader.iter_attachments()}
+        trackers: dict[str, SequenceTracker] = defaultdict(SequenceTracker)
+        payloads = []
+        for one in copied:
+            data, before = originals.get(id(one.fields), (b"", b""))
+            payloads.append(data if to_json(one.fields) == before else to_json(one.fields))
+            trackers[one.key].add(Stamp(one.sequence, one.sent_ns, one.log_ns), len(payloads[-1]))
+        for record in reader.iter_metadata():
+            fields = metadata(record.name, record.metadata)
+            if record.name == "manifest":
+                digests = {name: digest(content) for name, (_, content) in attached.items()}
+                fields = {**fields, "attached": to_json(digests).decode()}
+            elif record.name == "result" and recount:
+                result = from_metadata(Result, fields)
+                counts = {key: tracker.count() for key, tracker in trackers.items()}
+                fields = to_metadata(result.counted(counts))
+            writer.add_metadata(record.name, sealed(fields))
+        for name, (media_type, content) in attached.items():
+            writer.add_attachment(0, 0, name, media_type, content)
+        numbers: dict[str, int] = {}
+        for one, payload in zip(copied, payloads, strict=True):
+            if one.key not in numbers:
+                schema, channel = channels[one.key]
+                number = writer.register_schema(schema.name, schema.encoding, schema.data)
+                numbers[one.key] = writer.register_channel(one.key, channel.message_encoding, number, channel.metadata)
+            writer.add_message(numbers[one.key], one.log_ns, payload, one.sent_ns, one.sequence)
+        writer.finish()
+    return path
+
+
+def of_key(key: str, edit: Edit) -> Messages:
+    """Edit each message of a key."""
+
+    def all_of(messages: list[Copied]) -> list[Copied]:
+        edited = [one._replace(fields=edit(one.fields)) if one.key == key else one for one in messages]
+        return [one for one in edited if one.fields is not None]
+
+    return all_of
 
 
 @pytest.fixture
 def edited(tmp_path: Path) -> Editor:
     """Copies a recording with other messages of one key, attachments or metadata; every checksum is right again."""
 
-    def copy(source: Path, key: str, edit: Edit, metadata: Callable[[str, Fields], Fields] = lambda _, it: it) -> Path:
-        path = tmp_path / "edited.mcap"
-        with source.open("rb") as file, path.open("wb") as out:
-            reader, writer = make_reader(file), Writer(out)
-            writer.start(profile="", library="touchline/test")
-            for record in reader.iter_metadata():
-                writer.add_metadata(record.name, sealed(metadata(record.name, record.metadata)))
-            for attachment in reader.iter_attachments():
-                writer.add_attachment(0, 0, attachment.name, attachment.media_type, attachment.data)
-            schemas: dict[int, int] = {}
-            channels: dict[int, int] = {}
-            for schema, channel, message in reader.iter_messages(log_time_order=False):
-                assert schema is not None
-                if channel.id not in channels:
-                    number = writer.register_schema(schema.name, schema.encoding, schema.data)
-                    schemas[schema.id] = number
-                    channels[channel.id] = writer.register_channel(
-                        channel.topic, channel.message_encoding, number, channel.metadata
-                    )
-                data = message.data
-                if channel.topic == key:
-                    fields = edit(from_json(data))
-                    if fields is None:
-                        continue
-                    data = to_json(fields)
-                where = channels[channel.id]
-                writer.add_message(where, message.log_time, data, message.publish_time, message.sequence)
-            writer.finish()
-        return path
+    def copy(source: Path, key: str, edit: Edit, metadata: Any = unchanged, **options: Any) -> Path:
+        return rewrite(source, tmp_path / "edited.mcap", of_key(key, edit), metadata, **options)
 
     return copy
+
+
+@pytest.fixture
+def rewritten(tmp_path: Path) -> Editor:
+    """Copies a recording with other messages."""
+    return lambda source, messages, **options: rewrite(source, tmp_path / "rewritten.mcap", messages, **options)
 
 
 @pytest.fixture

@@ -130,7 +130,7 @@ def test_corner_arcs_are_quarters_of_a_circle_on_the_pitch(board, setup):
     )
 
 
-def test_goals_stand_behind_the_goal_lines_as_wide_and_high_as_the_profile_says(board, setup):
+def test_goals_stand_behind_the_goal_lines_with_the_width_and_height_of_the_profile(board, setup):
     pitch = setup.pitch
     scene = board.scene(FIELD, world())
     for end, sign in (("+x", 1), ("-x", -1)):
@@ -210,7 +210,7 @@ def test_what_stands_still_is_drawn_when_it_changes_and_every_five_seconds(board
         assert [tick for tick, one in enumerate(drawn) if topic in one] == [0, REPEAT_NS // TICK_NS]
 
 
-def test_a_robot_that_is_off_the_field_fades_and_says_why(board):
+def test_a_robot_off_the_field_is_faded_and_labelled_with_the_reason(board):
     board.take(world())
     away = world(1, {"cyan1": robot(off_field=OffField.RED_CARD), "magenta1": robot()})
     entity = board.scene(ROBOTS, away)["cyan1"]
@@ -328,5 +328,5 @@ def contrast(one: Colour, other: Colour) -> float:
         (MARK[Side.MAGENTA], ROBOT[Side.MAGENTA], 4.5),
     ],
 )
-def test_colours_are_told_apart_by_lightness_alone(one, other, least):
+def test_colours_are_distinguishable_by_lightness_alone(one, other, least):
     assert contrast(one, other) >= least

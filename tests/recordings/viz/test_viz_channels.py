@@ -1,4 +1,4 @@
-"""What viewers draw, in the file: read with the stock readers alone, and in nobody's way."""
+"""The channels for viewers in a file: stock readers read them, and other tools ignore them."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from recordings.inspection.facts_table import summary_lines
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from recordings.stats.match_statistics import figures_of_recording
 from recordings.viz.drawing import BALL, EVENTS, FIELD, GAME, ROBOTS, SCHEMAS, TF
 from schemas.config.match_config import load_match
@@ -116,7 +116,7 @@ def test_with_or_without_it_a_recording_is_the_same_match(short, plain, tmp_path
     assert facts_of(seen).messages == facts_of(bare).messages
 
 
-def test_info_says_that_it_is_there(short, plain):
+def test_info_reports_the_channels_for_viewers(short, plain):
     assert dict(summary_lines(facts_of(open_recording(short))))["for viewers"] == " ".join(sorted(SCHEMAS))
     assert "for viewers" not in dict(summary_lines(facts_of(open_recording(plain))))
 

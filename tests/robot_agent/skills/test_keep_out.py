@@ -1,4 +1,4 @@
-"""Nobody but the goalkeeper drives into a goal area."""
+"""Only the goalkeeper drives into a goal area."""
 
 import math
 

@@ -4,9 +4,10 @@ import math
 from collections.abc import Callable
 
 import pytest
-from msgspec.structs import asdict, replace
+from msgspec.structs import replace
 
-from robot_agent.contract import Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Briefing
 from schemas.messages.command import Command
 from schemas.messages.radio import Motion
 from schemas.messages.setup import Setup
@@ -39,7 +40,7 @@ class Squad:
             self.said[name] = replace(heard, age=heard.age + 0.02)
         for name, command in commands.items():
             if command.radio is not None:
-                self.said[name] = ReceivedRadio(age=0.0, **asdict(command.radio))
+                self.said[name] = ReceivedRadio.of(command.radio)
         self.tick += 1
         return commands
 
@@ -51,7 +52,7 @@ class Squad:
         return self.sight_of(self.tick, name, self.poses[name], obstacles=obstacles, radio=radio, **seen)
 
     def move(self, commands: dict[str, Command]) -> None:
-        """Everybody drives exactly as demanded for one tick."""
+        """All robots drive exactly as demanded for one tick."""
         for name, command in commands.items():
             x, y, heading = self.poses[name]
             c, s, drive = math.cos(heading), math.sin(heading), command.drive

@@ -33,6 +33,29 @@ def test_a_robot_that_the_order_does_not_name_stands_still_and_acknowledges(squa
 
 
 @pytest.mark.parametrize("team", TEAMS)
+@pytest.mark.parametrize("test", list(CoachTest))
+def test_a_test_that_a_team_does_not_know_is_refused_by_its_name(squad, team, test):
+    """Only NuBot's robots have the paper's behaviour machine."""
+    made = squad(team, STARTS)
+    places = {"point_a": Point(x=5.0, y=3.0), "point_b": Point(x=2.0, y=3.0)}
+    given = order(test, robot_a="cyan2", robot_b="cyan3", radius=1.0, **places)
+    unknown = test is CoachTest.MACHINE and team == "simple"
+    for _ in range(7):  # some answers repeat the one before
+        commands = made.act(ball=(4.0, 2.0), order=given)
+        refusals = {command.refuses_order for command in commands.values()}
+        assert refusals == {"unknown test: machine" if unknown else ""}
+
+
+@pytest.mark.parametrize("team", TEAMS)
+def test_a_tactic_that_a_team_does_not_know_is_refused_by_its_name(squad, team):
+    made = squad(team, STARTS)
+    for _ in range(7):
+        commands = made.act(ball=(-9.0, 5.0), order=CoachOrder(sequence=3, tactic="all " * 20))
+        assert {command.refuses_order for command in commands.values()} == {f"unknown tactic: {'all ' * 16}"}
+    assert made.act(order=CoachOrder(sequence=4))["cyan1"].refuses_order == ""
+
+
+@pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("phase", [TeamPhase.STOPPED, TeamPhase.HALF_TIME, TeamPhase.FULL_TIME])
 def test_in_a_pause_no_test_is_shown(squad, team, phase):
     commands = squad(team, STARTS).act(ball=(4.0, 2.0), phase=phase, running=False, order=SHOOT)

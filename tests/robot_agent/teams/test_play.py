@@ -6,7 +6,8 @@ import math
 import pytest
 from msgspec.structs import replace
 
-from robot_agent.contract import Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Briefing
 from robot_agent.teams.player import RADIO_EVERY
 from robot_agent.teams.set_piece import required_distance
 from robot_agent.teams.simple.striker import PATIENCE
@@ -289,7 +290,7 @@ def test_the_coachs_top_speed_is_kept(squad, team):
 
 
 @pytest.mark.parametrize("team", TEAMS)
-def test_a_keeper_stays_in_its_goal_and_alone_each_team_does_as_it_says(squad, setup, sight_of, team):
+def test_a_keeper_stays_in_its_goal_and_a_single_robot_follows_its_teams_description(squad, setup, sight_of, team):
     made = squad(team)
     for _ in range(200):
         made.move(made.act(ball=(5.0, 3.0)))

@@ -29,7 +29,7 @@ def test_a_striker_stays_striker_until_another_is_clearly_earlier(pick):
     assert STAYS > 0.0
 
 
-def test_a_pass_is_left_to_its_receiver_not_to_the_one_who_kicked_it(pick):
+def test_a_pass_is_left_to_its_receiver_and_not_to_its_kicker(pick):
     rolling = (0.6, 0.0, 4.0, 0.0)
     candidates = {"kicker": at(0.0, 0.0, Role.STRIKER), "receiver": at(5.0, 0.5, is_receiver=True)}
     assert pick(candidates, rolling) == "receiver"

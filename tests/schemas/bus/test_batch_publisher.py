@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from schemas.bus import batch_publisher as module
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import NoReplyError, ReceivedMessage, Stamp
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.messages.command import Command
 from schemas.messages.record_batch import (
     Entry,
@@ -27,7 +27,7 @@ KEY = "robot/cyan1/command"
 
 @pytest.fixture
 def seat():
-    return Medium().open_bus("friendly", SteppedClock())
+    return SharedState().open_bus("friendly", SteppedClock())
 
 
 @pytest.fixture
@@ -72,7 +72,7 @@ def test_what_others_say_is_noted_as_it_came_with_what_travelled_beside_it(batch
     ]
 
 
-def test_what_the_host_says_goes_out_at_once_and_is_noted_if_it_is_recorded(batches, heard, seat):
+def test_messages_of_the_host_are_published_at_once_and_added_to_the_batch_if_recorded(batches, heard, seat):
     world, sight = batches.publisher(WORLD), batches.publisher(SIGHT, robot="cyan1")
     worlds, sights = seat.subscribe(WORLD), seat.subscribe(SIGHT)
     stamps = [world.put_payload(b'{"tick":1}'), sight.put_payload(b"{}"), world.put_payload(b'{"tick":2}')]
@@ -185,7 +185,7 @@ def test_without_a_last_number_all_newer_batches_are_given(batches, seat):
     assert ask(batches, seat, first=2, last=1)[1] == []
 
 
-def test_a_host_that_has_published_nothing_says_so(batches, seat):
+def test_a_host_without_batches_replies_with_none(batches, seat):
     reply, numbers = ask(batches, seat, first=0)
     assert (reply.oldest, numbers) == (0, [])
 
@@ -219,13 +219,13 @@ def test_batches_from_before_a_time_are_left_out(batches, seat):
 
 
 def test_a_reply_holds_at_least_one_batch_and_no_more_bytes_than_a_limit(batches, seat, monkeypatch):
-    monkeypatch.setattr(module, "_REPLY", 2500)
+    monkeypatch.setattr(module, "_MAX_REPLY_BYTES", 2500)
     publish(batches, 6, size=700)
     numbers = ask(batches, seat, first=0)[1]
     assert numbers == list(range(len(numbers)))
     assert 1 < len(numbers) < 6
     assert ask(batches, seat, first=numbers[-1] + 1)[1][0] == numbers[-1] + 1
-    monkeypatch.setattr(module, "_REPLY", 1)
+    monkeypatch.setattr(module, "_MAX_REPLY_BYTES", 1)
     assert ask(batches, seat, first=2)[1] == [2]
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from schemas.bus.contract import Bus, BusError, NoReplyError, Subscription
 from schemas.bus.endpoint import with_free_port
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.game import ActionName, Phase
 from schemas.messages.coach import CoachOrder
@@ -39,7 +39,7 @@ class Buses:
 def buses(request: pytest.FixtureRequest) -> Iterator[Buses]:
     taken: list[Bus] = []
     if request.param == "in_process":
-        medium = Medium()
+        medium = SharedState()
         host: Bus = medium.open_bus("test", WallClock())
 
         def join(match: str = "test") -> Bus:
@@ -68,7 +68,7 @@ def put_until_heard(put: Callable[[], None], subscription: Subscription) -> Any:
         count += 1
         first = subscription.receive(0.1)
     last = first
-    while last.stamp.sequence < count - 1:  # after the first all are heard, and in order
+    while last.stamp.sequence < count - 1:  # after the first, all arrive in order
         received = subscription.receive(SOON)
         assert received is not None
         last = received
@@ -129,7 +129,7 @@ def test_a_topic_of_the_newest_message_gives_a_late_reader_the_newest_alone(buse
     assert reader.receive() is None
 
 
-def test_a_reader_who_wants_the_newest_alone_gets_it_of_a_topic_that_keeps_all(buses: Buses) -> None:
+def test_a_newest_only_subscription_to_a_recovered_topic_gets_the_newest_message(buses: Buses) -> None:
     bus = buses.join()
     reader = bus.subscribe(STATE, newest=True)
     writer = buses.host.publisher(STATE)
@@ -269,7 +269,7 @@ def test_a_question_is_answered(buses: Buses) -> None:
     assert answer.result(SOON).reason == "the match is over"
 
 
-def test_a_question_that_fails_says_why(buses: Buses) -> None:
+def test_a_failed_query_has_a_reason(buses: Buses) -> None:
     server = buses.host.serve(ACTION)
     answer = buses.join().query(ACTION, RefereeAction(action=ActionName.STOP), SOON)
     query = server.receive(SOON)
@@ -279,7 +279,7 @@ def test_a_question_that_fails_says_why(buses: Buses) -> None:
         answer.result(SOON)
 
 
-def test_a_question_that_nobody_answers_is_no_silence(buses: Buses) -> None:
+def test_a_query_without_a_server_fails_at_once(buses: Buses) -> None:
     with pytest.raises(NoReplyError, match="no process answers host/setup"):
         buses.join().query(SETUP, RefereeAction(action=ActionName.STOP)).result(SOON)
 
@@ -307,7 +307,7 @@ def test_who_withdraws_its_token_is_seen_to_go_and_may_come_again(buses: Buses) 
         assert seen is not None and (seen.kind, seen.name, seen.alive) == ("refbox", "cyan", alive)
 
 
-def test_a_watch_begins_with_those_who_are_there(buses: Buses) -> None:
+def test_a_watch_begins_with_the_processes_that_are_present(buses: Buses) -> None:
     bus = buses.join()
     bus.declare_alive("recorder", "main")
     first = buses.host.watch_alive().receive(SOON)

@@ -3,7 +3,8 @@
 import pytest
 
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.bus.gap_recovery import GIVE_UP_S, LOOKBACK, RETRY_S, Gap, GapRecovery
+from schemas.bus.gap_recovery import LOOKBACK, RETRY_S, Gap, GapRecovery
+from schemas.recovery_window import GIVE_UP_S
 from schemas.topics import WORLD
 
 SUBSCRIBED_NS = 5
@@ -46,7 +47,7 @@ class Reader:
 
 @pytest.fixture
 def reader() -> Reader:
-    """One who began before message 5, and has heard all since."""
+    """A reader that began before message 5 and has received all since."""
     reader = Reader()
     assert reader.hear(4, 5, 6, 7) == [4, 5, 6, 7]
     return reader
@@ -145,7 +146,7 @@ def test_a_gap_in_one_key_holds_no_other_back(reader):
     assert reader.hear(1, 2, key="host/applied") == [1, 2]
 
 
-def test_a_writer_that_begins_anew_is_not_asked_for_what_another_said(reader):
+def test_a_restarted_publisher_is_not_queried_for_messages_of_its_predecessor(reader):
     reader.hear(10, 11)
     (gap,) = reader.recovery.due_requests(0.0)
     assert reader.hear(0, writer="b") == [10, 11, 0]

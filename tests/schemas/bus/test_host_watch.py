@@ -1,4 +1,4 @@
-"""Whether a host is there: a link that breaks is no farewell."""
+"""Presence of a host: a broken link does not mean that the host has left."""
 
 from dataclasses import dataclass, field
 
@@ -6,13 +6,13 @@ import pytest
 
 from schemas.bus.contract import PresenceKind
 from schemas.bus.host_watch import LINK_GRACE_S, HostWatch
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.process.clock import SteppedClock
 
 
 @dataclass
 class Client:
-    """A seat whose link can break, and the host's token."""
+    """A bus whose link can break, and the host's token."""
 
     host: InProcessBus
     bus: InProcessBus
@@ -41,7 +41,7 @@ class Client:
 
 @pytest.fixture
 def client() -> Client:
-    medium = Medium()
+    medium = SharedState()
     return Client(medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock()))
 
 

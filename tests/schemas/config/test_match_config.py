@@ -1,4 +1,4 @@
-"""The match file: what it says is what is played, and a wrong word is named with file, key, value and remedy."""
+"""The match file: its values take effect, and a wrong one is reported with file, key, value and remedy."""
 
 from pathlib import Path
 
@@ -85,7 +85,7 @@ def test_flags_override_the_file_by_the_same_names(tmp_path: Path) -> None:
     assert len(match.robots(Side.CYAN)) == 3
 
 
-def test_a_team_that_says_only_its_size_keeps_the_brain_that_ships() -> None:
+def test_a_team_with_only_a_size_has_the_shipped_brain() -> None:
     assert load_match(None, {"teams.magenta.size": 2}).teams.magenta.brain == load_match(None).teams.magenta.brain
 
 

@@ -21,7 +21,7 @@ def test_every_number_of_a_preset_is_one_that_a_profile_may_have(preset: str) ->
         assert value in meaning.options if isinstance(meaning, Choice) else meaning.low <= value <= meaning.high
 
 
-def test_the_profiles_own_is_what_the_profile_says_and_perfect_has_no_noise() -> None:
+def test_the_preset_profile_has_the_numbers_of_the_profile_and_perfect_has_no_noise() -> None:
     assert sensing_of("profile", MSL) is MSL
     perfect = sensing_of("perfect", MSL)
     noises = [

@@ -43,7 +43,7 @@ def test_a_body_without_a_frame_reaches_as_far_as_its_radius() -> None:
     assert load_profile("paper").robot.reach == load_profile("paper").robot.radius
 
 
-def test_a_match_file_adds_types_changes_the_profiles_and_says_who_is_one(tmp_path: Path) -> None:
+def test_a_match_file_adds_types_changes_those_of_the_profile_and_assigns_them_to_robots(tmp_path: Path) -> None:
     models = models_of(match_of(HEAVY, tmp_path), load_profile("msl"))
     assert [models[f"cyan{number}"].type for number in range(1, 5)] == ["keeper", "heavy", "slow", "standard"]
     assert (models["cyan2"].body.mass, models["cyan4"].body.mass) == (60.0, 39.0)
@@ -94,7 +94,7 @@ def test_a_wrong_type_is_named_in_one_line_with_its_remedy(text: str, said: str,
     assert "\n" not in str(error.value)
 
 
-def test_the_setup_tells_every_type_and_who_is_one(tmp_path: Path) -> None:
+def test_the_setup_has_every_type_and_the_robots_of_each(tmp_path: Path) -> None:
     config, profile = match_of(HEAVY, tmp_path), load_profile("msl")
     setup = Setup.decode(Setup.of(config, profile, load_rule_book("msl")).encode())
     assert setup.robot.mass == setup.models["standard"].body.mass == 39.0

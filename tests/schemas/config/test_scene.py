@@ -31,7 +31,7 @@ def written(folder: Path, text: str) -> str:
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
-def test_every_scene_that_ships_is_one_and_says_what_it_is_for(name: str) -> None:
+def test_every_shipped_scene_is_valid_and_has_a_description(name: str) -> None:
     scene = load_scene(name)
     assert scene.name == name
     assert scene.description.endswith((".", "?"))
@@ -85,7 +85,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("text, said", WRONG.values(), ids=WRONG)
-def test_a_wrong_file_is_told_by_file_key_value_and_remedy(tmp_path: Path, text: str, said: str) -> None:
+def test_a_wrong_file_is_reported_with_file_key_value_and_remedy(tmp_path: Path, text: str, said: str) -> None:
     path = written(tmp_path, text)
     with pytest.raises(TouchlineError) as error:
         load_scene(path)
@@ -94,7 +94,7 @@ def test_a_wrong_file_is_told_by_file_key_value_and_remedy(tmp_path: Path, text:
     assert "\n" not in str(error.value)
 
 
-def test_a_scene_that_is_not_there_is_told_with_those_that_are() -> None:
+def test_a_missing_scene_is_reported_with_the_existing_ones() -> None:
     with pytest.raises(TouchlineError, match='scene is "penlty"; did you mean "penalty"'):
         load_scene("penlty")
     with pytest.raises(TouchlineError, match=r"no\.toml"):

@@ -99,7 +99,7 @@ WRONG: dict[str, tuple[type[Settings], object, str]] = {
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_wrong_settings_are_told_by_file_field_value_and_expectation(case: str, tmp_path: Path) -> None:
+def test_wrong_settings_are_reported_with_file_field_value_and_expectation(case: str, tmp_path: Path) -> None:
     model, content, words = WRONG[case]
     file = tmp_path / "wrong.json"
     file.write_text(json.dumps(content))

@@ -51,8 +51,22 @@ def restart(phase: Phase, side: Side | None, **content: Any) -> GameState:
         (stopped(), restart(Phase.THROW_IN, Side.MAGENTA), ["THROWIN magenta"]),
         (stopped(), restart(Phase.DROP_BALL, None), ["DROP_BALL"]),
         (restart(Phase.DROP_BALL, None), state(), ["START"]),
-        (state(), state(phase=Phase.PARKING, running=False), ["PARK"]),
-        (state(phase=Phase.PARKING, running=False), state(phase=Phase.HALF_TIME, running=False), ["HALF_TIME"]),
+        (state(), state(phase=Phase.PARKING, running=False), ["STOP", "HALF_TIME", "PARK"]),
+        (stopped(), state(phase=Phase.PARKING, running=False), ["HALF_TIME", "PARK"]),
+        (stopped(), state(phase=Phase.HALF_TIME, running=False), ["HALF_TIME"]),
+        (stopped(half=2), state(phase=Phase.PARKING, running=False, half=2), ["END_GAME", "PARK"]),
+        (
+            state(half=3, stage=GameStage.EXTRA_TIME),
+            state(phase=Phase.PARKING, running=False, half=3, stage=GameStage.EXTRA_TIME),
+            ["STOP", "HALF_TIME", "PARK"],
+        ),
+        (state(phase=Phase.PARKING, running=False), state(phase=Phase.HALF_TIME, running=False), []),
+        (
+            state(phase=Phase.PARKING, running=False, half=2),
+            state(phase=Phase.FULL_TIME, running=False, half=2),
+            ["GAMEOVER"],
+        ),
+        (state(), state(phase=Phase.FULL_TIME, running=False), ["STOP", "END_GAME", "GAMEOVER"]),
         (
             state(phase=Phase.HALF_TIME, running=False),
             restart(Phase.KICK_OFF, Side.MAGENTA, half=2),
@@ -68,7 +82,7 @@ def restart(phase: Phase, side: Side | None, **content: Any) -> GameState:
             restart(Phase.PENALTY, Side.CYAN, half=4, stage=GameStage.SHOOT_OUT),
             ["PENALTY cyan"],
         ),
-        (stopped(half=2), state(phase=Phase.FULL_TIME, running=False, half=2), ["END_GAME"]),
+        (stopped(half=2), state(phase=Phase.FULL_TIME, running=False, half=2), ["END_GAME", "GAMEOVER"]),
     ],
 )
 def test_a_change_of_the_game_is_signalled(old: GameState | None, new: GameState, expected: list[str]) -> None:
@@ -99,7 +113,7 @@ def test_what_becomes_of_a_robot_is_signalled_with_its_name(
     assert said(state(robots={"cyan2": was}), state(robots={"cyan2": now})) == expected
 
 
-def test_a_robot_that_is_nobodys_is_passed_over() -> None:
+def test_a_robot_of_no_side_is_skipped() -> None:
     assert said(state(), state(robots={"ghost": DisciplinaryRecord(red=1)})) == []
 
 

@@ -15,9 +15,16 @@ from schemas.wire.struct import encode
 PAYLOAD = examples()[Applied].encode()
 
 
-def test_it_is_the_message_up_to_its_chain() -> None:
+def test_it_is_the_message_up_to_the_operators_changes_and_the_chain() -> None:
     part = chained_part_of(PAYLOAD)
-    assert part + b',"chain":"%b"}' % json.loads(PAYLOAD)["chain"].encode() == PAYLOAD
+    assert part + b',"changes":[],"chain":"%b"}' % json.loads(PAYLOAD)["chain"].encode() == PAYLOAD
+
+
+def test_the_sentences_of_operators_are_not_part_of_it() -> None:
+    content = json.loads(PAYLOAD) | {
+        "changes": [{"kind": "scene", "rule": "place", "text": "somebody places the ball"}]
+    }
+    assert chained_part_of(encode(content)) == chained_part_of(PAYLOAD)
 
 
 @pytest.mark.parametrize("indent", [None, 2])

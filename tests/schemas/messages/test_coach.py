@@ -1,4 +1,4 @@
-"""A coach's order says what it means, or is refused with the reason."""
+"""A coach's order is consistent, or refused with the reason."""
 
 import math
 from typing import Any
@@ -69,6 +69,6 @@ def test_centimetres_degrees_and_what_no_robot_can_do_are_refused(field: str, va
     assert reason in refused(**{field: value})
 
 
-def test_a_payload_that_does_not_agree_with_itself_is_told_so() -> None:
+def test_an_inconsistent_payload_is_refused_with_a_reason() -> None:
     with pytest.raises(BadMessageError, match="the mode test needs a test"):
         CoachOrder.decode(b'{"sequence":1,"mode":"test"}')

@@ -1,4 +1,4 @@
-"""Work that can wait: done where nobody else wants a core, and all the same where there is none."""
+"""Work that can wait: done while a core is idle, and also where no core ever is."""
 
 import os
 import sys
@@ -61,7 +61,7 @@ def test_a_program_that_takes_no_turns_does_it_at_once_and_itself():
     assert work.by == [(threading.get_ident(), os.SCHED_OTHER)] * 5
 
 
-def test_where_there_is_too_little_idle_time_the_one_who_waits_goes_on(busy):
+def test_with_too_little_idle_time_the_waiting_thread_continues_the_work(busy):
     work = Work(6)
     run_in_idle_time(work.step, meter=busy)
     assert work.policies == [os.SCHED_IDLE] + [os.SCHED_BATCH] * 5
@@ -88,7 +88,7 @@ def test_a_step_that_fails_ends_the_work_where_it_was_asked_for():
         run_in_idle_time(fails)
 
 
-def test_a_thread_started_in_idle_time_has_the_rank_of_who_asked_for_the_work():
+def test_a_thread_started_in_idle_time_has_the_policy_of_the_requesting_thread():
     born: list[int] = []
 
     def step() -> bool:

@@ -61,7 +61,7 @@ def test_the_schema_beside_a_channel_describes_what_is_deep_inside() -> None:
     assert robot["heading"]["description"] == "Kicking direction in the field frame, counter-clockwise from +x, in rad."
 
 
-def test_the_page_on_the_protocol_says_the_same() -> None:
+def test_the_protocol_page_has_the_same_descriptions() -> None:
     described = {row.name: row.meaning for row in rows(World, str)}
     assert described["ball"] == whole_schema(World)["properties"]["ball"]["description"]
 

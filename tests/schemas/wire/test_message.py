@@ -116,7 +116,7 @@ ASKED = (
 @pytest.mark.parametrize("asked", ASKED, ids=lambda asked: type(asked).__name__)
 @pytest.mark.parametrize("source", ["x" * 81, "coach\x1b[2J", "coach\nGOAL"])
 def test_who_asks_is_named_in_one_short_line_that_no_terminal_obeys(asked: Message, source: str) -> None:
-    """The host says it in its events, which people read on terminals."""
+    """The host has it in the text of events, which people read on terminals."""
     payload = asked.model_copy(update={"source": source}).encode()
     with pytest.raises(BadMessageError, match="source is"):
         type(asked).decode(payload)

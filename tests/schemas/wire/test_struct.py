@@ -139,7 +139,7 @@ def test_what_is_no_sight_is_refused_in_one_line(payload: bytes) -> None:
     assert refused(Sight.decode, payload).startswith("Sight: ")
 
 
-def test_versions_are_told_apart_by_their_major_number() -> None:
+def test_versions_are_distinguished_by_their_major_number() -> None:
     assert Sight.decode(PAYLOAD.replace(b'"version":"2.0"', b'"version":"2.7"')).version == "2.7"
     sentence = "Sight: version 1.0 is not supported, this side has 2.0; update the older side"
     assert refused(Sight.decode, PAYLOAD.replace(b'"version":"2.0"', b'"version":"1.0"')) == sentence
@@ -176,7 +176,7 @@ def test_a_part_that_a_brain_makes_is_checked_where_it_is_made(value: Any) -> No
         Drive(vy=value)
 
 
-def test_what_is_not_checked_alone_is_checked_where_it_is_said() -> None:
+def test_a_part_that_is_not_checked_alone_is_checked_in_its_message() -> None:
     with pytest.raises(FaultError, match=r"radio\.self\.heading is nan; a finite number in rad"):
         Radio(self=Motion(x=0.0, y=0.0, heading=math.nan))
     with pytest.raises(FaultError, match=r"radio\.extra\.share is inf"):

@@ -41,7 +41,7 @@ FAST = WILD | {"acceleration": 2.0, "turn_acceleration": 8.0}
 
 
 class Floor:
-    """Robots with nothing in their way, and somebody who pulls at them."""
+    """Robots on a free pitch, with a force that pulls at them."""
 
     def __init__(self, *models: RobotModel, headings: list[float] | None = None, speed: complex = 0) -> None:
         self.models = models
@@ -79,7 +79,7 @@ def in_body(robot: RobotState) -> complex:
 
 
 @BOTH
-def test_from_rest_to_three_metres_a_second_takes_as_long_as_the_limit_says(model: RobotModel) -> None:
+def test_from_rest_to_three_metres_a_second_takes_the_time_of_the_limit(model: RobotModel) -> None:
     """v / a = 1.2 s to 97 % and 3 m/s within 0.1 s more: the wheels follow the limited demand by some 0.02 s.
 
     simatch's limiter reached 2.97 m/s with the first command.
@@ -169,7 +169,7 @@ def test_speed_does_not_depend_on_the_compass(model: RobotModel) -> None:
 
 @BOTH
 def test_a_robot_let_go_of_brakes_at_its_limit_and_comes_to_rest_exactly(model: RobotModel) -> None:
-    """What the wheels are told is zero, not nearly zero, after v / deceleration."""
+    """The demand on the wheels is exactly zero after v / deceleration."""
     floor = Floor(model)
     floor.run(2.0, (3, 0, 0))
     floor.run(3 / model.drive.deceleration + TIME.tick, REST)
@@ -218,7 +218,7 @@ def test_a_robot_that_stands_slides_only_when_pulled_beyond_its_grip(model: Robo
 
 @BOTH
 def test_a_robot_that_is_held_back_goes_on_pushing_and_knows_it(model: RobotModel) -> None:
-    """As strong as its grip; told 2 m/s it does not move against a pull that is stronger."""
+    """As strong as its grip; commanded 2 m/s, it does not move against a pull that is stronger."""
     floor = Floor(model)
     robot = floor.run(1.0, (2, 0, 0), pull=-1.2 * model.body.mass * GRAVITY * model.wheels.traction)
     assert robot.vx < 0 and floor.drive.held_back[0]

@@ -47,7 +47,7 @@ def test_the_nearest_of_those_that_want_it_holds_the_ball() -> None:
     assert holder([], robots, ball(0), [DRIBBLE] * 3) is None
 
 
-def test_two_equal_claims_leave_the_ball_free_whoever_is_listed_first() -> None:
+def test_two_equal_claims_leave_the_ball_free_in_any_order_of_robots() -> None:
     """In simatch the last writer had the ball."""
     robots = (robot(-0.35), robot(0.352, heading=math.pi))
     assert holder([0, 1], robots, ball(0), [DRIBBLE] * 3) is None

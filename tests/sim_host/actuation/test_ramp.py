@@ -31,7 +31,7 @@ def run(now: complex, demand: complex, ticks: int) -> list[complex]:
     return velocities
 
 
-def test_from_rest_to_three_metres_a_second_takes_as_long_as_the_limit_says() -> None:
+def test_from_rest_to_three_metres_a_second_takes_the_time_of_the_limit() -> None:
     """v / a = 3 / 2.5 = 1.2 s; simatch's limiter reached 2.97 m/s with the first command."""
     velocities = run(0, 3, 100)
     first = next(step for step, v in enumerate(velocities, 1) if v.real >= 3 - 1e-9)

@@ -35,7 +35,7 @@ def test_the_time_to_be_stuck_does_not_depend_on_the_tick() -> None:
 
 
 def held(told: tuple[float, float, float], measured: tuple[float, float, float]) -> list[bool]:
-    """Three robots, told alike for a while; the second one never moves otherwise than as measured."""
+    """Three robots with the same demand for a while; the second one moves only as measured."""
     drive = VelocityDrive(MSL.time, [RobotModel.standard(MSL)] * 3)
     commands = [Drive(vx=told[0], vy=told[1], omega=told[2])] * 3
     last = [(0.0, 0.0, 0.0)] * 3

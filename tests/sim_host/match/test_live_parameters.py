@@ -84,7 +84,7 @@ def test_reset_brings_back_what_is_named_a_section_or_everything(live_parameters
         reset("time.physics_step")
 
 
-def test_what_the_match_file_says_of_the_radio_is_what_the_match_began_with() -> None:
+def test_the_radio_numbers_of_the_match_file_are_the_start_values() -> None:
     live_parameters = LiveParameters.of(MatchConfig.model_validate({"radio": {"loss": 0.25}}))
     (loss,) = live_parameters.describe(["radio.loss"])
     assert (loss.value, loss.initial, loss.origin) == (0.25, 0.25, "the match file")

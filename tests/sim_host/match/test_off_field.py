@@ -1,4 +1,4 @@
-"""Robots off the field in a running simulation: set down beside it, at rest, told why, and back in time."""
+"""Robots off the field in a simulation: beside it, at rest, with the reason in their sights, and back in time."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -24,7 +24,7 @@ def simulation() -> Iterator[Simulation]:
 
 
 def step(simulation: Simulation, *actions: RefereeAction, silent: tuple[str, ...] = ()) -> TickResult:
-    """Everybody whose program is there drives ahead."""
+    """All robots with a program drive ahead."""
     tick = simulation.now.tick
     told = {
         name: Command(answers_tick=tick, drive=Drive(vx=0.5), radio=Radio(role="any"))
@@ -65,7 +65,7 @@ def test_a_robot_that_is_sent_off_stands_beside_the_field_and_its_commands_rest(
     assert all(truth(simulation.now).robots[name].off_field is None for name in others)
 
 
-def test_its_team_is_told_why_and_for_how_long_and_the_other_is_not(simulation: Simulation) -> None:
+def test_its_team_receives_the_reason_and_the_duration_and_the_other_team_does_not(simulation: Simulation) -> None:
     run(simulation, 0.5)
     step(simulation, ask("repair", "cyan3"))
     run(simulation, 5.0)
@@ -86,7 +86,7 @@ def test_who_is_off_comes_back_and_is_obeyed_again(simulation: Simulation) -> No
     assert abs(gone.x - there.x) + abs(gone.y - there.y) > 0.1
 
 
-def test_a_robot_without_a_program_is_out_until_it_is_heard_again(
+def test_a_robot_without_a_program_is_off_the_field_until_it_answers_again(
     simulation: Simulation,
 ) -> None:
     """It comes back in a stoppage only."""

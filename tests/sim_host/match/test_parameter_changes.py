@@ -82,7 +82,7 @@ def test_the_radio_falls_silent_when_every_word_is_lost(simulation: Simulation) 
     assert "cyan1" not in heard or heard["cyan1"].age > 0.3
 
 
-def test_a_change_is_noted_with_the_inputs_of_its_tick_and_told_as_an_event(simulation: Simulation) -> None:
+def test_a_change_is_recorded_with_the_inputs_of_its_tick_and_published_as_an_event(simulation: Simulation) -> None:
     simulation.step({})
     set_to(simulation, ball__mass=0.3, radio__loss=0.5)
     tick = simulation.step({})

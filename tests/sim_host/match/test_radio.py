@@ -53,7 +53,7 @@ def test_a_delay_between_two_ticks_ends_at_the_later_one() -> None:
 
 
 def arrivals(air: RadioAir, words: int) -> dict[str, list[tuple[int, int]]]:
-    """Listener → (tick in which a word was said, ticks until it was heard) of cyan1's words, one in every tick.
+    """Receiver → (tick of sending, ticks until delivery) of cyan1's radio messages, one in every tick.
 
     A word that another has overtaken is never heard.
     """
@@ -95,8 +95,8 @@ def test_jitter_is_uniform_and_different_for_each_listener() -> None:
     assert same == approx(share, abs=4 * math.sqrt(share * (1 - share) / n)), "as often as by chance"
 
 
-def test_a_word_that_was_overtaken_is_not_heard_any_more() -> None:
-    """A listener keeps what was said last, and so hears ever newer words."""
+def test_an_overtaken_radio_message_is_not_delivered() -> None:
+    """A receiver keeps the newest message, so messages only get newer."""
     came = arrivals(radio(replace(CLEAR, jitter=0.2)), 500)
     for times in came.values():
         said = [tick for tick, _ in times]
@@ -117,7 +117,7 @@ def test_a_changed_air_is_that_of_all_words_from_now_on() -> None:
     assert "budget" in str(air.send(41, "cyan2", Radio(role="defender")))
 
 
-def test_teammates_who_stay_when_others_come_and_go_have_heard_what_they_heard() -> None:
+def test_teammates_that_stay_in_the_roster_keep_the_radio_messages_they_received() -> None:
     word = Radio(intention="x" * 60)
     size = 8 * len(encode(word))
     air = radio(replace(CLEAR, delay=0.04, budget=3.0 * size))

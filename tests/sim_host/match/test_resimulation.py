@@ -225,7 +225,7 @@ IMPOSSIBLE: dict[str, tuple[dict[str, Any], str]] = {
 
 
 @pytest.mark.parametrize("change, said", IMPOSSIBLE.values(), ids=IMPOSSIBLE)
-def test_what_no_host_could_have_applied_is_said_in_a_sentence(plain, change, said) -> None:
+def test_impossible_inputs_are_reported_in_one_sentence(plain, change, said) -> None:
     told = notes(plain[1])
     again = Resimulation(Conditions(LiveParameters.of(plain[0].config)))
     for applied, payload in told[:5]:

@@ -59,7 +59,7 @@ def robot(name: str, x: float, y: float, **more: Any) -> SceneRobot:
 
 
 def busy(simulation: Simulation, ticks: int) -> list[TickResult]:
-    """Everybody drives about, dribbles, kicks and speaks."""
+    """All robots drive, dribble, kick and send radio messages."""
     played = []
     for count in range(ticks):
         said = {
@@ -174,7 +174,7 @@ def test_a_robot_is_added_removed_and_put_back(simulation) -> None:
     busy(simulation, 10)
 
 
-def test_who_stays_has_seen_and_heard_what_it_saw_and_heard(simulation_of) -> None:
+def test_a_robot_that_stays_keeps_its_perception_and_its_radio_messages(simulation_of) -> None:
     simulation = simulation_of(noise__preset="profile", radio__delay=0.06)
     busy(simulation, 20)
     before = Sight.decode(simulation.now.sights["cyan2"])
@@ -219,7 +219,7 @@ def test_obstacles_are_put_up_and_taken_away(simulation) -> None:
     assert applied(tick).obstacles == []
 
 
-def test_a_robot_that_stands_still_in_the_scene_moves_for_nobody(simulation) -> None:
+def test_a_robot_that_stands_still_in_the_scene_ignores_all_commands(simulation) -> None:
     done(simulation, "load", scene=Scene(description="x", robots=[robot("cyan1", 0.0, 3.0, agent=False)]))
     for _ in range(20):
         tick = simulation.step({"cyan1": Command(answers_tick=simulation.now.tick, drive=Drive(vx=2.0))})

@@ -1,4 +1,4 @@
-"""Sights as they are sent: what the sensors gave, as the message that `schemas.messages.sight` says."""
+"""Sights as they are sent: percepts in the message of `schemas.messages.sight`."""
 
 import math
 from collections.abc import Iterator
@@ -39,7 +39,7 @@ def drive(simulation: Simulation, ticks: int) -> Iterator[None]:
 
 @pytest.mark.parametrize("preset", PRESETS)
 @pytest.mark.parametrize("profile", ["msl", "paper"])
-def test_every_sight_of_every_preset_is_a_valid_message_and_says_how_old_it_is(preset: str, profile: str) -> None:
+def test_every_sight_of_every_preset_is_a_valid_message_with_the_age_of_its_content(preset: str, profile: str) -> None:
     one = simulate(noise__preset=preset, profile=profile)
     for _ in drive(one, 40):
         for name in one.roster.names:

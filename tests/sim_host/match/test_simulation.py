@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from msgspec import structs
 from pydantic_core import to_json
 from pytest import approx
 
@@ -55,7 +54,7 @@ def sight(tick: TickResult, robot: str) -> Sight:
 
 
 def play(simulation: Simulation, ticks: int) -> list[str]:
-    """Everybody drives and speaks; the hash chain of every tick."""
+    """All robots drive and send radio messages; the hash chain of every tick."""
     chains = []
     for _ in range(ticks):
         said = {
@@ -116,14 +115,14 @@ def test_a_word_on_the_radio_reaches_teammates_and_the_coach(simulation: Simulat
     assert sight(tick, "magenta1").radio == {}
 
 
-def test_a_word_is_heard_and_published_as_it_was_said() -> None:
+def test_a_radio_message_is_delivered_and_published_unchanged() -> None:
     word = Radio(self=Motion(x=1.5, y=-0.0, heading=3e16, vx=0.0), intention="shoot", extra={"speed": 1e17, "n": 2})
     one = simulate(radio__delay=0.0, radio__jitter=0.0, radio__loss=0.0)
     tick = one.step({"cyan2": Command.decode(Command(answers_tick=0, radio=word).encode())})
     one.close()
     [(_, _, belief)] = tick.beliefs
     assert Belief.decode(belief) == Belief(tick=1, time=tick.time, robot="cyan2", radio=word)
-    assert sight(tick, "cyan3").radio == {"cyan2": ReceivedRadio(age=0.0, **structs.asdict(word))}
+    assert sight(tick, "cyan3").radio == {"cyan2": ReceivedRadio.of(word)}
 
 
 def test_a_refused_kick_comes_back_in_the_outcome(simulation: Simulation) -> None:
@@ -224,7 +223,7 @@ def test_the_setup_tells_everything_a_robot_must_know(simulation: Simulation) ->
     again = type(setup).decode(setup.encode())
     assert again.pitch == simulation.profile.field and again.drive == simulation.profile.drive
     assert again.teams[Side.CYAN].robots == ["cyan1", "cyan2", "cyan3", "cyan4", "cyan5"]
-    assert set(again.engine) == {"engine", "libm"}
+    assert set(again.engine) == {"engine", "libm", "referee"}
 
 
 @pytest.mark.parametrize("size", [1, 3])
@@ -236,7 +235,7 @@ def test_a_match_of_any_size_is_played(size: int) -> None:
     one.close()
 
 
-def test_a_match_with_types_and_obstacles_is_told_and_played_as_its_file_says() -> None:
+def test_a_match_with_types_and_obstacles_is_set_up_and_played_as_in_its_file() -> None:
     one = simulate(
         teams__cyan__types={"cyan1": "keeper", "cyan3": "slow"},
         obstacles=[{"name": "crate", "shape": "box", "place": [3.0, 5.0], "heading": 0.5, "size": [0.4, 0.8, 0.6]}],
@@ -249,5 +248,5 @@ def test_a_match_with_types_and_obstacles_is_told_and_played_as_its_file_says() 
     one.close()
 
 
-def test_a_world_without_obstacles_says_nothing_of_them(simulation: Simulation) -> None:
+def test_a_world_without_obstacles_has_no_field_for_them(simulation: Simulation) -> None:
     assert "obstacles" not in simulation.step({}).world

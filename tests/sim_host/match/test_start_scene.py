@@ -1,4 +1,4 @@
-"""Where robots stand when a half begins: legally, whoever kicks off."""
+"""Start positions of a half: legal for either side's kick-off."""
 
 import itertools
 import math

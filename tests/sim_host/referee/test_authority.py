@@ -84,7 +84,7 @@ def test_a_proposal_that_is_overruled_is_not_carried_out(mixed):
     assert mixed.state.score == Score() and mixed.state.phase is Phase.PLAY
 
 
-def test_people_who_stop_the_game_settle_what_was_proposed(mixed):
+def test_a_stop_by_people_settles_what_was_proposed(mixed):
     out(mixed)
     mixed.ask("free_kick", CYAN)
     mixed.run(3.0)
@@ -116,11 +116,22 @@ def test_undo_of_a_goal_brings_the_score_back_and_drops_the_ball_where_play_was(
     rig.until(lambda state: state.phase is Phase.PLAY)
 
 
-def test_one_decision_can_be_undone_and_not_the_one_before(rig):
-    scored(rig)
-    rig.ask("undo")
-    (reply,) = rig.ask("undo").replies
-    assert not reply.accepted and "no decision" in reply.reason
+def test_decisions_are_undone_one_after_another_and_no_further_than_the_first(rig):
+    rig.playing()
+    rig.ask("stop")
+    rig.ask("yellow_card", robot="magenta1")
+    for goals in (1, 2):
+        rig.ask("goal", CYAN)
+        assert rig.state.score.cyan == goals
+    for goals in (1, 0):
+        assert rig.ask("undo").replies[0].accepted
+        assert rig.state.score.cyan == goals
+    assert rig.state.participation.cards != {}
+    assert rig.ask("undo").replies[0].accepted
+    assert rig.state.participation.cards == {}
+    while (reply := rig.ask("undo").replies[0]).accepted:
+        pass
+    assert "no decision can be undone" in reply.reason
 
 
 def test_undo_of_a_restart_that_was_ordered_signals_the_one_before_again(rig):
@@ -158,9 +169,9 @@ def test_what_was_decided_in_the_other_half_is_settled(rig):
     assert not rig.ask("undo").replies[0].accepted
 
 
-def test_a_state_remembers_one_state_before_and_no_chain(rig):
+def test_a_state_remembers_twenty_states_without_what_they_remember(rig):
     rig.playing()
-    for _ in range(5):
+    for _ in range(25):
         rig.ask("goal", CYAN)
-    assert rig.state.before.before is None
-    assert rig.state._replace(before=None) != rig.state
+    assert len(rig.state.history) == 20
+    assert all(state.history == () for state in rig.state.history)

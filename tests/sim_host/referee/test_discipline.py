@@ -155,11 +155,11 @@ def test_substitutions_are_counted_and_made_in_stoppages(new_rig):
     assert rig.state.participation.absences == {}
 
 
-def test_in_2016_nobody_is_substituted(new_rig):
+def test_in_2016_no_robot_is_substituted(new_rig):
     assert "0 are allowed" in refused(halted(new_rig("paper")).ask("substitute", robot="cyan2"))
 
 
-def test_a_parked_robot_waits_until_it_is_told_to_enter(rig):
+def test_a_parked_robot_waits_for_the_action_enter(rig):
     halted(rig)
     rig.ask("park", robot="magenta5")
     rig.run(60.0)
@@ -227,7 +227,7 @@ def test_a_forfeit_takes_nothing_from_a_greater_lead_and_turns_a_deficit_round(r
 
 
 def test_where_both_sides_have_as_few_robots_left_neither_wins(rig):
-    """Nobody is favoured by coming first in the roster."""
+    """The first robots of the roster have no advantage."""
     rig.playing()
     gone = [f"{side.value}{number}" for side in Side for number in range(2, 6)]
     for _ in range(round((rig.book.people.silent_limit + 1.0) / rig.dt)):
@@ -269,7 +269,7 @@ def test_the_card_of_a_decision_is_shown_by_its_rule(rig):
     assert draft.state.participation.cards["cyan3"].yellow == 1
 
 
-def test_robots_off_the_field_stand_in_nobodys_way_before_a_restart(rig):
+def test_robots_off_the_field_block_no_robot_before_a_restart(rig):
     """Their kicker is another, and they are not looked at for their distance."""
     rig.playing()
     rig.ask("park", robot="cyan2")
@@ -278,3 +278,16 @@ def test_robots_off_the_field_stand_in_nobodys_way_before_a_restart(rig):
     signalled = rig.until(lambda state: state.phase is Phase.FREE_KICK).events[-1].time
     rig.until(lambda state: state.running)
     assert rig.events[-1].time - signalled == pytest.approx(rig.book.restarts.signal_to_start)
+
+
+def test_a_robot_that_is_being_substituted_is_not_substituted_again(new_rig):
+    rig = new_rig()
+    rig.playing()
+    rig.ask("stop")
+    assert rig.ask("substitute", robot="cyan2").replies[0].accepted
+    rig.run(1.0)
+    left = rig.state.participation.absences["cyan2"].left
+    (reply,) = rig.ask("substitute", robot="cyan2").replies
+    assert not reply.accepted and "cyan2 is being substituted already" in reply.reason
+    assert rig.state.participation.absences["cyan2"].left <= left
+    assert rig.state.participation.substitutions == {CYAN: 1}

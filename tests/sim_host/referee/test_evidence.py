@@ -10,7 +10,7 @@ CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
 @pytest.fixture
 def played(new_rig):
-    """A rig of the league in play, where nobody is near the ball."""
+    """A rig of the league in play, with no robot near the ball."""
     return new_rig().playing((1.0, 0.0))
 
 
@@ -95,7 +95,7 @@ def test_robots_of_one_side_do_not_push_each_other(played):
     assert played.state.evidence.pushes == ()
 
 
-def test_a_push_counts_the_way_that_both_go_and_turns_with_the_one_who_pushes(played):
+def test_a_push_counts_the_distance_that_both_move_and_turns_with_the_pushing_robot(played):
     played.robots |= {"cyan3": (0.0, 2.0), "magenta2": (0.5, 2.0)}
     pair = [("cyan3", "magenta2")]
     played.tick(motions={"cyan3": (0.0, 1.0, 0.0), "magenta2": (0.0, 0.6, 0.0)}, contacts=pair)

@@ -315,7 +315,7 @@ def test_while_the_goalkeeper_is_off_the_field_the_first_robot_on_it_keeps_the_g
     assert [event.robot for event in rig.events if event.kind is EventKind.FOUL] == ["cyan3"]
 
 
-def test_when_the_goalkeeper_is_back_who_stood_in_for_it_leaves_the_goal_area(new_rig):
+def test_when_the_goalkeeper_is_back_its_substitute_leaves_the_goal_area(new_rig):
     rig = new_rig().playing()
     rig.ask("repair", robot="cyan1")
     rig.run(rig.book.people.repair)
@@ -329,7 +329,7 @@ def test_when_the_goalkeeper_is_back_who_stood_in_for_it_leaves_the_goal_area(ne
 
 
 @pytest.mark.parametrize("behind", [0.6, 5.0])
-def test_behind_the_goal_line_and_out_of_the_goal_nobody_is_in_an_area(new_rig, behind):
+def test_behind_the_goal_line_and_outside_the_goal_no_robot_is_in_an_area(new_rig, behind):
     """simatch's referee has no limit along x."""
     rig = new_rig().playing()
     rig.robots["cyan3"] = (rig.pitch.goal_line + behind, 0.5)
@@ -438,7 +438,7 @@ def test_the_scrum_is_dropped_where_both_had_the_ball(new_rig):
     assert rig.state.pending.spot == pytest.approx((0.0, 1.0)) and rig.state.pending.side is None
 
 
-def test_the_referee_says_that_it_plays_no_advantage(new_rig):
+def test_the_rules_page_documents_that_no_advantage_is_played(new_rig):
     _, event = told(new_rig, CASES["pushing"], CASES["pushing"].breaks)
     assert event.text.startswith("cyan3 pushed magenta2 0.5") and "no advantage is played" in event.text
     assert "intent is not judged" in event.text

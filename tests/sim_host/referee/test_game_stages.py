@@ -122,7 +122,7 @@ def test_the_shoot_out_is_over_as_soon_as_one_side_cannot_be_caught_up_with(pena
     assert made == attempts and "wins the penalty shoot-out" in penalties.events[-1].text
 
 
-def test_a_level_shoot_out_is_repeated_once_by_the_other_side_first_and_then_said_to_be_undecided(penalties):
+def test_a_level_shoot_out_is_repeated_once_with_the_other_side_first_and_then_reported_as_undecided(penalties):
     first = penalties.state.side
     for _ in range(10):
         attempt(penalties, True)

@@ -30,7 +30,7 @@ def test_a_half_ends_at_once_when_its_time_is_up(new_rig, halted):
     assert (rig.events[-1].kind, rig.events[-1].rule) == (EventKind.HALF_TIME, "half_end")
 
 
-def test_without_a_duration_a_half_lasts_as_the_rule_book_says(new_rig):
+def test_without_a_duration_a_half_lasts_as_long_as_in_the_rule_book(new_rig):
     rig = new_rig(rules="friendly")
     assert rig.state.timing.limit == load_rule_book("friendly").periods.half_duration
 

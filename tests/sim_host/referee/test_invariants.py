@@ -82,7 +82,7 @@ def what_people_must_say(state, mode):
     """The word without which a match would not go on."""
     by_hand = mode is OfficiatingMode.MANUAL
     if state.stage is GameStage.SHOOT_OUT and state.shoot_out.taken.cyan + state.shoot_out.taken.magenta > 1:
-        return ActionName.END_GAME  # it would be played for long: nobody scores
+        return ActionName.END_GAME  # it would take long without goals
     if by_hand and state.running and state.stage is GameStage.SHOOT_OUT:
         return ActionName.STOP
     if state.pending is not None or state.running:

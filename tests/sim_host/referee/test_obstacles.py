@@ -105,7 +105,7 @@ def test_a_pitch_without_free_ground_leaves_the_ball_where_the_rules_have_it(rig
     rig.until(lambda state: state.running)
 
 
-def test_the_referee_is_told_that_a_place_is_taken(new_rig):
+def test_placing_the_ball_on_an_occupied_place_is_refused(new_rig):
     rig = new_rig(mode=OfficiatingMode.MANUAL)
     rig.ask("start")
     rig.ask("start")
@@ -116,8 +116,8 @@ def test_the_referee_is_told_that_a_place_is_taken(new_rig):
     assert rig.ask("place_ball", place=(2.6, 1.0)).replies[0].accepted
 
 
-def test_nobody_who_stood_wrong_is_set_down_in_an_obstacle(new_rig):
-    """A wall on one side of the ball: whoever is moved goes to the other."""
+def test_no_robot_with_a_wrong_position_is_placed_in_an_obstacle(new_rig):
+    """A wall on one side of the ball: robots that are moved go to the other side."""
     rig = new_rig()
     walls = tuple(pillar(x / 2, y, 0.25) for x in range(-12, 13) for y in (2.6, 3.1, 3.6))
     rig.tick((3.0, 3.0))

@@ -47,7 +47,7 @@ def test_a_throw_in_runs_through_stop_signal_start_and_in_play_in_their_times(ri
     assert rig.kinds() == [EventKind.BALL_OUT, STOP, RESTART, START, IN_PLAY]
 
 
-def test_a_ball_that_nobody_plays_is_in_play_after_the_time_limit(rig):
+def test_an_unplayed_ball_is_in_play_after_the_time_limit(rig):
     thrown_in(rig).until(lambda state: state.running)
     rig.until(lambda state: state.phase is Phase.PLAY)
     assert moment(rig, IN_PLAY) - moment(rig, START) == pytest.approx(rig.book.restarts.time_limit)
@@ -125,7 +125,7 @@ def test_start_waits_until_opponents_have_left_and_is_given_at_once_then(rig):
     assert rig.state.running
 
 
-def test_start_waits_no_longer_than_the_limit_and_then_says_who_stood_wrong(rig):
+def test_start_waits_no_longer_than_the_limit_and_then_names_the_robots_with_a_wrong_position(rig):
     thrown_in(rig)
     rig.robots["cyan4"] = (1.0, rig.pitch.touch_line - 1.0)
     rig.until(lambda state: state.running)

@@ -124,7 +124,7 @@ def test_the_last_of_several_touches_in_one_tick_counts(rig):
 
 
 @pytest.mark.parametrize("axis", ["x", "y"])
-def test_a_ball_out_that_nobody_touched_is_dropped_inside_the_field(rig, axis):
+def test_a_ball_out_without_a_touch_is_dropped_inside_the_field(rig, axis):
     place = (beyond(rig, "x", 0.1), 4.0) if axis == "x" else (1.0, beyond(rig, "y", 0.1))
     ruling = rig.crossing((1.0, 4.0), place, [])
     assert ruling.events[0].robot is None and "no robot" in ruling.events[0].text

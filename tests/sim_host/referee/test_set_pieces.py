@@ -13,7 +13,7 @@ SPOT = (2.0, 1.0)
 
 
 def taken(rig, phase="free_kick", side=CYAN, spot=SPOT):
-    """A restart of a side has been started and nobody has touched the ball."""
+    """A restart of a side has been started and no robot has touched the ball."""
     rig.playing()
     rig.ask(phase, side, None if phase in ("penalty", "kick_off") else spot)
     rig.until(lambda state: state.running)
@@ -167,7 +167,7 @@ def test_a_dropped_ball_wants_two_robots_before_a_goal(rig, touches, counts):
     assert (shot(rig).events[0].kind is EventKind.GOAL) == counts
 
 
-def test_in_a_friendly_a_direct_shot_counts_and_nobody_touches_too_early(new_rig):
+def test_in_a_friendly_a_direct_shot_counts_and_no_touch_is_too_early(new_rig):
     rig = taken(new_rig(rules="friendly"))
     rig.tick(SPOT, ["cyan2"])
     rig.tick((SPOT[0] + 0.4, SPOT[1]), ["cyan3"])
@@ -194,7 +194,7 @@ def test_who_stands_wrong_at_the_limit_is_named_carded_and_moved(rig):
         assert abs(x) <= rig.pitch.goal_line and abs(y) <= rig.pitch.touch_line
 
 
-def test_in_a_friendly_who_stands_wrong_is_named_alone(new_rig):
+def test_in_a_friendly_a_robot_with_a_wrong_position_is_only_named(new_rig):
     rig = new_rig(rules="friendly")
     rig.playing()
     rig.ask("free_kick", CYAN, SPOT)

@@ -163,7 +163,7 @@ def test_without_occlusion_robots_see_through_each_other(scenery):
     assert one.visible and len(one.obstacles) == 2
 
 
-def test_what_is_in_view_is_not_found_in_the_share_of_pictures_that_is_said(scenery):
+def test_bodies_in_view_are_missed_in_the_configured_share_of_pictures(scenery):
     """8,000 pictures, each robot and thing on its own: within 4 standard errors, and white."""
     n = 8000
     made = scenery([(0, 0), (3, 0)], (0.0, 3.0), ball_dropout=0.1, obstacle_dropout=0.3, obstacle_range=10.0)
@@ -187,7 +187,7 @@ def test_what_is_in_view_is_not_found_in_the_share_of_pictures_that_is_said(scen
 @pytest.mark.parametrize("latency", [0, 1, 2, 5])
 @pytest.mark.parametrize("every", [1, 2, 3])
 def test_what_is_seen_is_the_newest_picture_that_is_old_enough(scenery, latency, every):
-    """The ball's x is the tick: which picture is seen can be read off, and its age says the same."""
+    """The ball's x is the tick: which picture is seen can be read off, and its age agrees."""
     made = scenery([(0, 0)], (0.0, 2.0), camera_rate=50.0 / every, latency=0.02 * latency, obstacle_range=10.0)
     for tick in range(30):
         made.ball = made.ball._replace(x=float(tick))
@@ -203,7 +203,7 @@ def test_what_is_seen_is_the_newest_picture_that_is_old_enough(scenery, latency,
 
 
 def test_when_a_picture_is_developed_makes_no_difference_to_what_is_seen(scenery):
-    """The host develops it when the sights are out; whoever does not is given it developed in time."""
+    """The host develops it when the sights are out; otherwise it is developed when it is needed."""
     wanted = {"camera_rate": 25.0, "latency": 0.02, "ball_position": 0.05, "obstacle_position": 0.05}
     at_once, in_time = (scenery([(0, 0), (2, 1)], (1, 1), **wanted) for _ in range(2))
     for tick in range(8):

@@ -73,7 +73,7 @@ def test_noises_of_different_numbers_robots_and_things_are_independent(errors):
 
 @pytest.mark.parametrize(("distance", "where"), [(1.0, (1.0, 0.0)), (5.0, (3.0, 4.0)), (6.0, (0.0, -6.0))])
 def test_noise_grows_with_the_distance_along_and_across_the_line_of_sight(errors, distance, where):
-    """√(near² + (share·d)²) along, √(near² + (angle·d)²) across, as `schemas.config.sections.Sensing` says."""
+    """√(near² + (share·d)²) along, √(near² + (angle·d)²) across, as in `schemas.config.sections.Sensing`."""
     of = errors(ball=(*where, 0.11), ball_position=0.02, range_noise=0.03, bearing_noise=0.01)(0)
     error = np.stack((of["ball", 0] - where[0], of["ball", 1] - where[1]))
     ux, uy = where[0] / distance, where[1] / distance
@@ -123,7 +123,7 @@ def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
 DRIFT = {"drift_position": 0.05, "drift_heading": 0.01, "drift_time": 1.0}
 
 
-def test_drift_is_as_large_as_it_says_at_any_time_and_slow(errors):
+def test_drift_has_its_configured_size_at_any_time_and_is_slow(errors):
     """20,000 ticks are 400 drift times; 4 standard errors of about as many independent values.
 
     Per tick it changes by at most |d/dt (k₀ cos + k₁ sin)| = π/2 · |k| / drift time, |k| below 5 sigma.

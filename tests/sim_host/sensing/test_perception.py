@@ -100,7 +100,7 @@ def test_equal_seeds_perceive_equally_and_others_do_not(world):
     assert looks(77) != looks(78)
 
 
-def test_a_robot_that_is_left_out_changes_nobody_elses_noise(scenery):
+def test_a_robot_that_is_left_out_changes_the_noise_of_no_other_robot(scenery):
     """A draw left out shifts no other: what two robots perceive of themselves, each other and the ball stays."""
     seen = {}
     for robots in (ROBOTS[:2], (*ROBOTS[:2], (-8.0, -3.0), (-8.0, 3.0))):
@@ -167,7 +167,7 @@ def test_every_number_of_sensing_changes_what_is_perceived(world):
         made[field.name] = world(sensing=replace(base, **{field.name: changed}))
     same = set(made)
     for tick in range(300):
-        if tick == 100:  # somebody steps before the ball
+        if tick == 100:  # a robot steps before the ball
             for one in (plain, *made.values()):
                 one.move(1, -1.0, 1.5)
         expected = plain.look()

@@ -38,7 +38,7 @@ def test_a_draw_depends_on_its_own_coordinates_and_on_nothing_else() -> None:
     assert (many[:, :, :3] == fewer).all()
 
 
-def test_a_draw_between_two_depends_on_their_names_and_not_on_who_else_there_is() -> None:
+def test_a_draw_between_two_robots_depends_on_their_names_and_not_on_other_robots() -> None:
     streams = RandomStreams(7)
     many = streams.pairwise_uniforms(StreamId.SEEN, NAMES, ("ball", *NAMES), range(20))
     alone = streams.pairwise_uniforms(StreamId.SEEN, NAMES[2:], ("cyan2",), [13])

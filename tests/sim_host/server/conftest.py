@@ -1,4 +1,4 @@
-"""A host on the in-process bus: robots, recorders and strangers are seats beside it, and time passes by steps."""
+"""A host on the in-process bus with its clients; time passes in steps."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -25,7 +25,7 @@ def rig_of() -> Iterator[Callable[..., HostRig]]:
 
 @pytest.fixture
 def rig(rig_of: Callable[..., HostRig]) -> HostRig:
-    """A small lockstep match at tick 0, everybody there."""
+    """A small lockstep match at tick 0 with all agents."""
     rig = rig_of()
     rig.join_all()
     rig.begin()

@@ -1,4 +1,4 @@
-"""What the host tells coaches of their orders.
+"""The host's messages about the orders of coaches.
 
 Several robots receive each order; in the paper, the coach's socket reached one robot only. Each
 order has a number, and each robot acknowledges it.
@@ -7,7 +7,8 @@ order has a number, and each robot acknowledges it.
 import pytest
 
 from schemas.bus.contract import Bus
-from schemas.messages.coach import MAX_SEQUENCE, MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder
+from schemas.game import Point
+from schemas.messages.coach import MAX_SEQUENCE, MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command
 from schemas.messages.setup import SetupRequest
 from schemas.messages.sight import Sight
@@ -16,14 +17,15 @@ from schemas.topics import ACTIVE_ORDER, INVALID, ORDER, SETUP
 
 
 class Obedient:
-    """Acknowledges each order, unless told not to."""
+    """Acknowledges each order, unless disabled."""
 
     def __init__(self) -> None:
         self.deaf = False
+        self.refuses = ""
 
     def act(self, sight: Sight) -> Command:
         heard = sight.order.sequence if sight.order is not None and not self.deaf else None
-        return Command(answers_tick=sight.tick, acknowledges_order=heard)
+        return Command(answers_tick=sight.tick, acknowledges_order=heard, refuses_order=self.refuses)
 
 
 @pytest.fixture
@@ -51,7 +53,7 @@ def test_nothing_is_published_while_no_order_is_in_force(rig) -> None:
     assert told.all() == []
 
 
-def test_each_robot_of_the_side_gets_the_order_and_is_told_to_have_acknowledged_it(rig) -> None:
+def test_each_robot_of_the_side_gets_the_order_and_its_acknowledgement_is_published(rig) -> None:
     told = rig.listen(ACTIVE_ORDER)
     give(rig.outside, 7)
     rig.ticks(3)
@@ -82,7 +84,7 @@ def test_a_new_order_is_not_acknowledged_by_any_robot(rig) -> None:
     assert told.all()[0].acknowledged == {"cyan1": False, "cyan2": False}
 
 
-def test_an_order_with_a_smaller_number_does_not_stand_and_its_sender_is_told_how_to_number(rig) -> None:
+def test_an_order_with_a_smaller_number_is_refused_with_the_remedy(rig) -> None:
     give(rig.outside, 7)
     rig.ticks(3)
     told, invalid = rig.listen(ACTIVE_ORDER), rig.listen(INVALID)
@@ -94,7 +96,7 @@ def test_an_order_with_a_smaller_number_does_not_stand_and_its_sender_is_told_ho
     assert complaint.reason == "sequence 6 is not above 7, which is in force; number orders from 8 on"
 
 
-def test_an_order_that_is_said_twice_is_no_fault(rig) -> None:
+def test_an_order_that_is_sent_twice_is_no_fault(rig) -> None:
     invalid = rig.listen(INVALID)
     for _ in range(2):
         give(rig.outside, 7)
@@ -128,7 +130,7 @@ def test_whoever_asks_how_the_match_is_set_up_hears_which_numbers_stand(rig) -> 
     assert answer.result(0.0).orders == {Side.CYAN: 1_795_275_009_214_000}
 
 
-def test_what_has_not_changed_is_said_once_a_simulated_second(rig) -> None:
+def test_an_unchanged_order_is_published_once_a_simulated_second(rig) -> None:
     give(rig.outside, 7)
     rig.ticks(3)
     told = rig.listen(ACTIVE_ORDER)
@@ -136,8 +138,29 @@ def test_what_has_not_changed_is_said_once_a_simulated_second(rig) -> None:
     assert len(told.all()) == 3
 
 
-def test_sides_are_told_apart(rig) -> None:
+def test_each_side_has_its_own_order(rig) -> None:
     give(rig.outside, 7, Side.MAGENTA)
     told = rig.listen(ACTIVE_ORDER)
     rig.ticks(3)
     assert {tuple(heard.acknowledged) for heard in told.all()} == {("magenta1",)}
+
+
+def test_a_robot_that_refuses_an_order_is_published_with_its_reason(rig, brains) -> None:
+    told = rig.listen(ACTIVE_ORDER)
+    brains["cyan2"].refuses = "unknown test: machine"
+    give(rig.outside, 7)
+    rig.ticks(4)
+    active: ActiveOrder = told.all()[-1]
+    assert active.acknowledged == {"cyan1": True, "cyan2": True}
+    assert active.refused == {"cyan2": "unknown test: machine"}
+
+
+def test_an_order_to_a_point_outside_the_field_is_refused_with_the_reason(rig) -> None:
+    told, refused = rig.listen(ACTIVE_ORDER), rig.listen(INVALID)
+    order = CoachOrder(
+        sequence=7, mode=CoachMode.TEST, test=CoachTest.MOVE, robot_a="cyan1", point_a=Point(x=0.0, y=-50.0)
+    )
+    rig.outside.publisher(ORDER, side="cyan").put(order)
+    rig.ticks(20)
+    assert told.all() == []
+    assert "point_a at (0, -50) is outside the field and its border" in refused.all()[0].reason

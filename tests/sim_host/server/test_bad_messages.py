@@ -4,7 +4,7 @@ import pytest
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import ReceivedMessage
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.messages.coach import CoachMode, CoachOrder
@@ -102,7 +102,7 @@ class FloodedBus(InProcessBus):
 
 
 def test_a_flood_does_not_hold_the_host():
-    bus = FloodedBus("friendly", SteppedClock(), Medium())
+    bus = FloodedBus("friendly", SteppedClock(), SharedState())
     box = inbox.Inbox(bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus))
     assert box.receive_command(0, 0.0) is None
     assert box.agent_stats["cyan1"].invalid == bus.received > 500

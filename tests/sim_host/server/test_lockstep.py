@@ -3,8 +3,8 @@
 import pytest
 
 from schemas.messages.applied import AppliedInput
-from schemas.messages.command import Drive
-from schemas.topics import APPLIED, WORLD
+from schemas.messages.command import Command, Drive
+from schemas.topics import APPLIED, COMMAND, WORLD
 from sim_host.server.agent_stats import SILENT_TICKS
 
 PATIENCE_S = 1.0
@@ -90,6 +90,56 @@ def test_a_robot_that_always_answers_too_late_does_not_hold_the_match_at_every_t
     assert not health["cyan2"].answering
     assert health["cyan1"].missed == 0
     assert rig.silences() == ["cyan2 does not answer, its robot stops"]
+
+
+class Answers:
+    """Answers another tick than that of the sight."""
+
+    def __init__(self, other):
+        self.other = other
+
+    def act(self, sight):
+        return Command(answers_tick=self.other(sight.tick), drive=Drive(vx=1.0))
+
+
+@pytest.mark.parametrize(
+    ("other", "answered_tick"),
+    [(lambda tick: 0, 0), (lambda tick: max(tick - 1, 0), 400)],
+    ids=["a constant tick", "the tick before"],
+)
+def test_a_robot_that_answers_an_earlier_tick_does_not_hold_the_match_and_is_reported(rig_of, other, answered_tick):
+    rig = rig_of()
+    rig.join("cyan1"), rig.join("cyan2", Answers(other)), rig.join("magenta1")
+    rig.begin()
+    rig.ticks(401)
+    assert rig.clock.now() < 60 * PATIENCE_S
+    health = rig.health().robots
+    assert health["cyan2"].fault == f"answers tick {answered_tick}, the match is at 402; use sight.tick"
+    assert health["cyan1"].fault == ""
+
+
+def test_the_event_of_a_silence_has_its_reason(rig_of):
+    rig = rig_of()
+    rig.join("cyan1"), rig.join("cyan2", Answers(lambda tick: 0)), rig.join("magenta1")
+    rig.begin()
+    rig.ticks(20)
+    reason = "answers tick 0, the match is at 4; use sight.tick"
+    assert rig.silences() == [f"cyan2 does not answer, its robot stops: {reason}"]
+
+
+def test_a_robot_whose_commands_are_invalid_is_reported_with_the_reason(rig):
+    rig.ticks(5)
+    rig.agents["cyan2"].frozen = True
+    writer = rig.outside.publisher(COMMAND, robot="cyan2")
+    for _ in range(10):
+        writer.put_payload(b'{"answers_tick":5,"drive":{"vx":NaN}}')
+        rig.ticks(1)
+    reason = "Command: drive.vx is nan; m/s from -20 to 20"
+    assert rig.silences() == [f"cyan2 does not answer, its robot stops: {reason}"]
+    assert rig.health().robots["cyan2"].fault == reason
+    rig.agents["cyan2"].frozen = False
+    rig.ticks(5)
+    assert rig.health().robots["cyan2"].fault == ""
 
 
 def test_a_robot_that_needs_long_but_not_too_long_is_waited_for(rig):

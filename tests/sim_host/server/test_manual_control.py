@@ -12,7 +12,7 @@ from touchline.drive.keys import Speeds
 
 
 class Talker:
-    """Drives ahead and says so."""
+    """Drives ahead and sends a radio message."""
 
     def act(self, sight):
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0), radio=Radio(role="talker"))
@@ -33,7 +33,7 @@ def test_manual_control_replaces_the_brain_until_it_gives_the_robot_back(rig_nam
     hand.put(ManualDrive(release=True))
     rig.ticks(2)
     assert [given.drive.vx for given in rig.inputs("cyan2")] == [1.0, 1.0]
-    assert rig.silences() == ["cyan2 is under manual control", "cyan2 is given back to its brain"]
+    assert rig.silences() == ["cyan2 is under manual control", "cyan2 is controlled by its brain again"]
 
 
 def test_manual_control_that_falls_silent_gives_the_robot_back(realtime_rig):
@@ -89,7 +89,7 @@ def typed(rig, *texts):
 
 
 def attended(rig):
-    """A seat from which a question is answered while it waits."""
+    """A bus whose queries are answered while it waits."""
     bus = rig.seat()
     query = bus.query
 

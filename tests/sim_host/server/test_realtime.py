@@ -1,4 +1,4 @@
-"""Real time and its multiples: ticks are due by the clock, and nobody is waited for."""
+"""Real time and its multiples: ticks are due by the clock, and the host waits for no agent."""
 
 import pytest
 

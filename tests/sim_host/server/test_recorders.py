@@ -63,7 +63,7 @@ def test_a_dead_recorder_stops_the_match_no_longer_than_one_that_stands_still(ri
     assert rig.health().recorders == {}
 
 
-def test_a_recorder_that_says_it_leaves_is_waited_for_no_longer(rig, recorder):
+def test_the_host_does_not_wait_for_a_recorder_that_reports_that_it_leaves(rig, recorder):
     recorder.stands = True
     rig.ticks(RUN_AHEAD_TICKS - 2)
     began = rig.clock.now()
@@ -204,7 +204,7 @@ def test_sights_are_in_the_batches_while_a_recorder_records_them(rig):
     assert sights_in(rig, batches) == []
 
 
-def test_with_a_match_file_that_says_so_sights_are_in_the_batches_from_tick_0(rig_of):
+def test_if_the_match_file_demands_it_sights_are_in_the_batches_from_tick_0(rig_of):
     rig = rig_of(record={"sights": True})
     batches = rig.outside.subscribe(RECORD_BATCH)
     rig.join_all()

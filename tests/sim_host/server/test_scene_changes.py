@@ -1,4 +1,4 @@
-"""Scenes on the bus: robots come and go while the host runs, and everybody is told."""
+"""Scenes on the bus: robots come and go while the host runs, and all clients are notified."""
 
 import pytest
 
@@ -24,7 +24,7 @@ def cyan(name, x, y, **more) -> SceneRobot:
 
 
 @pytest.mark.parametrize("rig_name", ["rig", "realtime_rig"])
-def test_a_removed_robot_gets_no_more_sights_and_its_health_says_why(rig_name, request):
+def test_a_removed_robot_gets_no_more_sights_and_its_health_reports_the_removal(rig_name, request):
     rig = request.getfixturevalue(rig_name)
     sights, health = rig.listen(SIGHT), rig.listen(HEALTH)
     rig.ticks(3)
@@ -81,7 +81,7 @@ def test_the_host_does_not_wait_for_the_agent_of_a_still_robot(rig):
     assert row.still and not row.removed
 
 
-def test_everyone_is_told_of_another_episode_and_late_comers_of_who_plays(rig):
+def test_another_episode_is_published_to_all_and_the_setup_has_the_new_roster(rig):
     events, states, worlds = rig.listen(EVENT), rig.listen(STATE), rig.listen(WORLD)
     rig.ticks(3)
     reply = ask(rig, SceneOperation.LOAD, load="two_on_one")

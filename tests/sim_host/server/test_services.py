@@ -42,7 +42,7 @@ def test_actions_of_one_tick_are_answered_each_with_its_own_reply(rig):
     assert (first.result(0.0).accepted, second.result(0.0).accepted) == (True, False)
 
 
-def test_while_a_referee_box_is_connected_nobody_else_may_more_than_stop_the_game(rig):
+def test_while_a_referee_box_is_connected_other_clients_may_only_stop_the_game(rig):
     """As in the NuBot coach: its buttons are disabled while the box is connected, and the space bar always stops."""
     ask(rig, ActionName.STOP)
     box = rig.seat()
@@ -61,6 +61,26 @@ def test_while_a_referee_box_is_connected_nobody_else_may_more_than_stop_the_gam
     assert ask(rig, ActionName.START).accepted
 
 
+def test_a_robot_that_the_referee_box_asks_for_may_be_named_though_everything_else_is_locked(rig):
+    events, states = rig.listen(EVENT), rig.listen(STATE)
+    ask(rig, ActionName.STOP)
+    box = rig.seat()
+    box.declare_alive(REFBOX, "cyan")
+    card = RefereeAction(action=ActionName.RED_CARD, side=Side.CYAN, source=REFBOX)
+    answers = [rig.outside.query(ACTION, card)]
+    rig.ticks(1)
+    (question,) = states.all()[-1].questions
+    assert (question.action, question.side, question.robots) == (ActionName.RED_CARD, Side.CYAN, ["cyan1", "cyan2"])
+    for action in (ActionName.RED_CARD, ActionName.NAME_ROBOT, ActionName.NAME_ROBOT):
+        answers.append(rig.outside.query(ACTION, RefereeAction(action=action, robot="cyan1", source="cyan's coach")))
+        rig.ticks(1)
+    assert [answer.result(0.0).accepted for answer in answers] == [True, False, True, False]
+    state = states.all()[-1]
+    assert state.refbox and not state.questions and state.robots["cyan1"].red == 1
+    told = [event.text for event in events.all()]
+    assert "cyan's coach requests: name robot for cyan1" in told
+
+
 def test_an_invalid_query_is_published_and_answered_with_the_reason(rig):
     told = rig.listen(INVALID)
     answer = rig.outside.query(ACTION, CoachOrder(sequence=1))
@@ -71,7 +91,7 @@ def test_an_invalid_query_is_published_and_answered_with_the_reason(rig):
     assert invalid.key == "game/action"
 
 
-def test_the_setup_is_told_before_the_first_tick_and_during_the_match(rig_of):
+def test_the_setup_can_be_queried_before_the_first_tick_and_during_the_match(rig_of):
     rig = rig_of(patience={"attendance": 0})
     answer = rig.outside.query(SETUP, SetupRequest())
     rig.begin()
@@ -80,7 +100,7 @@ def test_the_setup_is_told_before_the_first_tick_and_during_the_match(rig_of):
     assert setup.teams[Side.CYAN].robots == ["cyan1", "cyan2"]
 
 
-def test_the_setup_is_told_to_a_robot_that_has_to_know_it_before_it_can_answer(rig):
+def test_the_setup_is_served_while_the_host_waits_for_a_robot_that_needs_it(rig):
     rig.agents["cyan2"].frozen = True
     answer = rig.outside.query(SETUP, SetupRequest())
 
@@ -97,7 +117,7 @@ def test_the_setup_is_told_to_a_robot_that_has_to_know_it_before_it_can_answer(r
     assert [given.answers_tick for given in rig.inputs("cyan2")] == [0]
 
 
-def test_a_start_begins_the_match_though_nobody_has_come(rig_of):
+def test_the_action_start_begins_the_match_without_any_agent(rig_of):
     rig = rig_of()
     answer = rig.outside.query(ACTION, RefereeAction(action=ActionName.START))
     rig.begin()
@@ -126,7 +146,7 @@ def played(rig):
     return rig
 
 
-def test_after_full_time_the_host_stays_until_those_who_watch_can_have_heard_of_it(rig_of):
+def test_after_full_time_the_host_stays_until_its_watchers_can_have_received_the_end(rig_of):
     """A message that was lost shows half a second later, with the bus's heartbeat, and is fetched from the host."""
     rig = played(rig_of(duration=1))
     rig.seat().declare_alive("coach", "page")
@@ -136,7 +156,7 @@ def test_after_full_time_the_host_stays_until_those_who_watch_can_have_heard_of_
 
 
 @pytest.mark.parametrize("watched", [False, True])
-def test_a_host_that_nobody_watches_or_that_is_told_to_stop_does_not_stay(rig_of, watched):
+def test_a_host_without_watchers_or_with_a_stop_request_does_not_stay(rig_of, watched):
     rig = played(rig_of(duration=1))
     if watched:
         rig.seat().declare_alive("coach", "page")
@@ -146,7 +166,7 @@ def test_a_host_that_nobody_watches_or_that_is_told_to_stop_does_not_stay(rig_of
     assert rig.clock.now() == began
 
 
-def test_a_parameter_is_changed_between_two_ticks_recorded_and_told_to_late_comers(rig):
+def test_a_parameter_is_changed_between_two_ticks_recorded_and_part_of_the_setup(rig):
     events, applied = rig.listen(EVENT), rig.listen(APPLIED)
     rig.ticks(2)
     values = {"drive.max_speed": 1.5}

@@ -14,13 +14,14 @@ from coach_gateway.settings import BridgeOptions, GatewaySettings
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.bus.settings import ClientSettings, ListenSettings
-from schemas.config.match_config import MatchConfig, RecordingConfig
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import RecordingConfig
 from schemas.config.settings import CommandLine, RecordOptions, Settings
 from schemas.errors import TouchlineError
 from schemas.wire.field_docstrings import field_docstrings
 from sim_host.server.settings import HostSettings
-from touchline.__main__ import app as touchline
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
+from touchline.command_line import app as touchline
 
 COMMANDS: dict[str, tuple[type[Settings], ...]] = {
     "host": (HostSettings,),
@@ -195,6 +196,6 @@ def test_a_value_that_a_model_refuses_is_named_by_its_option(content: dict[str, 
         from_options(House, **content)
 
 
-def test_values_that_do_not_agree_are_told_as_the_model_does() -> None:
+def test_contradicting_values_are_reported_in_the_words_of_the_model() -> None:
     with pytest.raises(TouchlineError, match="keep 2 needs several files; add split_size, split_duration"):
         from_options(RecorderSettings, out="a", record={"keep": 2})

@@ -6,7 +6,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.game import ActionName, Phase, Score
 from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
@@ -14,12 +15,12 @@ from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, HEALTH, STATE
 from support.fake_host import FakeHost
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import coach
 
 
 class TalkingClock(SteppedClock):
-    """Lets the host say its piece whenever somebody waits."""
+    """Lets the host publish whenever a client waits."""
 
     __slots__ = ("host",)
 
@@ -33,7 +34,7 @@ class Host(FakeHost):
 
     def __init__(self) -> None:
         self.says: list[GameState | Health] = []
-        super().__init__(Medium(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
+        super().__init__(SharedState(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
 
     def speak(self) -> None:
         for message in self.says:
@@ -49,10 +50,10 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
     there = Host()
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
         clock = TalkingClock()
         clock.host = there
-        with there.medium.open_bus(match, clock) as bus:
+        with there.medium.open_bus(connection.match or "friendly", clock) as bus:
             yield bus
 
     monkeypatch.setattr(coach, "bus_client", seat)
@@ -93,6 +94,13 @@ def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word:
     assert (asked.place is not None) == (deed.target is coach.PlaceTarget)
 
 
+def test_the_referees_commands_can_be_given_to_the_referee(host: Host) -> None:
+    result = CliRunner().invoke(app, ["referee", "corner", "magenta"], prog_name="touchline")
+    assert (result.exit_code, result.stdout) == (0, "corner accepted\n")
+    assert [(action.action, action.side) for action in host.asked] == [(ActionName.CORNER, Side.MAGENTA)]
+    assert [command.name for command in coach.referee.registered_commands] == list(coach.REFEREE_COMMANDS)
+
+
 def test_every_action_has_one_word() -> None:
     assert len(coach.REFEREE_COMMANDS) == len(ActionName)
     assert {deed.action for deed in coach.REFEREE_COMMANDS.values()} == set(ActionName)
@@ -104,7 +112,7 @@ def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:
     assert host.asked == []
 
 
-def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> None:
+def test_an_action_in_a_match_without_a_host_is_wrong_input(host: Host) -> None:
     result = touchline("stop", "--match", "final")
     assert result.exit_code == 2
     assert 'match "final": no process answers game/action' in result.stderr
@@ -112,12 +120,12 @@ def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> No
 
 def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:
     host.says = [GameState(tick=5, time=61.0, clock=61.0, phase=Phase.PLAY, score=Score(cyan=2))]
-    assert touchline("state").stdout == " 1:01.0  half 1  cyan 2 : 0 magenta  play\n"
+    assert touchline("state").stdout == " 1:01.0  half 1  Simple 2 : 0 NuBot  play\n"
     shown = json.loads(touchline("state", "--json").stdout)
     assert (shown["phase"], shown["score"]) == ("play", {"cyan": 2, "magenta": 0})
 
 
-def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host: Host) -> None:
+def test_the_state_of_a_match_that_waits_for_robots_has_the_number_of_present_ones(host: Host) -> None:
     robots = {"cyan1": RobotHealth(alive=True), "cyan2": RobotHealth()}
     host.says = [Health(tick=0, time=0.0, pace="lockstep", real_time_factor=0.0, robots=robots)]
     result = touchline("state")
@@ -125,7 +133,7 @@ def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host
     assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are connected\n'
 
 
-def test_a_host_that_says_nothing_is_named(host: Host) -> None:
+def test_a_host_that_publishes_no_state_is_reported(host: Host) -> None:
     result = touchline("state")
     assert result.exit_code == 2
     assert 'match "friendly": the host publishes no state of it' in result.stderr

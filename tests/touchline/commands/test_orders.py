@@ -8,7 +8,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
@@ -16,7 +17,7 @@ from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
 from schemas.topics import SETUP
 from support.fake_host import FakeHost
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import orders
 
 
@@ -25,15 +26,16 @@ class Host(FakeHost):
 
     def __init__(self) -> None:
         self.deaf: set[str] = set()
+        self.refused: dict[str, str] = {}
         self._acknowledged = 0
         super().__init__(
-            Medium(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
+            SharedState(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
         )
 
     def _acknowledge(self) -> Setup:
         for side, order in self.given_orders[self._acknowledged :]:
             names = [f"{side}{number}" for number in range(1, 6)]
-            self.stand(side, order, **{name: name not in self.deaf for name in names})
+            self.stand(side, order, refused=self.refused, **{name: name not in self.deaf for name in names})
             self._acknowledged += 1
         return self.setup
 
@@ -43,8 +45,8 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
     there = Host()
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
-        with there.medium.open_bus(match, SteppedClock()) as bus:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
+        with there.medium.open_bus(connection.match or "friendly", SteppedClock()) as bus:
             yield bus
 
     monkeypatch.setattr(orders, "bus_client", seat)
@@ -56,7 +58,7 @@ def coach(*words: str) -> Result:
     return CliRunner().invoke(app, ["coach", *words], prog_name="touchline")
 
 
-def test_an_order_is_given_and_says_who_has_acknowledged_it(host: Host) -> None:
+def test_an_order_is_sent_and_the_robots_that_acknowledged_it_are_printed(host: Host) -> None:
     result = coach("order", "cyan", "--mode", "hold", "--max-speed", "1.5")
     ((side, order),) = host.given_orders
     assert (side, order.mode, order.max_speed) == ("cyan", CoachMode.HOLD, 1.5)
@@ -72,7 +74,22 @@ def test_robots_that_do_not_acknowledge_are_waited_for_and_named(host: Host) -> 
     assert result.exit_code == 0
 
 
-def test_what_became_of_an_order_is_told_to_programs(host: Host) -> None:
+def test_an_order_that_robots_refuse_fails_and_names_them_with_the_reason(host: Host) -> None:
+    host.refused = dict.fromkeys(("cyan1", "cyan2", "cyan3", "cyan4", "cyan5"), "unknown test: machine")
+    result = coach("test", "cyan", "machine", "--robot", "cyan2")
+    assert result.exit_code == 1
+    everyone = "cyan1, cyan2, cyan3, cyan4, cyan5"
+    assert result.stdout.endswith(f"test machine; refused by {everyone}: unknown test: machine\n")
+    assert json.loads(coach("test", "cyan", "machine", "--robot", "cyan2", "--json").stdout)["refused"] == host.refused
+
+
+def test_a_point_outside_the_field_is_wrong_input(host: Host) -> None:
+    result = coach("test", "cyan", "move", "--robot", "cyan2", "--point-a", "50,0")
+    assert result.exit_code == 2 and host.given_orders == []
+    assert "point_a at (50, 0) is outside the field and its border; |x| is at most 12 m" in result.stderr
+
+
+def test_the_result_of_an_order_is_printed_as_json_for_programs(host: Host) -> None:
     host.deaf = {"cyan5"}
     said = json.loads(coach("order", "cyan", "--json").stdout)
     assert said == {
@@ -81,6 +98,7 @@ def test_what_became_of_an_order_is_told_to_programs(host: Host) -> None:
         "status": "active",
         "acknowledged": ["cyan1", "cyan2", "cyan3", "cyan4"],
         "missing": ["cyan5"],
+        "refused": {},
     }
 
 
@@ -124,9 +142,7 @@ def test_an_order_that_names_a_test_is_one(host: Host) -> None:
         (("order", "cyan", "--wait", "-1"), "--wait"),
     ],
 )
-def test_what_cannot_be_meant_is_wrong_input_and_reaches_nobody(
-    host: Host, words: tuple[str, ...], reason: str
-) -> None:
+def test_an_impossible_order_is_wrong_input_and_is_not_sent(host: Host, words: tuple[str, ...], reason: str) -> None:
     result = coach(*words)
     assert result.exit_code == 2 and len(result.stderr.splitlines()) == 1
     assert reason in result.stderr

@@ -9,21 +9,22 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.parameters import ParametersReply
 from schemas.process.clock import SteppedClock
 from schemas.topics import PARAMETERS
 from sim_host.match.live_parameters import LiveParameters
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import parameters
 
 
 @pytest.fixture(autouse=True)
 def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Answers as a host does, from the numbers of the default match."""
-    medium = Medium()
+    medium = SharedState()
     bus = medium.open_bus("friendly", SteppedClock())
     server = bus.serve(PARAMETERS)
 
@@ -39,8 +40,8 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
                 query.reply(ParametersReply(accepted=False, reason=str(error)))
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
-        with medium.open_bus(match, SteppedClock()) as client:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
+        with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
             yield client
 
     monkeypatch.setattr(parameters, "bus_client", seat)

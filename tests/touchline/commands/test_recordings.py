@@ -15,15 +15,15 @@ from schemas.game import Phase
 from schemas.messages.game import GameState
 from schemas.process.clock import SteppedClock
 from schemas.topics import STATE
-from touchline.__main__ import app
+from touchline.command_line import app
 
 
 def touchline(*words: str | Path) -> Result:
     return CliRunner().invoke(app, [str(word) for word in words], prog_name="touchline")
 
 
-def write(path: Path, *, changed_at: int = -1, count: int = 50, missing: int = 0) -> Path:
-    """Game states, one in each tick; one of them says something else, and some numbers are missing at the end."""
+def write(path: Path, *, changed_at: int = -1, count: int = 50, missing: int = 0, removed: int = -1) -> Path:
+    """Game states, one in each tick; one of them differs, and some numbers are missing at the end."""
     clock = SteppedClock()
     writer = RecordingWriter(path, clock, "friendly")
     writer.begin(make_manifest("friendly", "test", clock, None, load_match(None), sights=False), {})
@@ -31,7 +31,8 @@ def write(path: Path, *, changed_at: int = -1, count: int = 50, missing: int = 0
     for tick in range(count):
         state = GameState(tick=tick, time=tick * 0.02, phase=Phase.PLAY, clock=9.5 if tick == changed_at else 1.0)
         stamp = Stamp(tick + (missing if tick == count - 1 else 0), tick, tick * 20_000_000)
-        batch.append((stamp.sim_ns, ReceivedMessage(STATE, STATE.key, state.encode(), stamp)))
+        if tick != removed:
+            batch.append((stamp.sim_ns, ReceivedMessage(STATE, STATE.key, state.encode(), stamp)))
     writer.write(batch)
     writer.finish(Ending(ended=EndReason.STOPPED, finished=""))
     return path
@@ -42,7 +43,7 @@ def test_recordings_that_say_the_same_are_identical(tmp_path: Path) -> None:
     assert (result.exit_code, result.stdout) == (0, "identical: 50 messages on 1 keys\n")
 
 
-def test_the_first_difference_is_a_failure_that_says_where_what_and_by_how_much(tmp_path: Path) -> None:
+def test_the_first_difference_is_a_failure_with_place_field_and_amount(tmp_path: Path) -> None:
     one, other = write(tmp_path / "a.mcap"), write(tmp_path / "b.mcap", changed_at=20)
     result = touchline("diff", one, other)
     assert result.exit_code == 1
@@ -92,3 +93,48 @@ def test_what_is_no_recording_is_one_line(tmp_path: Path, command: str) -> None:
     result = touchline(command, path)
     assert (result.exit_code, result.stderr.count("\n")) == (2, 1)
     assert "not a recording" in result.stderr
+
+
+def test_the_duration_of_a_filtered_recording_is_its_own(tmp_path: Path) -> None:
+    path = write(tmp_path / "a.mcap", count=200)
+    touchline("filter", path, "--out", tmp_path / "part.mcap", "--from", "1", "--to", "3")
+    facts = json.loads(touchline("info", tmp_path / "part.mcap", "--json").stdout)
+    assert (facts["start"], facts["end"]) == (1.0, 2.98)
+    assert round(facts["duration"], 6) == 1.98
+    assert "1.98 s simulated, from 1.00 to 2.98 s" in touchline("info", tmp_path / "part.mcap").stdout
+
+
+@pytest.mark.parametrize("removed", [0, 17, 49])
+def test_a_missing_message_is_called_missing(tmp_path: Path, removed: int) -> None:
+    one, other = write(tmp_path / "a.mcap"), write(tmp_path / "b.mcap", removed=removed)
+    for first, second in ((one, other), (other, one)):
+        done = touchline("diff", first, second)
+        assert done.exit_code == 1
+        assert f"game/state, message {removed} at {removed * 0.02:.3f} s is missing in {other}" in done.stdout
+
+
+def test_only_a_span_of_two_recordings_is_compared(tmp_path: Path) -> None:
+    one, other = write(tmp_path / "a.mcap"), write(tmp_path / "b.mcap", changed_at=30)
+    assert touchline("diff", one, other, "--from", "0.2", "--to", "0.6").stdout.startswith("identical: 20 messages")
+    assert touchline("diff", one, other, "--from", "0.2").exit_code == 1
+
+
+WRONG_SPANS = {
+    ("filter", "--include", "nothing/here"): "none of its keys is selected; `touchline info` lists them",
+    ("filter", "--from", "20"): "has no message of the selected keys and times; it lasts from 0.00 to 0.98 s",
+    ("filter", "--from", "20", "--to", "10"): "--from is 20 and --to is 10; give a --to that is greater",
+    ("diff", "--include", "nothing/here"): "no message is selected; change --include, --exclude, --from or --to",
+    ("diff", "--from", "0.5", "--to", "0.5"): "--from is 0.5 and --to is 0.5; give a --to that is greater",
+}
+
+
+@pytest.mark.parametrize("words", WRONG_SPANS)
+def test_a_selection_of_nothing_is_refused_in_one_line(tmp_path: Path, words: tuple[str, ...]) -> None:
+    path, out = write(tmp_path / "a.mcap"), tmp_path / "out.mcap"
+    command, *options = words
+    done = touchline(command, path, *(("--out", out) if command == "filter" else (path,)), *options)
+    assert done.exit_code == 2
+    assert WRONG_SPANS[words] in done.output
+    assert done.output.count("\n") == 1
+    assert not out.exists()
+    assert [file.name for file in tmp_path.iterdir()] == ["a.mcap"]

@@ -11,14 +11,15 @@ from pytest import approx
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import load_match
 from schemas.config.scene import shipped_scenes
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import SCENE
 from sim_host.match.simulation import Simulation
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import scene
 from touchline.play import InProcessMatch, play_match
 
@@ -27,7 +28,7 @@ from touchline.play import InProcessMatch, play_match
 def simulation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulation]:
     """Answers as a host does."""
     simulation = Simulation(load_match(None))
-    medium = Medium()
+    medium = SharedState()
     bus = medium.open_bus("friendly", SteppedClock())
     server = bus.serve(SCENE)
 
@@ -36,8 +37,8 @@ def simulation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulation]:
             query.reply(simulation.handle_scene(query.message()))
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
-        with medium.open_bus(match, SteppedClock()) as client:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
+        with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
             yield client
 
     monkeypatch.setattr(scene, "bus_client", seat)
@@ -98,7 +99,7 @@ def test_the_scenes_are_listed_with_a_sentence_each_and_shown() -> None:
 
 @pytest.mark.parametrize("name", shipped_scenes())
 def test_the_shipped_teams_play_every_scene(name: str) -> None:
-    """Somebody of each side that has an agent moves within two seconds."""
+    """A robot of each side that has an agent moves within two seconds."""
     config = load_match(None, {"scene": name})
     ways = dict.fromkeys(Side, 0.0)
     table = InProcessMatch(config)
@@ -112,7 +113,7 @@ def test_the_shipped_teams_play_every_scene(name: str) -> None:
     assert all(ways[side] > 0.05 for side in Side if config.robots(side))
 
 
-def test_the_scene_says_which_profile_and_rules_unless_the_match_does() -> None:
+def test_the_scene_selects_profile_and_rules_unless_the_match_does() -> None:
     assert (load_match(None, {"scene": "paper_static"}).profile, load_match(None).profile) == ("paper", "msl")
     assert load_match(None, {"scene": "paper_static", "profile": "msl"}).profile == "msl"
 

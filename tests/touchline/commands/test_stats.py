@@ -20,7 +20,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.topics import STATE, WORLD
-from touchline.__main__ import app
+from touchline.command_line import app
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 """How the compressed records of a chunk begin."""
@@ -89,7 +89,7 @@ def test_the_page_is_written_beside_them(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("made", "said"), [({"setup": False}, "its manifest has no setup"), ({"worlds": 0}, "has no world")]
 )
-def test_a_recording_that_cannot_be_measured_is_said_so_in_one_line(tmp_path: Path, made, said: str) -> None:
+def test_a_recording_that_cannot_be_measured_is_reported_in_one_line(tmp_path: Path, made, said: str) -> None:
     result = stats(write(tmp_path / "a.mcap", **made), "--html", tmp_path / "a.html")
     assert (result.exit_code, result.stdout) == (2, "")
     assert said in result.stderr and len(result.stderr.splitlines()) == 1
@@ -105,7 +105,7 @@ def test_a_recording_that_was_cut_off_is_measured_up_to_the_cut(tmp_path: Path) 
     assert 1.0 < json.loads(result.stdout)["duration"] < 4999 * 0.02
 
 
-def test_damage_inside_is_said_and_leaves_no_page(tmp_path: Path) -> None:
+def test_damage_inside_a_recording_is_reported_and_leaves_no_page(tmp_path: Path) -> None:
     path = write(tmp_path / "a.mcap", worlds=5000)
     data = bytearray(path.read_bytes())
     frame = data.rindex(ZSTD_MAGIC, 0, len(data) // 2)

@@ -72,5 +72,5 @@ def test_what_is_no_key_of_ours_does_nothing() -> None:
     assert press_keys(KeyState(), "q", 1.0) == KeyState()
 
 
-def test_every_key_says_what_it_does() -> None:
+def test_every_key_has_a_description() -> None:
     assert all(words for words, _ in KEYS.values())

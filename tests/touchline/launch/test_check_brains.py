@@ -1,60 +1,127 @@
+"""Brains are built once before a match is launched, each team's in a process of its own."""
+
+import sys
 from pathlib import Path
 
 import pytest
 
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
+from touchline.launch import check_brains
 from touchline.launch.check_brains import check_teams
 
+pytestmark = pytest.mark.processes
+
 BRAIN = """
-from schemas.messages.command import Command as Imported
-class Striker: ...
+import os, signal, sys, threading
+from touchline import Command as Imported
+
+class Striker:
+    def __init__(self, briefing):
+        assert os.environ["TOUCHLINE_ROBOT"] == briefing.robot
+        assert os.environ["TOUCHLINE_SIDE"] == briefing.side.value
+        print("ready")
+
+    def act(self, sight): ...
+
 def act(sight): ...
 Alias = Striker
+
+class Unbriefed:
+    def __init__(self): ...
+    def act(self, sight): ...
+
+class Mapped(Striker):
+    def __init__(self, briefing):
+        self.role = {1: "keeper", 2: "wing"}[briefing.number]
+
+class Threaded(Striker):
+    def __init__(self, briefing):
+        threading.Thread(target=threading.Event().wait).start()
+
+class Crashes(Striker):
+    def __init__(self, briefing):
+        sys.stderr.write("no graphics card\\n")
+        sys.stderr.flush()
+        os.kill(os.getpid(), signal.SIGSEGV)
+
+class Hangs(Striker):
+    def __init__(self, briefing):
+        threading.Event().wait()
 """
 
 
 @pytest.fixture(autouse=True)
 def brains_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.syspath_prepend(str(tmp_path))
     Path("my_team.py").write_text(BRAIN)
     Path("broken_team.py").write_text("class Striker(:\n")
-    Path("loud_team.py").write_text("raise SystemExit('a brain was run')\nclass Striker: ...\n")
+    Path("loud_team.py").write_text("raise SystemExit('no licence')\nclass Striker: ...\n")
 
 
-def check(key: str, value: object) -> None:
-    # the other team is a program that is everywhere
-    overrides = {"teams.cyan.command": ["sh"], "teams.magenta.command": ["sh"]}
+def check(key: str, value: object, brain_folder: Path | None = None, **more: object) -> list[str]:
+    """Check a match in which the other team is a program that is everywhere; returns what was reported."""
+    overrides = {"teams.cyan.command": ["sh"], "teams.magenta.command": ["sh"], **more}
     side = key.split(".")[1]
     del overrides[f"teams.{side}.command"]
-    check_teams(load_match(None, {**overrides, key: value}))
+    reported: list[str] = []
+    check_teams(load_match(None, {**overrides, key: value}), brain_folder, reported.append)
+    return reported
 
 
-@pytest.mark.parametrize("name", ["Striker", "act", "Alias", "Imported"])
-def test_a_brain_is_found_by_whatever_its_module_binds(name: str) -> None:
-    check("teams.cyan.brain", f"my_team:{name}")
+@pytest.mark.parametrize("name", ["Striker", "act", "Alias", "Threaded"])
+def test_a_brain_that_can_be_built_is_accepted_without_a_line(name: str) -> None:
+    assert check("teams.cyan.brain", f"my_team:{name}") == []
 
 
-def test_looking_for_a_brain_does_not_run_it() -> None:
-    check("teams.cyan.brain", "loud_team:Striker")
+def test_a_brain_is_not_loaded_into_this_process() -> None:
+    check("teams.cyan.brain", "my_team:Striker")
+    assert "my_team" not in sys.modules
 
 
 @pytest.mark.parametrize(
     ("brain", "sentence"),
     [
-        (
-            "my_taem:Striker",
-            r'teams\.cyan\.brain is "my_taem:Striker"; there is no module my_taem; did you mean "my_te',
-        ),
+        ("my_taem:Striker", r'there is no module my_taem in the current directory \(/.*\); did you mean "my_team"\?$'),
         ("my_team:Strikr", r'my_team has no Strikr; did you mean "Striker"\?'),
-        ("my_team.deep:Striker", "there is no module my_team.deep|looking for my_team.deep raised"),
+        ("my_team.deep:Striker", "there is no module my_team.deep; my_team has no modules"),
         ("broken_team:Striker", r"broken_team\.py, line 1"),
+        ("loud_team:Striker", r"importing loud_team raised SystemExit: no licence \(loud_team\.py, line 1\)"),
+        ("my_team:Unbriefed", r"Unbriefed.__init__ \(my_team\.py, line 17\) .*; write def __init__\(self, briefing\)$"),
+        ("my_team:Mapped", r"Mapped\(briefing\) raised KeyError: 3 \(my_team\.py, line 22\) for magenta3$"),
+        ("my_team:Imported", r"Command .*has no method act\(self, sight\); write one$"),
+        ("my_team:Crashes", r"the process that builds it was ended by SIGSEGV: no graphics card$"),
     ],
 )
-def test_a_brain_that_is_not_there_is_named_with_its_key_and_a_hint(brain: str, sentence: str) -> None:
-    with pytest.raises(TouchlineError, match=sentence):
-        check("teams.cyan.brain", brain)
+def test_a_brain_that_cannot_be_built_is_reported_with_its_key_and_a_remedy(brain: str, sentence: str) -> None:
+    with pytest.raises(TouchlineError, match=sentence) as caught:
+        check("teams.magenta.brain", brain)
+    assert str(caught.value).startswith(f'teams.magenta.brain is "{brain}"; ')
+    assert "\n" not in str(caught.value)
+
+
+def test_a_brain_that_is_not_built_in_time_is_reported_and_its_process_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(check_brains, "NOTICE_S", 0.0)
+    monkeypatch.setattr(check_brains, "LEAST_PATIENCE_S", 0.0)
+    reported: list[str] = []
+    config = load_match(
+        None,
+        {"patience.attendance": 0.1, "teams.cyan.brain": "my_team:Hangs", "teams.magenta.command": ["sh"]},
+    )
+    with pytest.raises(TouchlineError, match=r"were not built within 0\.5 s; shorten __init__, or raise patience\."):
+        check_teams(config, None, reported.append)
+    assert reported == ["waiting for my_team:Hangs to be built"]
+
+
+def test_a_brain_beside_the_match_file_is_found_from_any_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+    check("teams.cyan.brain", "my_team:Striker", tmp_path)
+    with pytest.raises(TouchlineError, match="there is no module my_team in the current directory"):
+        check("teams.cyan.brain", "my_team:Striker")
 
 
 def test_a_program_that_is_not_there_is_named() -> None:

@@ -22,7 +22,7 @@ from schemas.process.clock import WallClock
 from schemas.topics import SETUP
 from touchline.launch.child_process import ChildProcess, ProcessHandle
 from touchline.launch.fork_server import ForkedRobot, ForkServer
-from touchline.launch.processes import MatchPlan, Process, ProcessKind, processes_of
+from touchline.launch.processes import MatchPlan, Process, ProcessKind, client_processes
 
 pytestmark = [
     pytest.mark.processes,
@@ -32,7 +32,7 @@ _LIMIT_S = 120.0
 _NOBODY = "tcp/127.0.0.1:1"
 """An endpoint at which no host will ever answer."""
 _ENDED = (0, -signal.SIGTERM)
-"""How a robot ends that is told to: by itself, or before it could listen."""
+"""How a robot ends after a signal: by itself, or before it handled signals."""
 
 
 def robot(folder: Path, name: str, patience: float = 600.0, **environment: str) -> Process:
@@ -150,8 +150,9 @@ class Brain:
     def __init__(self, briefing):
         words = list({"one", "two", "three", "four", "five"})
         print(os.environ["TOUCHLINE_SIDE"], os.environ["OMP_NUM_THREADS"], sys.flags.hash_randomization, *words)
-        print("numpy" in sys.modules, sys.path[0], os.getcwd())
-        raise SystemExit(7)
+        print("numpy" in sys.modules, sys.path[-1], os.getcwd(), "PYTHONSAFEPATH" in os.environ)
+        sys.stdout.flush()
+        os._exit(7)
 
     def act(self, sight):
         pass
@@ -165,7 +166,9 @@ def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of
     (tmp_path / "mind.py").write_text(BRAIN)
     monkeypatch.chdir(tmp_path)
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    process = processes_of(MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None))[1]
+    process = client_processes(
+        MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None)
+    )[0]
     said = []
     with open_host("friendly", WallClock(), endpoint) as host:
         server = host.serve(SETUP)
@@ -179,7 +182,7 @@ def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of
             said.append(launched.last_lines())
     assert said[0] == said[1]
     assert said[0][0].startswith("cyan 1 0 ")
-    assert said[0][1] == f"False {tmp_path} {tmp_path}"
+    assert said[0][1] == f"False {tmp_path} {tmp_path} False"
 
 
 def test_other_programs_are_launched_by_their_command_lines(
@@ -195,7 +198,7 @@ SUPERVISOR = """
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import ProcessKind, MatchPlan, Process, processes_of
+from touchline.launch.processes import ProcessKind, MatchPlan, Process, client_processes
 from robot_agent.settings import AgentSettings
 folder, server = Path(sys.argv[1]), ForkServer()
 for name in sys.argv[2:]:
@@ -226,7 +229,7 @@ def test_robots_and_their_fork_server_end_with_a_supervisor_that_is_killed(tmp_p
 def test_robots_whose_fork_server_is_killed_count_as_crashed_and_are_ended(
     launch: Callable[[Process], ProcessHandle], tmp_path: Path
 ) -> None:
-    """Nobody else could tell how they end."""
+    """No other process can report how they end."""
     first = launch(robot(tmp_path, "cyan1"))
     os.kill(int(fields_of(first.pid)[1]), signal.SIGKILL)
     assert end_of(first) == 255
@@ -244,3 +247,40 @@ def test_the_fork_server_s_own_function_is_imported_without_anything_heavy() -> 
     code = "import sys, touchline.launch.fork_server; print(*{'zenoh', 'pybullet', 'mcap', 'numpy'} & set(sys.modules))"
     printed = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert printed.split() == []
+
+
+UNDER_NOHUP = """
+import signal, sys, time
+from pathlib import Path
+from robot_agent.settings import AgentSettings
+from touchline.launch.child_process import ChildProcess
+from touchline.launch.fork_server import ForkServer
+from touchline.launch.processes import Process, ProcessKind
+for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN)
+folder = Path(sys.argv[1])
+settings = AgentSettings(connect="tcp/127.0.0.1:1", match="m", robot="cyan1", brain="no:Brain", patience=600)
+robot = Process("cyan1", ProcessKind.AGENT, ("none",), {}, 3, settings, folder / "cyan1.json")
+code = "import signal; print('rests', flush=True); signal.pause()"
+host = Process("host", ProcessKind.HOST, (sys.executable, "-c", code), {})
+for number in (signal.SIGINT, signal.SIGTERM):
+    forked, program = ForkServer().launch(robot, folder / "cyan1.log"), ChildProcess(host, folder / "host.log")
+    while Path(f"/proc/{forked.pid}/comm").read_text().strip() != "cyan1" or not program.last_lines():
+        time.sleep(0.01)
+    for child in (forked, program):
+        child.send(signal.SIGHUP)
+        assert child.status() is None
+        child.send(number)
+        while child.status() is None:
+            time.sleep(0.01)
+        print(number.name, type(child).__name__)
+"""
+
+
+def test_processes_are_ended_by_signals_that_their_launcher_ignores(tmp_path: Path) -> None:
+    """Shells start background jobs with SIGINT ignored; what `nohup` ignores, SIGHUP, stays ignored."""
+    command = [sys.executable, "-c", UNDER_NOHUP, str(tmp_path)]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=_LIMIT_S, check=False)
+    assert ended.stdout.splitlines() == [
+        f"{number} {kind}" for number in ("SIGINT", "SIGTERM") for kind in ("ForkedRobot", "ChildProcess")
+    ], ended.stderr

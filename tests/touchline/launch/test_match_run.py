@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.bus.endpoint import with_free_port
 from schemas.config.match_config import load_match
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import EventKind, Phase, Score
@@ -19,6 +18,7 @@ from schemas.topics import EVENT, STATE
 from touchline.launch import match_run
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
 from touchline.launch.processes import MatchPlan, Process, ProcessKind
+from touchline.launch.recording_outcome import NO_RECORDING
 from touchline.launch.result import MatchResult
 from touchline.watch.screen import PlainScreen
 
@@ -26,15 +26,19 @@ pytestmark = pytest.mark.processes
 
 HOST = """
 import os, pathlib, signal, sys
+from schemas.bus.announcement import Announcement, announced
 from schemas.bus.zenoh.bus import open_host
 from schemas.process.clock import WallClock
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
 from schemas.topics import EVENT, STATE
 
-def play(listen, seen, phase):
+def play(announcement, seen, phase):
     clock = WallClock()
-    with open_host("friendly", clock, listen) as bus:
+    with (
+        open_host("friendly", clock, "tcp/127.0.0.1:0") as bus,
+        announced(Announcement(endpoint=bus.endpoint, match="friendly", pid=1, folder="."), pathlib.Path(announcement)),
+    ):
         states, events = bus.publisher(STATE), bus.publisher(EVENT)
         while not pathlib.Path(seen).exists():
             states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY, clock=0.02))
@@ -53,11 +57,15 @@ WRONG = "import sys; sys.stderr.write('pybullet says hello\\ntouchline: profile 
 RESTS = "import signal; signal.pause()"
 CRASHES = "import sys; sys.exit('brain raised')"
 RECORDS = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_bytes(b'recorded')"
+BREAKS_OFF = (
+    "import os, pathlib, signal, sys; pathlib.Path(sys.argv[1] + '.part').write_bytes(b'so far');"
+    "os.kill(os.getpid(), signal.SIGKILL)"
+)
 LOSES = "import sys; sys.exit('disk full')"
 
 
 class WatchedScreen(PlainScreen):
-    """Leaves a file for the host when play is seen and `awaited` was said, so that its next words come in time."""
+    """Leaves a file for the host when play is seen and `awaited` was printed, so that its next lines come in time."""
 
     def __init__(self, words: io.StringIO, clock: WallClock, seen: Path, awaited: str) -> None:
         super().__init__(words, clock)
@@ -74,34 +82,42 @@ class WatchedScreen(PlainScreen):
 class Stage:
     """One match on a screen that can be read afterwards."""
 
-    def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str) -> None:
+    def __init__(
+        self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str, **overrides: object
+    ) -> None:
         recording = folder / "match.mcap" if recorder else None
-        self.plan = MatchPlan(load_match(None), with_free_port("tcp/127.0.0.1:0"), folder, recording)
+        self.plan = MatchPlan(load_match(None, overrides), None, folder, recording)
         self.words = io.StringIO()
         programs = {
-            "host": (ProcessKind.HOST, host, (self.plan.listen, str(folder / "seen"))),
+            "host": (ProcessKind.HOST, host, (str(self.plan.announcement), str(folder / "seen"))),
             "cyan1": (ProcessKind.AGENT, agent, ()),
             "recorder": (ProcessKind.RECORDER, recorder, (str(recording),)),
         }
-        processes = [
+        host, *clients = [
             Process(
                 name, kind, (sys.executable, "-c", code, *words), {}, restarts=3 if kind is ProcessKind.AGENT else 0
             )
             for name, (kind, code, words) in programs.items()
             if code
         ]
-        monkeypatch.setattr(match_run, "processes_of", lambda plan: processes)
+        monkeypatch.setattr(match_run, "host_process", lambda plan: host)
+        monkeypatch.setattr(match_run, "client_processes", lambda plan: clients)
 
-    def play(self, awaited: str = "", recorded: Sequence[ReceivedMessage] = ()) -> MatchResult:
+    def play(self, awaited: str = "", published: Sequence[ReceivedMessage] = ()) -> MatchResult:
         clock = WallClock()
         screen = WatchedScreen(self.words, clock, self.plan.folder / "seen", awaited)
-        return MatchRun(self.plan, screen, clock, lambda plan: {"world": 2}, lambda plan: recorded).play()
+        return MatchRun(self.plan, screen, clock, lambda plan: {"world": 2}, lambda plan: published).play()
 
 
 def stage(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str = RESTS, recorder: str = RECORDS
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    host: str,
+    agent: str = RESTS,
+    recorder: str = RECORDS,
+    **overrides: object,
 ) -> Stage:
-    return Stage(folder, monkeypatch, host, agent, recorder)
+    return Stage(folder, monkeypatch, host, agent, recorder, **overrides)
 
 
 def test_a_match_that_reaches_full_time_has_score_events_and_recording(
@@ -112,8 +128,9 @@ def test_a_match_that_reaches_full_time_has_score_events_and_recording(
     assert (result.score.cyan, result.score.magenta) == (1, 0)
     assert (result.ticks, result.duration_s) == (21, 0.42)
     assert [event.text for event in result.events] == ["goal by cyan3"]
-    assert result.recording == match.plan.recording
-    assert result.losses == {"world": 2}
+    assert result.recording.path == match.plan.recording
+    assert result.recording.losses == {"world": 2}
+    assert "misses 2 messages" in result.recording.fault
     assert " 0:00.4  goal: goal by cyan3" in match.words.getvalue()
 
 
@@ -121,7 +138,7 @@ def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     match = stage(tmp_path, monkeypatch, FULL_TIME, agent=CRASHES, recorder="")
-    assert match.play(awaited="not started again").recording is None
+    assert match.play(awaited="not started again").recording == NO_RECORDING
     words = [line for line in match.words.getvalue().splitlines() if "cyan1" in line]
     outcomes = [f"started again ({count} of 3)" for count in (1, 2, 3)] + ["not started again"]
     assert words == [
@@ -129,12 +146,24 @@ def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
     ]
 
 
-def test_a_host_with_wrong_input_is_heard_in_its_own_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, CUT_SHORT, agent=CRASHES, **{"teams.cyan.size": 1, "teams.cyan.name": "Lions"})
+    reason = r"^match ended .*: no robot of Lions \(cyan\) is left; cyan1: brain raised; logs are in "
+    with pytest.raises(MatchFailedError, match=reason):
+        match.play(awaited="what is never shown")
+    assert "cyan1 ended with status 1; not started again" in match.words.getvalue()
+
+
+def test_the_error_of_a_host_with_wrong_input_is_shown_unchanged(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with pytest.raises(TouchlineError, match=r"^profile is odd; mend it$"):
         stage(tmp_path, monkeypatch, WRONG).play()
 
 
-def test_a_recorder_that_waits_for_a_host_who_could_not_begin_is_sent_away(
+def test_a_recorder_that_waits_for_a_host_that_could_not_start_is_ended(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     match = stage(tmp_path, monkeypatch, WRONG, recorder=RESTS)
@@ -160,29 +189,39 @@ def test_a_host_that_was_ended_before_full_time_leaves_no_result(
         stage(tmp_path, monkeypatch, CUT_SHORT).play()
 
 
-def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_its_recording(
+def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_what_the_host_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     goal = GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3")
     end = GameEvent(tick=60, time=1.2, clock=1.2, kind=EventKind.FULL_TIME, rule="clock", text="full time")
     over = GameState(tick=60, time=1.2, phase=Phase.FULL_TIME, clock=1.2, score=Score(cyan=1))
-    recorded = [
+    published = [
         ReceivedMessage(topic, topic.key, message.encode(), Stamp(number, number, 0))
         for number, (topic, message) in enumerate([(EVENT, goal), (EVENT, end), (STATE, over)])
     ]
     match = stage(tmp_path, monkeypatch, CUT_SHORT)
-    result = match.play(recorded=recorded)
+    result = match.play(published=published)
     assert (result.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
     assert [event.text for event in result.events] == ["goal by cyan3", "full time"]
     assert match.words.getvalue().count("goal by cyan3") == 1
     assert "full time" in match.words.getvalue()
 
 
-def test_a_lost_recording_fails_the_match_that_was_to_be_recorded(
+def test_a_match_whose_recording_is_lost_has_its_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    result = stage(tmp_path, monkeypatch, FULL_TIME, recorder=LOSES).play()
+    assert (result.score.cyan, result.ticks) == (1, 21)
+    assert result.recording.path is None
+    assert f"the recording {tmp_path / 'match.mcap'} is lost: disk full" in result.recording.fault
+
+
+def test_what_a_recorder_has_left_unfinished_is_named_with_its_remedy(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with pytest.raises(MatchFailedError, match="its recording was lost: disk full"):
-        stage(tmp_path, monkeypatch, FULL_TIME, recorder=LOSES).play()
+    result = stage(tmp_path, monkeypatch, FULL_TIME, recorder=BREAKS_OFF).play()
+    part = tmp_path / "match.mcap.part"
+    assert result.recording.path == part
+    assert "the recorder was ended by SIGKILL" in result.recording.fault
+    assert f"touchline recover {part}" in result.recording.fault
 
 
 def test_ctrl_c_ends_all_processes_and_is_passed_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,5 @@
 import re
+import socket
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -19,32 +20,36 @@ from sim_host.server.settings import HostSettings
 from touchline.launch.processes import (
     PROCESSES,
     MatchPlan,
+    Page,
     Process,
     ProcessKind,
     check_robot_names,
-    processes_of,
+    client_processes,
+    host_process,
 )
 from touchline.launch.run_folder import prepare_run
+
+JOINED = {"connect": "tcp/127.0.0.1:7447", "match": "friendly"}
 
 
 def plan(
     recording: Path | None = Path("match.mcap"), listen: str = "tcp/127.0.0.1:7447", **overrides: object
 ) -> MatchPlan:
-    return MatchPlan(load_match(None, overrides), listen, Path("runs/one"), recording)
+    return MatchPlan(load_match(None, overrides), listen, Path("runs/one"), recording, launch_token="secret")
 
 
 def by_name(plan: MatchPlan) -> dict[str, Process]:
-    return {process.name: process for process in processes_of(plan)}
+    return {process.name: process for process in (host_process(plan), *client_processes(plan))}
 
 
 def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
-    names = [process.name for process in processes_of(plan())]
+    names = [process.name for process in (host_process(plan()), *client_processes(plan()))]
     assert names == ["host", "recorder", *(f"{side}{n}" for side in ("cyan", "magenta") for n in range(1, 6))]
 
 
 @pytest.mark.parametrize("name", ["host", "recorder", "page", "bridges"])
 def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
-    """The supervisor knows processes by their names: such a robot took the host's place, and nobody played."""
+    """The supervisor knows processes by their names: such a robot took the host's place, and no match was played."""
     with pytest.raises(TouchlineError, match=f'a robot is named "{name}", as a process of the match is; rename it'):
         check_robot_names(load_match(None, {"teams.magenta.robots": ["magenta1", name]}))
     check_robot_names(load_match(None))
@@ -53,7 +58,7 @@ def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
 def test_every_process_is_launched_with_a_settings_file_of_its_own_in_the_run_s_folder() -> None:
     for name, process in by_name(plan()).items():
         module = PROCESSES[process.kind].module
-        assert process.command == (sys.executable, "-m", module, "--settings", f"runs/one/{name}.json")
+        assert process.command == (sys.executable, "-P", "-m", module, "--settings", f"runs/one/{name}.json")
         assert process.settings_file == Path(f"runs/one/{name}.json")
 
 
@@ -61,35 +66,44 @@ def test_the_settings_of_a_host_are_its_match_and_its_endpoint() -> None:
     host = by_name(plan(seed=7))["host"].settings
     assert isinstance(host, HostSettings)
     assert (host.config.seed, host.listen, host.insecure) == (7, "tcp/127.0.0.1:7447", False)
+    assert (host.launch_token, host.announcement) == ("secret", Path("runs/one/endpoint.json"))
     open_host = by_name(plan(listen="tcp/0.0.0.0:7447"))["host"].settings
     assert isinstance(open_host, HostSettings) and open_host.insecure
 
 
 def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> None:
     agent = by_name(plan())["magenta2"]
-    assert agent.settings == AgentSettings(robot="magenta2", brain="robot_agent.teams.nubot:NuBot")
+    assert agent.settings == AgentSettings(
+        **JOINED, robot="magenta2", brain="robot_agent.teams.nubot:NuBot", launch_token="secret"
+    )
     assert agent.environment["TOUCHLINE_SIDE"] == "magenta"
     assert agent.environment["PYTHONHASHSEED"] == "0"
     assert agent.restarts == PROCESSES[ProcessKind.AGENT].restarts == 3
 
 
-def test_a_team_with_a_command_is_told_who_it_is_by_its_environment() -> None:
+def test_a_team_with_a_command_gets_its_robot_in_environment_variables() -> None:
     agent = by_name(plan(**{"teams.cyan.command": ["./robot", "--fast"], "teams.cyan.size": 1}))["cyan1"]
     assert agent.command == ("./robot", "--fast")
     assert agent.settings is None
-    assert {key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE")} == {
+    assert {
+        key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE", "LAUNCH_TOKEN")
+    } == {
         "CONNECT": "tcp/127.0.0.1:7447",
         "MATCH": "friendly",
         "ROBOT": "cyan1",
         "SIDE": "cyan",
+        "LAUNCH_TOKEN": "secret",
     }
 
 
 def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> None:
     assert "page" not in by_name(plan())
     web = WebSettings(port=8081)
-    page = by_name(replace(plan(), page=web))["page"]
-    assert page.settings == GatewaySettings(tokens=Path("runs/one/tokens.json"), web=web)
+    with socket.socket() as listener:
+        page = by_name(replace(plan(), page=Page(web, listener)))["page"]
+    assert page.sockets == (listener,)
+    result = Path("runs/one/result")
+    assert page.settings == GatewaySettings(**JOINED, tokens=Path("runs/one/tokens.json"), web=web, result=result)
     assert page.restarts == 3
 
 
@@ -97,7 +111,7 @@ def test_bridges_are_launched_where_they_are_wanted_with_the_options_that_were_g
     assert "bridges" not in by_name(plan())
     options = BridgeOptions(udp=28090, refbox_server=["cyan:28097"], refbox="10.0.0.2", team=[Side.MAGENTA])
     bridges = by_name(replace(plan(), bridges=options))["bridges"]
-    assert bridges.settings == GatewaySettings(tokens=Path("runs/one/tokens.json"), bridges=options)
+    assert bridges.settings == GatewaySettings(**JOINED, tokens=Path("runs/one/tokens.json"), bridges=options)
     assert bridges.restarts == 3
 
 
@@ -105,7 +119,7 @@ def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
     assert "recorder" not in by_name(plan(recording=None))
 
 
-def test_the_settings_of_a_recorder_have_what_the_match_file_says_of_the_recording() -> None:
+def test_the_settings_of_a_recorder_have_the_record_options_of_the_match_file() -> None:
     wanted = {"include": ["world"], "split_duration": 60.0, "keep": 3, "sights": True, "viz": False}
     planned = plan(**{f"record.{key}": value for key, value in wanted.items()})
     written = by_name(planned)["recorder"].settings
@@ -140,22 +154,39 @@ def test_two_runs_of_one_second_get_different_folders(tmp_path: Path, monkeypatc
     assert first.recording == first.folder / "match.mcap"
 
 
-def test_a_recording_elsewhere_gets_its_folder_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_recording_goes_into_a_folder_that_exists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+    Path("finals").mkdir()
     run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("finals/a.mcap"), SteppedClock())
-    assert run.recording == Path("finals/a.mcap")
-    assert Path("finals").is_dir()
+    assert (run.recording, run.warning) == (Path("finals/a.mcap"), "")
 
 
-def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_and_that_is_said(
+def test_a_folder_that_does_not_exist_is_not_made_for_a_recording_but_the_command_that_makes_it_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("final/s/a.mcap"), SteppedClock())
+    assert run.recording == run.folder / "match.mcap"
+    assert run.warning == (
+        "--record final/s/a.mcap: the folder final/s does not exist; make it with: mkdir -p final/s. "
+        f"The match is played, its recording goes to {run.recording}"
+    )
+    assert not Path("final").exists()
+
+
+def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_with_a_warning(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("file").write_text("")
+    played = "give a path that can be written. The match is played, its recording goes to runs/"
     for path, why in ((Path("file/a.mcap"), "File exists|Not a directory"), (tmp_path, "is a folder")):
         run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", path, SteppedClock())
         assert run.recording == run.folder / "match.mcap"
-        assert re.search(rf"--record .*: ({why}); the match is played, its recording goes to runs/", run.warning)
+        assert re.search(
+            rf"--record .*: ({why}); {played}",
+            run.warning,
+        )
 
 
 def test_a_recording_that_another_recorder_writes_is_left_to_it(
@@ -167,7 +198,10 @@ def test_a_recording_that_another_recorder_writes_is_left_to_it(
     other.file.flush()
     run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("a.mcap"), SteppedClock())
     assert run.recording == run.folder / "match.mcap"
-    assert "--record a.mcap: is being written by another recorder; the match is played" in run.warning
+    assert (
+        "--record a.mcap: is being written by another recorder; name another file, or end that one. The match is"
+        in run.warning
+    )
     assert other.path.read_bytes() == b"its first bytes"
     other.close()
 

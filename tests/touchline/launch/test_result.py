@@ -5,9 +5,11 @@ from pathlib import Path
 
 from rich.console import Console
 
+from coach_gateway.match.team_names import TeamNames
 from schemas.game import EventKind, Score
 from schemas.messages.game import DisciplinaryRecord, GameEvent
 from schemas.side import Side
+from touchline.launch.recording_outcome import RecordingOutcome
 from touchline.launch.result import MatchResult
 
 
@@ -29,8 +31,7 @@ def result(recording: Path | None = Path("runs/a/match.mcap"), losses: dict[str,
         ),
         real_time_factor=6.0,
         wall_s=20.0,
-        recording=recording,
-        losses=losses or {},
+        recording=RecordingOutcome(recording, losses or {}),
         effective_s=80.0,
         robots={"cyan3": DisciplinaryRecord(yellow=1)},
     )
@@ -50,6 +51,7 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
         **{"measured": None, "limit": None, "unit": "", "card": None},
     }
     assert content == {
+        "teams": {"cyan": "cyan", "magenta": "magenta"},
         "score": {"cyan": 2, "magenta": 1},
         "halves": [{"cyan": 2, "magenta": 1}],
         "shoot_out": None,
@@ -60,11 +62,12 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
         "real_time_factor": 6.0,
         "wall_s": 20.0,
         "recording": "runs/a/match.mcap",
+        "recording_fault": None,
         "losses": {},
     }
 
 
-def test_a_match_without_recording_says_null() -> None:
+def test_a_match_without_recording_has_the_path_null() -> None:
     assert json.loads(result(recording=None).json())["recording"] is None
 
 
@@ -75,11 +78,31 @@ def test_the_picture_shows_score_goals_and_recording_and_leaves_stops_out() -> N
     assert "goal by cyan3" in shown
     assert "kick-off follows" not in shown
     assert "recording  runs/a/match.mcap" in shown
-    assert "misses" not in shown
+    assert "did not reach" not in shown
+
+
+def test_the_teams_names_are_those_of_the_match_file() -> None:
+    goal = event(EventKind.GOAL, "goal, counts for cyan: last touched by cyan3")
+    named = replace(result(), names=TeamNames("Lions", "NuBot"), events=(goal,))
+    shown = render(named)
+    assert "Lions 2 : 1 NuBot" in shown
+    assert "Lions (cyan) – NuBot (magenta); halves" in shown
+    assert "goal, counts for Lions: last touched by cyan3" in shown
+    content = json.loads(named.json())
+    assert content["teams"] == {"cyan": "Lions", "magenta": "NuBot"}
+    assert content["events"][0]["text"] == goal.text  # for programs, which know sides
 
 
 def test_losses_are_shown_when_there_are_any() -> None:
-    assert "misses 3 messages" in render(result(losses={"world": 2, "game/event": 1}))
+    shown = render(result(losses={"robot/cyan1/command": 2}))
+    assert "messages that did not reach the host: {'robot/cyan1/command': 2}" in shown
+
+
+def test_the_json_says_what_a_recording_misses() -> None:
+    shown = replace(result(), recording=RecordingOutcome(None, {}, "the recording is lost"))
+    content = json.loads(shown.json())
+    assert (content["recording"], content["recording_fault"]) == (None, "the recording is lost")
+    assert content["score"] == {"cyan": 2, "magenta": 1}
 
 
 def test_what_people_have_written_into_an_event_is_shown_as_it_is() -> None:

@@ -38,7 +38,7 @@ def asked(key: str, **standing) -> ReplayRequest:
         ("q", {}, ReplayRequest(operation=ReplayOperation.LEAVE)),
     ],
 )
-def test_a_key_asks_for_what_it_says(key, standing, request_):
+def test_a_key_makes_the_described_request(key, standing, request_):
     assert asked(key, **standing) == request_
 
 
@@ -108,6 +108,6 @@ def test_a_deed_and_its_value_are_a_request(operation, value, request_):
         (ReplayOperation.SEEK, "+x"),
     ],
 )
-def test_a_value_that_is_wrong_is_said(operation, value):
+def test_a_wrong_value_is_reported(operation, value):
     with pytest.raises(TouchlineError, match=operation.value):
         request_of(operation, value)

@@ -9,11 +9,11 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
-from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState
+from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
@@ -24,7 +24,7 @@ from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
 from support.messages import make_setup
 from touchline.commands.watch import watch_on
 from touchline.watch.drawing import draw_match
-from touchline.watch.panel import orders, robots
+from touchline.watch.panel import head, orders, robots
 from touchline.watch.pitch import ARROWS, SIDES, Scale, field
 
 WIDTH, HEIGHT = 90, 30
@@ -91,7 +91,7 @@ def test_a_restart_shows_how_far_opponents_stay(setup: Setup) -> None:
 
 @pytest.mark.parametrize("size", [(1, 1), (20, 5), (80, 24), (120, 40), (200, 60), (300, 20), (40, 100)])
 def test_a_picture_fits_its_terminal(setup: Setup, size: tuple[int, int]) -> None:
-    medium = Medium()
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan1=robot(-30.0, 2.0), magenta5=robot(3.0, 99.0)), state())
@@ -106,8 +106,8 @@ def say(host: Bus, world: World, state: GameState) -> None:
     host.publisher(STATE).put(state)
 
 
-def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setup) -> None:
-    medium = Medium()
+def test_a_picture_has_score_phase_events_and_the_health_of_the_host(setup: Setup) -> None:
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan2=robot(1.0, 0.0)), state(Phase.THROW_IN, side=Side.MAGENTA, score=Score(cyan=2, magenta=1)))
@@ -118,12 +118,12 @@ def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setu
     host.publisher(BELIEF, side="cyan", robot="cyan2").put(Belief(tick=5, time=0.1, robot="cyan2", radio=word))
     seen.update()
     text = "\n".join(row.plain for row in draw_match(seen, setup, 140, 40))
-    for words in ("Simple  2 : 1  NuBot", "1:01.0", "throw in, magenta", "goal for cyan by cyan3", "×1.98 x2  late 3"):
+    for words in ("Simple  2 : 1  NuBot", "1:01.0", "throw in, NuBot", "goal for Simple by cyan3", "×1.98 x2  late 3"):
         assert words in text
     assert "striker: shoot" in text
 
 
-def test_what_a_robot_says_cannot_speak_to_the_terminal(setup: Setup) -> None:
+def test_control_characters_of_a_robot_do_not_reach_the_terminal(setup: Setup) -> None:
     words = {"cyan2": Radio(role="\x1b[2J", intention="to\nnight")}
     rows = [row.plain for row in robots(setup, world(cyan2=robot(1.0, 0.0)), words, None, None)]
     assert any("\N{REPLACEMENT CHARACTER}[2J: to\N{REPLACEMENT CHARACTER}night" in row for row in rows)
@@ -151,7 +151,7 @@ def test_what_keeps_a_robot_from_playing_stands_beside_it(setup: Setup) -> None:
     assert "●" in rows[4]
 
 
-def test_an_order_that_stands_is_shown_with_who_has_not_heard_it() -> None:
+def test_an_active_order_is_shown_with_the_robots_that_have_not_acknowledged_it() -> None:
     book = OrderBook()
     assert orders(book) == []
     told = CoachOrder(sequence=3, mode=CoachMode.TEST, test=CoachTest.PASS, robot_a="cyan2", robot_b="cyan3")
@@ -162,6 +162,21 @@ def test_an_order_that_stands_is_shown_with_who_has_not_heard_it() -> None:
         " cyan  test pass, cyan2, cyan3  not acknowledged by cyan3",
         " magenta  play: press",
     ]
+
+
+def test_an_order_that_robots_refuse_is_shown_with_them_and_the_reason() -> None:
+    book = OrderBook()
+    given = CoachOrder(sequence=3, mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
+    told, refused = dict.fromkeys(("cyan1", "cyan2"), True), dict.fromkeys(("cyan1", "cyan2"), "unknown test: machine")
+    book.update(Side.CYAN, ActiveOrder(tick=1, time=0.0, order=given, acknowledged=told, refused=refused))
+    (row,) = orders(book)
+    assert row.plain == " cyan  test machine, cyan2  refused by cyan1, cyan2: unknown test: machine"
+
+
+def test_a_robot_that_a_side_has_to_name_is_asked_for_above_the_pitch(setup: Setup) -> None:
+    asked = RobotQuestion(action="yellow_card", side=Side.CYAN, left=8.0, robots=["cyan1", "cyan2"], default="cyan2")
+    line = head(setup, GameState(tick=1, time=0.0, phase=Phase.STOPPED, questions=[asked])).plain
+    assert line.endswith("  Simple names the robot for: yellow card, else cyan2")
 
 
 class HostOfTicks(SteppedClock):
@@ -181,7 +196,7 @@ class HostOfTicks(SteppedClock):
 def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
     setup: Setup, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    medium, clock = Medium(), HostOfTicks()
+    medium, clock = SharedState(), HostOfTicks()
     clock.host, clock.tick = medium.open_bus("friendly", SteppedClock()), 0
     clock.host.declare_alive("host", "host")
     monkeypatch.setattr("coach_gateway.match.host_client.HostClient.setup", lambda self: setup)
@@ -191,6 +206,6 @@ def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
     assert "1:01.0" in last and "2→" in last
 
 
-def test_a_match_that_nobody_plays_is_wrong_input() -> None:
+def test_a_match_without_a_host_is_wrong_input() -> None:
     with pytest.raises(TouchlineError, match='match "cup": no process answers host/setup'):
-        watch_on(Medium().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))
+        watch_on(SharedState().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))

@@ -1,7 +1,8 @@
 import pytest
 
 from coach_gateway.match.follower import MatchFollower
-from schemas.bus.in_process_bus import Medium
+from coach_gateway.match.team_names import TeamNames
+from schemas.bus.in_process_bus import SharedState
 from schemas.game import GameStage, OffField, Phase, Score
 from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.messages.health import Health, RobotHealth
@@ -18,7 +19,7 @@ def health(tick: int, **silent_robots: RobotHealth) -> Health:
 
 
 def view() -> MatchFollower:
-    return MatchFollower(Medium().open_bus("friendly", SteppedClock()))
+    return MatchFollower(SharedState().open_bus("friendly", SteppedClock()))
 
 
 def test_before_the_host_speaks_it_is_waited_for() -> None:
@@ -38,6 +39,13 @@ def test_while_it_is_played_clock_score_phase_speed_and_robots_stand_in_one_line
     )
     playing.health = health(9)
     assert status_line(playing, 1) == " 1:01.0  half 1  cyan 1 : 2 magenta  corner, cyan  ×6.2  robots 1/1"
+
+
+def test_teams_with_names_have_them_in_the_line() -> None:
+    playing = view()
+    playing.state = GameState(tick=9, time=61.0, clock=61.0, phase=Phase.CORNER, side=Side.CYAN, score=Score(cyan=1))
+    line = status_line(playing, 1, TeamNames("Lions", "NuBot"))
+    assert line == " 1:01.0  half 1  Lions 1 : 0 NuBot  corner, Lions"
 
 
 def test_what_a_recorder_misses_stands_in_the_line_by_key() -> None:
@@ -99,3 +107,14 @@ def test_many_silent_robots_are_counted(silent: int, words: str) -> None:
 def test_a_robot_that_stands_still_in_its_scene_is_not_missed() -> None:
     said = health(9, magenta1=RobotHealth(still=True))
     assert robots_text(said, 1) == "robots 1/1"
+
+
+def test_agents_that_do_not_keep_up_stand_in_the_line_with_their_figures() -> None:
+    playing = view()
+    playing.state = GameState(tick=9, time=61.0, clock=61.0, phase=Phase.PLAY)
+    slow = {f"magenta{number}": RobotHealth(alive=True, answering=True, latency_ms=310.0) for number in (1, 2)}
+    fault = "answers tick 0, the match is at 9; use sight.tick"
+    playing.health = health(9, cyan2=RobotHealth(alive=True, fault=fault), **slow)
+    assert status_line(playing, 4).endswith(
+        f"robots 3/4 (silent: cyan2)  cyan2 {fault}  magenta2 takes 310 ms a tick  1 more"
+    )

@@ -9,13 +9,13 @@ import pytest
 from playwright.sync_api import Browser
 
 from coach_gateway.web.settings import WebSettings
+from recordings.recorder.file_limits import ONE_FILE
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import ONE_FILE
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.process.clock import WallClock
 from support.page_gateway import SOON, Gateway, tokens_in
@@ -66,7 +66,7 @@ def resting(officiated: Callable[..., Match]) -> Match:
 def gateway_of(tmp_path: Path) -> Iterator[Callable[..., Gateway]]:
     made: list[Gateway] = []
 
-    def make(medium: Medium | None, port: int = 0) -> Gateway:
+    def make(medium: SharedState | None, port: int = 0) -> Gateway:
         made.append(Gateway(medium, WebSettings(port=port), tokens_in(tmp_path)))
         return made[-1]
 
@@ -133,7 +133,7 @@ class Replayed:
 
     def __init__(self, path: Path, start: str | None = "1") -> None:
         """A replay that is paused at `start`, where the first frame has been shown."""
-        self.medium = Medium()
+        self.medium = SharedState()
         self.programme = Replay(ReplaySettings(path, start=start, paused=True, stay=True))
         clock = WallClock()
         self._bus = self.medium.open_bus("friendly", clock)

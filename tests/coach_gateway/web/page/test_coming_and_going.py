@@ -10,6 +10,7 @@ def test_two_browsers_see_the_same_match_and_what_either_does(match, visit) -> N
         tick = one.ask("window.touchline.match.frames.newest.tick")
         other.until(f"window.touchline.match.frames.newest.tick >= {tick}")
     spectator.page.close()
+    referee.page.wait_for_timeout(450)  # not a double click
     referee.button("goal", "cyan").click()
     referee.until("document.getElementById('score').textContent === '2 : 0'")
 
@@ -63,25 +64,34 @@ def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, 
     """As with a laptop that changes its network, or sleeps: nothing arrives any more, without any close."""
     tunnel = tunnel_to(gateway_of(match.medium).port)
     tab = visit(f"http://127.0.0.1:{tunnel.port}", "referee")
-    tab.ask("window.touchline.connection.patience = 3000")
+    tab.button("start").click()
+    tab.until("document.getElementById('phase').classList.contains('running')")
     tunnel.block()
+    blocked = tab.ask("performance.now()")
+    tab.until("document.getElementById('notice').textContent.includes('Nothing arrives any more')")
+    assert tab.ask("performance.now()") - blocked < 2000
+    assert not tab.ask("document.getElementById('phase').classList.contains('running')")  # no green that is not known
     tab.until("document.getElementById('notice').textContent.includes('The connection is broken')")
     tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
     tick = tab.ask("window.touchline.match.frames.newest?.tick ?? 0")
     tab.until(f"window.touchline.match.frames.newest?.tick > {tick + 20}")
 
 
-def test_a_page_waits_for_its_match_and_keeps_an_unanswered_token(match, gateway_of, browser) -> None:
+def test_a_page_waits_for_its_match_with_the_role_of_its_token(match, gateway_of, browser) -> None:
     waiting_page = gateway_of(None)
     page = browser.new_context().new_page()
     page.goto(f"{waiting_page.origin}/")
     page.wait_for_function("() => document.getElementById('notice').textContent.includes('No host plays this match')")
-    page.evaluate("window.touchline.connection.answerWithin = 100")
     page.locator("#enter-token").click()
+    page.locator("#token").fill("nonsense")
+    page.keyboard.press("Enter")
+    page.wait_for_function(
+        "() => document.getElementById('token-says').textContent.startsWith('refused: unknown token')"
+    )
     page.locator("#token").fill("the-referee")
     page.keyboard.press("Enter")
-    page.wait_for_timeout(500)  # several times as long as an answer is waited for
-    page.evaluate("window.touchline.connection.answerWithin = 20000")
+    page.wait_for_function("() => document.getElementById('role').textContent === 'referee'")
+    assert page.locator("#notice").is_visible()
     waiting_page.close()
     gateway_of(match.medium, waiting_page.port)
     page.wait_for_function(

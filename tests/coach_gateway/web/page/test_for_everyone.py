@@ -113,7 +113,7 @@ def test_everything_is_reached_and_used_by_keyboard(match, visit) -> None:
     assert {"moving", "layer-trails", "to-match", "start", "kick_off", "robot", "all-events", "who"} <= reached
     tab.page.locator("#to-match").focus()
     tab.page.keyboard.press("ArrowRight")
-    assert tab.page.locator("#coach").is_visible() and tab.ask("document.activeElement.id") == "to-coach"
+    assert tab.page.locator("#host").is_visible() and tab.ask("document.activeElement.id") == "to-host"
     tab.page.keyboard.press("?")
     assert tab.page.locator("#help").is_visible()
     assert "stop" in tab.page.locator("#keys").inner_text()

@@ -2,10 +2,11 @@
 
 import itertools
 import math
+import re
 
 import pytest
 
-FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xC9, 0x23, 0x7B)}
+FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xEF, 0x4F, 0xA0)}
 
 PIXEL = """([x, y]) => {
     const { projection } = window.touchline.pitchCanvas, canvas = document.getElementById("moving");
@@ -97,15 +98,49 @@ def test_a_robot_off_the_field_is_shown_with_the_reason(match, visit) -> None:
     tab.until("document.querySelector('[data-robot=magenta2] [data-is=cards]').textContent.startsWith('off: repair')")
 
 
-def test_events_are_listed_the_newest_first(match, visit) -> None:
+def test_a_robot_on_the_bench_is_drawn_beside_the_field_within_the_picture(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.ask("window.touchline.layers.velocities = window.touchline.layers.roles = false")
+    tab.button("stop").click()
+    tab.page.locator("[data-robot=magenta2] .who").click()
+    tab.button("red_card").click()
+    tab.until("window.touchline.pitchCanvas.world.robots.magenta2.off_field !== null")
+    pitch = match.host.simulation.setup().pitch
+    x, y = match.where("magenta2")
+    assert abs(y) > pitch.width / 2 + pitch.border  # it stands beyond the border
+    tab.until(f"Math.abs(window.touchline.pitchCanvas.world.robots.magenta2.x - {x}) < 0.05")
+    drawn = tab.ask(
+        """(async () => {
+            const { inPicture } = await import("/shared/bodies.js");
+            const { projection, world } = window.touchline.pitchCanvas;
+            const { x, y } = inPicture(projection, world.robots.magenta2, 0.25);
+            return [projection.x(x), projection.y(y), projection.width, projection.height, Math.abs(y)];
+        })()"""
+    )
+    left, top, width, height, beside = drawn
+    assert 8 < left < width - 8 and 8 < top < height - 8
+    assert beside > pitch.width / 2  # beside the field
+    tab.page.locator("[data-robot=magenta2] .who").click()  # nothing is chosen
+    tab.page.evaluate("window.scrollTo(0, 0)")
+    box = tab.page.locator("#moving").bounding_box()
+    tab.page.mouse.click(box["x"] + left, box["y"] + top)
+    assert tab.ask("window.touchline.selection.robot") == "magenta2"
+
+
+def test_events_are_listed_in_their_order_and_the_newest_is_in_view(match, visit) -> None:
     tab = visit(match, "referee")
     tab.button("goal", "cyan").click()
-    tab.until("document.querySelector('#events li')?.textContent.includes('Goal')")
+    tab.until("document.querySelector('#events li:last-child')?.textContent.includes('Goal')")
     few = tab.page.locator("#events li").count()
     tab.page.locator("#all-events").click()
     tab.until(f"document.querySelectorAll('#events li').length > {few}")
     tab.button("goal", "magenta").click()
-    tab.until("/Goal .*(Reds|magenta)/.test(document.querySelector('#events li:has(.magenta)')?.textContent)")
+    tab.until(
+        "[...document.querySelectorAll('#events li:has(.magenta)')]"
+        ".some((line) => /Goal .*Reds/.test(line.textContent))"
+    )
+    texts = tab.ask("[...document.querySelectorAll('#events .what')].map((line) => line.textContent)")
+    assert [text for text in texts if re.search(r"\b(cyan|magenta)\b", text)] == []  # teams are called by their names
 
 
 def test_what_a_robot_believes_is_drawn_beside_what_is_true(match, visit) -> None:
@@ -209,5 +244,13 @@ def test_a_page_that_is_open_for_long_still_shows_new_events(match, visit) -> No
         """() => window.touchline.match.receive({ kind: "event", event: {
             tick: 1, time: 0, clock: 0, kind: "action", rule: "test", text: "and one more" } })"""
     )
-    tab.until("document.querySelector('#events li')?.textContent.includes('and one more')")
+    tab.until("document.querySelector('#events li:last-child')?.textContent.includes('and one more')")
+    inside = tab.ask(
+        """(() => {
+            const list = document.getElementById("events-panel").getBoundingClientRect();
+            const newest = document.querySelector("#events li:last-child").getBoundingClientRect();
+            return newest.bottom <= list.bottom && newest.top >= list.top;
+        })()"""
+    )
+    assert inside
     assert tab.ask("document.querySelectorAll('#events li').length") == 400

@@ -86,7 +86,7 @@ def test_a_finger_on_the_buttons_drives_for_as_long_as_it_lies_there(match, visi
     tab.page.locator("#kick-lob").tap()
     match.until(lambda: any(hand.kick is not None and hand.kick.mode == "lob" for hand in hands()))
     tab.page.locator("#drive-take").tap()
-    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    match.until(lambda: said(match, "cyan2 is controlled by its brain again"))
 
 
 def test_a_key_that_is_let_go_of_beside_another_does_not_drive_on(match, visit) -> None:
@@ -112,7 +112,7 @@ def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> Non
             document.dispatchEvent(new Event("visibilitychange"));
         }"""
     )
-    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    match.until(lambda: said(match, "cyan2 is controlled by its brain again"))
     assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
@@ -126,7 +126,7 @@ def test_a_robot_that_another_page_drives_cannot_be_taken(match, visit) -> None:
     assert second.page.locator("#drive-take").inner_text() == "Take over"
     assert first.page.locator("#drive-take").inner_text() == "Give cyan2 back"
     first.page.keyboard.press("Escape")
-    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    match.until(lambda: said(match, "cyan2 is controlled by its brain again"))
     take(match, second, "cyan2")
 
 

@@ -9,8 +9,9 @@ import time
 
 import pytest
 
-from schemas.bus.contract import BusError
+from schemas.bus.contract import BusError, PresenceKind
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_free_port
+from schemas.bus.zenoh import session
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.messages.command import Command
@@ -27,7 +28,52 @@ def test_a_port_in_use_is_one_line_with_the_remedy() -> None:
     assert "\n" not in str(error.value)
 
 
-def test_a_client_without_a_host_says_so_after_its_patience() -> None:
+def test_a_host_on_a_free_port_knows_where_it_listens() -> None:
+    with (
+        open_host("test", WallClock(), "tcp/127.0.0.1:0") as host,
+        open_host("test", WallClock(), "tcp/127.0.0.1:0") as other,
+        open_client("test", WallClock(), host.endpoint) as client,
+    ):
+        assert host.endpoint != other.endpoint
+        assert (client.endpoint, client.connected()) == (host.endpoint, True)
+
+
+def test_a_host_without_an_endpoint_takes_the_default_one_or_a_free_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    default = with_free_port("tcp/127.0.0.1:0")
+    monkeypatch.setattr(session, "DEFAULT_ENDPOINT", default)
+    with open_host("test", WallClock()) as first, open_host("test", WallClock()) as second:
+        assert first.endpoint == default
+        assert second.endpoint.startswith("tcp/127.0.0.1:") and second.endpoint != default
+
+
+def test_an_address_of_another_machine_is_one_line_with_the_remedy() -> None:
+    with pytest.raises(
+        BusError, match=r"^--listen tcp/192\.0\.2\.1:0 cannot be listened on \(.*\); choose another address$"
+    ):
+        open_host("test", WallClock(), "tcp/192.0.2.1:0")
+
+
+def test_a_protocol_without_connections_has_no_free_port() -> None:
+    with pytest.raises(BusError, match="udp has no free port to take; name a port, or use tcp"):
+        open_host("test", WallClock(), "udp/127.0.0.1:0")
+
+
+def test_a_client_without_a_name_joins_the_match_that_its_host_plays() -> None:
+    with open_host("cup", WallClock(), "tcp/127.0.0.1:0") as host:
+        host.declare_alive(PresenceKind.HOST, "host")
+        with open_client(None, WallClock(), host.endpoint) as client:
+            assert client.match == "cup"
+
+
+def test_an_endpoint_where_no_match_is_played_is_one_line_with_the_remedy() -> None:
+    with open_host("cup", WallClock(), "tcp/127.0.0.1:0") as host, pytest.raises(BusError) as error:
+        open_client(None, WallClock(), host.endpoint, patience=0.0)
+    assert str(error.value) == (
+        f"--connect {host.endpoint}: no match is played there; start one with `touchline match`"
+    )
+
+
+def test_a_client_without_a_host_reports_it_after_its_patience() -> None:
     with pytest.raises(BusError, match="no host answers there"):
         open_client("test", WallClock(), with_free_port("tcp/127.0.0.1:0"), patience=0.0)
 
@@ -63,7 +109,7 @@ with open_host("test", WallClock(), sys.argv[1]) as bus:
     print("said", flush=True)
     sys.stdin.read()
 """
-"""A host that said more than a socket swallows before anybody came, and keeps it for those who come late."""
+"""A host that published more than a socket buffers before any client joined, and keeps it for late ones."""
 LATE = """
 import sys
 from schemas.bus.zenoh.bus import open_client
@@ -78,7 +124,7 @@ with open_client("test", WallClock(), sys.argv[1], patience=30.0) as bus:
 
 
 @pytest.mark.processes
-def test_a_reader_who_comes_late_is_sent_all_that_is_kept_and_the_host_does_not_wait_for_itself() -> None:
+def test_a_late_subscriber_receives_all_kept_messages_and_the_host_does_not_query_itself() -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([sys.executable, "-c", SAYS_MUCH, endpoint], **pipes) as host:

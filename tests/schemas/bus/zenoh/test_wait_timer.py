@@ -131,7 +131,7 @@ def test_a_reader_that_does_not_wake_is_woken_again(timer: WaitTimer, clock: Wal
 def test_the_timer_stops_while_a_reader_waits_without_end(timer: WaitTimer, clock: WallClock) -> None:
     reader = Reader(timer, clock)
     timer.add(reader)
-    reader.begin(1e12)  # longer than a thread can be told to wait
+    reader.begin(1e12)  # longer than a thread can wait
     leaving = threading.Thread(target=timer.stop)
     leaving.start()
     leaving.join(SOON)

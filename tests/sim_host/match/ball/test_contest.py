@@ -40,7 +40,7 @@ def turned(body):
 
 @pytest.mark.parametrize("way", ["pose", "velocity", "force"])
 def test_over_scenes_and_their_mirror_images_both_sides_have_the_ball_as_often(build, tell, way):
-    """The same scenes turned by π with the sides exchanged; to 10 % of the ticks somebody has it."""
+    """The same scenes turned by π with the sides exchanged; to 10 % of the ticks in which a robot has it."""
     rig = build(dribble={"method": way})
     totals = {"cyan1": 0, "magenta1": 0}
     for number in range(SCENES):

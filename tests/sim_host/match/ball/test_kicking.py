@@ -65,7 +65,7 @@ def test_a_loft_kick_rises_at_its_angle(rig, tell, speed):
     assert ball.vz == approx(0.6 * speed - 9.81 * rig.profile.time.tick, rel=0.02, abs=0.02)
 
 
-def test_a_kick_waits_for_cooldown_and_charge_and_says_how_long(build, tell):
+def test_a_kick_before_cooldown_or_charge_is_refused_with_the_remaining_time(build, tell):
     """The profile's 0.2 s and 0.8 s, to the tick."""
     rig = build()
     tick, kicker = rig.profile.time.tick, rig.profile.kicker
@@ -125,7 +125,7 @@ def test_every_kicker_is_charged_at_a_checkpoint_in_the_running_match_as_in_its_
         (0.45, 0.35, "kick: ball in the air, 0.45 m high"),
     ],
 )
-def test_a_kick_that_cannot_be_done_says_why(build, tell, height, place, reason):
+def test_an_impossible_kick_is_refused_with_the_reason(build, tell, height, place, reason):
     rig = build()
     rig.place(cyan1=(0, 0, 0))
     rig.set_ball((place, 0, height))
@@ -133,7 +133,7 @@ def test_a_kick_that_cannot_be_done_says_why(build, tell, height, place, reason)
     assert rig.refused == {"cyan1": reason}
 
 
-def test_a_kick_of_a_contested_ball_says_so(build, tell):
+def test_a_kick_of_a_contested_ball_is_refused_with_that_reason(build, tell):
     rig = build()
     rig.place(cyan1=(-0.36, 0, 0), magenta1=(0.36, 0, math.pi), ball=(0, 0, 0))
     rig.tick(cyan1=tell(kick=("ground", 3.0)), magenta1=tell(dribble=True))

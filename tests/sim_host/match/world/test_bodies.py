@@ -1,4 +1,4 @@
-"""Bodies of robots and of what stands on the pitch: as the profile says, upright, and never in each other."""
+"""Bodies of robots and fixed objects: sized as in the profile, upright, and never in each other."""
 
 import itertools
 import math
@@ -199,7 +199,7 @@ def test_an_obstacle_stops_robots_and_the_ball_and_stays_where_it_is(pitch: Worl
     assert (state.name, state.x, state.y, state.heading) == (obstacle.name, x, y, obstacle.heading)
 
 
-def test_an_obstacle_says_its_size_and_the_circle_around_it(pitch: WorldRig) -> None:
+def test_an_obstacle_reports_its_size_and_the_circle_around_it(pitch: WorldRig) -> None:
     for obstacle in (CRATE, POLE):
         pitch.world.put_obstacle(obstacle)
     crate, pole = pitch.world.snapshot().obstacles
@@ -260,7 +260,7 @@ def test_equal_inputs_give_equal_worlds_through_collisions_at_speed() -> None:
     assert chains[0] == chains[1]
 
 
-def test_the_last_touch_is_a_contact_and_a_ball_that_only_comes_near_is_touched_by_nobody(pitch: WorldRig) -> None:
+def test_the_last_touch_is_a_contact_and_a_near_ball_is_not_touched(pitch: WorldRig) -> None:
     """From contacts and possession, in the order of time."""
     pitch.place(cyan1=(0, 0, 0), magenta1=(2, 0, math.pi), ball=(-2, 0.245 + 0.11 + 0.01, 0))
     pitch.engine.set_ball_motion((4, 0, 0), (0, 4 / 0.11, 0))

@@ -60,7 +60,7 @@ REFLECTED = Mirror(1, -1, -1, 0.0, swaps_sides=False)
 
 
 class Scene(NamedTuple):
-    """Where bodies begin and what the robots are told, tick by tick."""
+    """Start poses of the bodies, and the inputs of the robots, tick by tick."""
 
     poses: Poses
     told: Told
@@ -76,7 +76,7 @@ def go(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, **more: object) -> 
 
 
 def driving(tick: int) -> dict[str, AppliedInput]:
-    """Everybody drives and turns, nobody meets."""
+    """All robots drive and turn, and none meet."""
     return {name: go(1 + 0.3 * place, 0.5 - 0.2 * place, (-1) ** place * 1.5) for place, name in enumerate(NAMES)}
 
 

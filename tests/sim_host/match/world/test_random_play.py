@@ -1,4 +1,4 @@
-"""Random play of ten robots: whatever they are told, the world stays within its walls, its bodies and its energy.
+"""Random play of ten robots: for all inputs, the world stays within its walls, its bodies and its energy.
 
 An example is a start, a drive and a way to dribble for each robot, and a list of errands for each. Errands look at the
 world, so that robots meet ball, posts, walls and each other far more often than blind commands would let them.
@@ -295,7 +295,7 @@ class Watch:
         return max(0.0, model.body.radius + self.profile.ball.radius - model.dribble.gap)
 
     def _energy(self, after: Snapshot) -> None:
-        """Never more than drives, dribblers and kicks put in; and a ball that nobody touches only loses."""
+        """Never more than drives, dribblers and kicks put in; and a ball without a touch only loses energy."""
         before, now = self.energy, self._energies(after)
         touched = after.touches or self.before.touches or after.kicked or after.possession or self.before.possession
         if not touched:

@@ -1,0 +1,70 @@
+"""The teams' names in texts for people, in place of the sides' where the match file gives names."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from schemas.config.match_config import MatchConfig
+from schemas.game import Score
+from schemas.messages.setup import Setup
+from schemas.side import Side
+
+_SIDES = re.compile(rf"\b({'|'.join(Side)})\b")
+
+
+def printable(text: str) -> str:
+    """A text from the network as one line without control characters, which a terminal would obey."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
+
+
+@dataclass(frozen=True, slots=True)
+class TeamNames:
+    """The names of both teams; a team without a name is called as its side."""
+
+    cyan: str = Side.CYAN.value
+    magenta: str = Side.MAGENTA.value
+
+    @classmethod
+    def of(cls, names: Mapping[Side, str]) -> "TeamNames":
+        """Two different names: a name that both teams have, or that is the other side's, gets its side."""
+        shown = {side: printable(names[side]).strip() or side.value for side in Side}
+        is_same = shown[Side.CYAN].casefold() == shown[Side.MAGENTA].casefold()
+        for side in Side:
+            if is_same or shown[side].casefold() == side.opponent.value:
+                shown[side] = f"{shown[side]} ({side.value})"
+        return cls(shown[Side.CYAN], shown[Side.MAGENTA])
+
+    @classmethod
+    def of_match(cls, config: MatchConfig) -> "TeamNames":
+        """The names in a match file."""
+        return cls.of({side: config.team(side).name for side in Side})
+
+    @classmethod
+    def of_setup(cls, setup: Setup) -> "TeamNames":
+        """The names that a host publishes."""
+        return cls.of({side: setup.teams[side].name for side in Side})
+
+    def __getitem__(self, side: Side) -> str:
+        return self.cyan if side is Side.CYAN else self.magenta
+
+    def with_side(self, side: Side) -> str:
+        """A team with its side, `Lions (cyan)`; the side alone if the team has no name."""
+        suffix = f" ({side.value})"
+        name = self[side].removesuffix(suffix)
+        return name if name == side.value else name + suffix
+
+    def score(self, score: Score) -> str:
+        """`Lions 2 : 0 NuBot`."""
+        return f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}"
+
+    def in_text(self, text: str) -> str:
+        """The text of an event with the teams' names in place of the sides'; names of robots stay."""
+        return _SIDES.sub(lambda side: self[Side(side[0])], text)
+
+    def __str__(self) -> str:
+        """Both teams with their sides."""
+        return f"{self.with_side(Side.CYAN)} – {self.with_side(Side.MAGENTA)}"
+
+
+SIDES_ALONE = TeamNames()
+"""For a match whose names are not known."""

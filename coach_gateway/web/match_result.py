@@ -1,0 +1,46 @@
+"""The result of a match for its page: written by the process that launched the match, read by the page's server."""
+
+import os
+import tempfile
+from pathlib import Path
+
+from coach_gateway.web.protocol import ResultUpdate
+
+FILE = "result.json"
+STATISTICS = "statistics.html"
+"""The replay and the statistics as one page, beside the file of the result."""
+STATISTICS_ADDRESS = f"result/{STATISTICS}"
+"""The address of the statistics, below the page's own."""
+
+
+def write_result(folder: Path, result: ResultUpdate) -> None:
+    """Write the result into a folder at once: a reader sees all of it, or that of before."""
+    folder.mkdir(parents=True, exist_ok=True)
+    handle, draft = tempfile.mkstemp(prefix=".result.", dir=folder)
+    with os.fdopen(handle, "w", encoding="utf-8") as file:
+        file.write(result.model_dump_json())
+    Path(draft).replace(folder / FILE)
+
+
+class ResultReader:
+    """Notices a result that is written, and one that replaces it."""
+
+    def __init__(self, folder: Path | None) -> None:
+        self._file = folder / FILE if folder is not None else None
+        self._read_at: int | None = None
+        self.result: ResultUpdate | None = None
+        """The newest result; None before there is one."""
+
+    def update(self) -> bool:
+        """Look for a result; returns whether there is a new one."""
+        if self._file is None:
+            return False
+        try:
+            written_at = self._file.stat().st_mtime_ns
+            if written_at == self._read_at:
+                return False
+            self.result = ResultUpdate.model_validate_json(self._file.read_bytes())
+        except FileNotFoundError:
+            return False
+        self._read_at = written_at
+        return True

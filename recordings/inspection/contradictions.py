@@ -1,0 +1,178 @@
+"""Finds where a recording contradicts itself: its sealed result, its manifest, its attachments, its messages."""
+
+from collections import deque
+from collections.abc import Iterator
+from itertools import islice
+from typing import Any
+
+from pydantic_core import from_json
+
+from recordings.container.manifest import MANIFEST, EndReason, KeyCount, Result
+from recordings.reading.recording import ChannelFacts, Recording
+from recordings.recorder.sequence_tracker import SequenceTracker
+from schemas.config.profile import Profile, profile_of
+from schemas.config.rule_book import load_rule_book
+from schemas.errors import TouchlineError
+from schemas.messages.applied import Applied
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup
+from schemas.topics import APPLIED, EVENT, STATE
+
+_LAST_S = 3.0
+"""Simulated time before the last message of a key in which its last valid message is searched."""
+_ENDS = (EndReason.FULL_TIME, EndReason.HOST_GONE, EndReason.STOPPED)
+"""Ends of a recording whose result describes the last messages of the file."""
+_FROM_MATCH_FILE = ("pace", "rules", "duration", "referee", "officiating")
+"""Fields of the setup that no operator can change."""
+_FROM_PROFILE = {"time": "time", "pitch": "field", "robot": "robot", "ball": "ball"}
+"""Field of the setup → section of the profile that it repeats."""
+
+
+def contradictions(recording: Recording) -> list[str]:
+    """Sentences on where result, manifest and attachments do not fit the messages and each other.
+
+    Reads the summary and the end of the file only.
+    """
+    found = [f"the attachment {name} is missing or has changed" for name in recording.damaged]
+    found += _of_match_file(recording)
+    found += _of_setup(recording)
+    if recording.result is not None:
+        found += _of_counts(recording.result, recording)
+        found += _of_ending(recording.result, recording)
+    return found
+
+
+def record_faults(recording: Recording) -> list[str]:
+    """Sentences on messages that are out of order, or whose numbers do not fit the losses in the result.
+
+    Reads all messages.
+    """
+    trackers: dict[str, SequenceTracker] = {}
+    found: list[str] = []
+    log_ns, before = -1, ""
+    for recorded in islice(recording.messages(), recording.manifest.latched_count, None):
+        if recorded.log_ns < log_ns and not found and not _was_paused(recording.result):
+            found.append(
+                f"{recorded.key} {recorded.sequence} at {recorded.time:.9g} s follows {before} at {log_ns / 1e9:.9g} s"
+            )
+        log_ns, before = recorded.log_ns, recorded.key
+        tracker = trackers.get(recorded.key)
+        if tracker is None:
+            tracker = trackers[recorded.key] = SequenceTracker()
+        tracker.add(recorded.stamp, len(recorded.payload))
+    result = recording.result
+    if result is None or not result.keys or _was_paused(result):
+        return found
+    for key in sorted({*trackers, *result.keys}):
+        count = trackers[key].count() if key in trackers else KeyCount()
+        sealed = result.keys.get(key, KeyCount())
+        # a later file of a split recording, or a copy, does not show what was lost before its first message
+        names = ["messages", "bytes"]
+        if not sealed.lost or recording.manifest.part == 1:
+            names += ["lost", "duplicates"]
+        found += [
+            f"{key}: {getattr(count, name)} {name} in the file, {getattr(sealed, name)} in the result"
+            for name in names
+            if getattr(count, name) != getattr(sealed, name)
+        ]
+    return found
+
+
+def _was_paused(result: Result | None) -> bool:
+    return result is not None and any(count.left_out for count in result.keys.values())
+
+
+def _of_match_file(recording: Recording) -> Iterator[str]:
+    """The match file in the manifest and the attached one, as they were written."""
+    text, attached = recording.mcap_file.metadata[MANIFEST].get("config"), recording.attachments.get("match.json")
+    if text is None or attached is None:
+        return
+    try:
+        ours, theirs = from_json(text), from_json(attached)
+    except ValueError:
+        yield "the match file in the manifest or the attached one cannot be read"
+        return
+    different = [name for name in {**ours, **theirs} if ours.get(name) != theirs.get(name)]
+    if different:
+        values = ", ".join(f"{name} is {ours.get(name)} and {theirs.get(name)}" for name in different[:3])
+        yield f"the manifest and the attached match.json differ: {values}"
+
+
+def _of_setup(recording: Recording) -> Iterator[str]:
+    """The setup that the host reported, and what follows from the match file."""
+    setup, config = recording.manifest.setup, recording.manifest.config
+    if setup is None or config is None or recording.manifest.missing_scene is not None:
+        return
+    try:
+        profile = _profile(recording)
+        expected = Setup.of(config, profile, load_rule_book(config.rules))
+    except TouchlineError:
+        return  # a profile or a rule book of another version
+    different = [
+        name
+        for name in _FROM_MATCH_FILE
+        if getattr(setup, name) is not None and getattr(setup, name) != getattr(expected, name)
+    ]
+    if not setup.parameters:
+        different += [
+            name for name, section in _FROM_PROFILE.items() if getattr(setup, name) != getattr(profile, section)
+        ]
+    names = {side: team.name for side, team in setup.teams.items()}
+    if names != {side: team.name for side, team in expected.teams.items()}:
+        different.append("teams")
+    if different:
+        yield f"the setup does not follow from the match file: {', '.join(different)}"
+
+
+def _profile(recording: Recording) -> Profile:
+    config, tables = recording.manifest.config, recording.attachments.get("profile.json")
+    assert config is not None
+    profile = config.load_profile() if tables is None else profile_of(config.profile, from_json(tables))
+    return profile.with_types(config.types, f'match "{config.name}"')
+
+
+def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
+    """The counts in the result, and those of the file."""
+    if not result.keys or _was_paused(result) or recording.manifest.latched_count:
+        return  # of a repaired file, or with latched messages at its beginning or after a pause, which are in no count
+    there = {channel.key: channel.messages for channel in recording.channels if channel.messages}
+    for key in sorted({*there, *result.keys}):
+        sealed = result.keys.get(key, KeyCount()).messages
+        if there.get(key, 0) != sealed:
+            yield f"{key}: {there.get(key, 0)} messages in the file, {sealed} in the result"
+    totals = {
+        "messages": sum(count.messages for count in result.keys.values()),
+        "lost": sum(count.lost for count in result.keys.values()),
+        "events": result.keys.get(EVENT.key, KeyCount()).messages,
+    }
+    for name, total in totals.items():
+        if getattr(result, name) != total:
+            yield f"the result has {getattr(result, name)} {name}, and {total} on its keys"
+
+
+def _of_ending(result: Result, recording: Recording) -> Iterator[str]:
+    """Score, phase and last tick in the result, and those of the last messages."""
+    if result.ended not in _ENDS or recording.manifest.made != "recorded" or _was_paused(result):
+        return
+    state: GameState | None = _last(recording, STATE.key)
+    if state is not None:
+        for name in ("score", "phase"):
+            sealed, recorded = getattr(result, name), getattr(state, name)
+            if sealed != recorded:
+                yield f"the {name} is {_text(sealed)} in the result, {_text(recorded)} in the last {STATE.key}"
+    applied: Applied | None = _last(recording, APPLIED.key)
+    if applied is not None and applied.tick != result.tick:
+        yield f"the last tick is {result.tick} in the result, {applied.tick} in the last {APPLIED.key}"
+
+
+def _last(recording: Recording, key: str) -> Any:
+    """The last valid message of a key; None if there is none."""
+    channel: ChannelFacts | None = next((one for one in recording.channels if one.key == key and one.messages), None)
+    if channel is None:
+        return None
+    newest = deque(recording.decoded(key, start=max(0.0, channel.end - _LAST_S)), maxlen=1)
+    return newest[0][1] if newest else None
+
+
+def _text(value: Any) -> str:
+    return f"{value.cyan} : {value.magenta}" if hasattr(value, "cyan") else str(value)

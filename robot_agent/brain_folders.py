@@ -1,0 +1,37 @@
+"""The folders in which brains are looked for: that of the match file, then the current one, both after all others.
+
+No file in these folders hides a module of Python, of Touchline or of an installed package.
+"""
+
+import sys
+from pathlib import Path
+
+
+class BrainFolders:
+    """Where the modules of brains are looked for, in this order, after everything else on Python's module path."""
+
+    def __init__(self, beside_match: Path | None = None) -> None:
+        """`beside_match` is the folder of the match file; None without a match file."""
+        self._here = Path.cwd()
+        self._beside = beside_match.resolve() if beside_match is not None else self._here
+
+    @property
+    def paths(self) -> list[Path]:
+        """The folders, each once, in the order of the search."""
+        return list(dict.fromkeys((self._beside, self._here)))
+
+    def add_to_module_path(self) -> None:
+        """Append the folders to Python's module path; those that are on it stay where they are."""
+        known = {Path(entry).resolve() for entry in sys.path}
+        sys.path.extend(str(path) for path in self.paths if path not in known)
+
+    def __str__(self) -> str:
+        """The folders as the end of a sentence."""
+        here = f"in the current directory ({self._here})"
+        return here if self._beside == self._here else f"beside the match file ({self._beside}) or {here}"
+
+    def file_of(self, module: str) -> Path | None:
+        """The file of a module in these folders, by its name with dots; None if there is none."""
+        stem = Path(*module.split("."))
+        found = (path / name for path in self.paths for name in (stem.with_suffix(".py"), stem / "__init__.py"))
+        return next((file for file in found if file.is_file()), None)

@@ -1,0 +1,48 @@
+"""`python -m robot_agent.build_check --settings FILE`: builds a team's brains once, as the robots of a match will.
+
+It runs before a match is launched, in a process of its own: a brain may print, take ports, or end its process.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Briefing
+from schemas.config.match_config import MatchConfig
+from schemas.config.rule_book import load_rule_book
+from schemas.config.settings import Settings
+from schemas.config.settings_file import run_process
+from schemas.messages.setup import Setup
+from schemas.side import Side
+
+
+class BuildCheckSettings(Settings):
+    """The team whose brains are built."""
+
+    config: MatchConfig
+    """The match."""
+    side: Side
+    """The side of the team."""
+    brain_folder: Path | None = None
+    """Folder in which the module is looked for before the current directory."""
+
+
+def run(settings: BuildCheckSettings) -> int:
+    """Build the brain of each robot of the team once; the exit status of the process.
+
+    Raises:
+        TouchlineError: a brain cannot be built.
+    """
+    config = settings.config
+    setup = Setup.of(config, config.load_profile(), load_rule_book(config.rules))
+    for robot in config.robots(settings.side):
+        os.environ["TOUCHLINE_ROBOT"] = robot
+        load_brain(config.team(settings.side).brain or "", Briefing.of(robot, setup), settings.brain_folder)
+    return 0
+
+
+if __name__ == "__main__":
+    status = run_process("robot_agent.build_check", BuildCheckSettings, run)
+    sys.stderr.flush()
+    os._exit(status)  # a brain may have started a thread that does not end

@@ -1,0 +1,46 @@
+"""Places in the code of a brain, for messages: the file and line of a definition, or of what an exception came from."""
+
+import inspect
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+OWN_PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
+"""The packages of this library."""
+_ROOT = Path(__file__).resolve().parents[1]
+_TEAMS = _ROOT / "robot_agent" / "teams"
+_NOT_USERS = [*(_ROOT / name for name in OWN_PACKAGES), Path(inspect.__file__).resolve().parent]
+_INSTALLED = {"site-packages", "dist-packages"}
+
+
+def is_users(file: str) -> bool:
+    """Whether code of this file belongs to a brain: not to this library, to Python, or to an installed package."""
+    path = Path(file).resolve()
+    if path.is_relative_to(_TEAMS):
+        return True
+    is_other = any(path.is_relative_to(folder) for folder in _NOT_USERS) or not _INSTALLED.isdisjoint(path.parts)
+    return not file.startswith("<") and not is_other
+
+
+def place_of(error: BaseException) -> str:
+    """Where the brain's own code raised, or called what raised: ` (my_team.py, line 17)`."""
+    frames = list(traceback.extract_tb(error.__traceback__))
+    own = [frame for frame in frames if is_users(frame.filename)] or frames
+    return f" ({_shown(own[-1].filename)}, line {own[-1].lineno})" if own else ""
+
+
+def definition_of(what: Callable[..., Any]) -> str:
+    """Where a function or a class is defined: ` (my_team.py, line 12)`; empty if its source is unknown."""
+    try:
+        file = inspect.getsourcefile(what)
+        line = inspect.getsourcelines(what)[1]
+    except (OSError, TypeError):
+        return ""
+    return f" ({_shown(file)}, line {line})" if file is not None else ""
+
+
+def _shown(file: str) -> str:
+    """The path of a file, relative if it is below the current directory."""
+    path = Path(file).resolve()
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)

@@ -1,0 +1,40 @@
+"""The outcome of a match in a file: the host's events and its last state of the game, as it published them.
+
+Who launches a host reads it, and knows the result whatever it, or a recorder, has missed.
+"""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.messages.record_batch import Entry, payload_fields, read_batch, write_batch
+from schemas.topics import EVENT, STATE
+from schemas.wire.message import BadMessageError
+
+_TOPICS = {topic.key: topic for topic in (EVENT, STATE)}
+
+
+def write_outcome(path: Path, messages: Sequence[ReceivedMessage]) -> None:
+    """Write events and states, which have stamps, in the form of a record batch.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    entries = [
+        Entry(one.key, **payload_fields(one.payload), **one.stamp._asdict())
+        for one in messages
+        if one.stamp is not None
+    ]
+    path.write_bytes(write_batch(0, 0, -1, 0, entries))
+
+
+def read_outcome(path: Path) -> Iterator[ReceivedMessage]:
+    """The messages of an outcome; none if the host has not written one."""
+    try:
+        entries = read_batch(path.read_bytes()).entries
+    except (OSError, BadMessageError):
+        return
+    for entry in entries:
+        stamp = Stamp(entry.sequence or 0, entry.sent_ns, entry.sim_ns)
+        if entry.key in _TOPICS:
+            yield ReceivedMessage(_TOPICS[entry.key], entry.key, entry.payload, stamp)

@@ -1,0 +1,36 @@
+"""The match that the host at an endpoint plays, by the host's liveliness token."""
+
+import zenoh
+
+from schemas.bus.contract import BusError, PresenceKind
+from schemas.process.clock import Clock
+from schemas.topics import ALIVE, key_prefix
+
+_ALL_HOSTS = key_prefix("*") + ALIVE.fill(kind=PresenceKind.HOST)
+_START = len(key_prefix("")) - 1
+_REPLY_S = 1.0
+"""Wall time for the reply of the host."""
+_PAUSE_S = 0.05
+"""Wall time between two queries while the host prepares its match."""
+
+
+def match_at(session: zenoh.Session, connect: str, clock: Clock, deadline: float) -> str:
+    """The name of the match at the endpoint of this session, queried until `deadline`.
+
+    Raises:
+        BusError: no match is played there, or more than one.
+    """
+    while not (names := _names(session)):
+        if clock.now() >= deadline:
+            raise BusError(f"--connect {connect}: no match is played there; start one with `touchline match`")
+        clock.sleep_until(clock.now() + _PAUSE_S)
+    if len(names) > 1:
+        raise BusError(f"--connect {connect}: several matches are played there; choose one: --match {sorted(names)}")
+    return names.pop()
+
+
+def _names(session: zenoh.Session) -> set[str]:
+    """The matches whose hosts are present."""
+    replies = session.liveliness().get(_ALL_HOSTS, timeout=_REPLY_S)
+    keys = [str(reply.ok.key_expr) for reply in replies if reply.ok is not None]
+    return {key[_START:].partition("/")[0] for key in keys}

@@ -1,0 +1,38 @@
+"""Opens a client of a host that may start later: reports the wait, and can be interrupted."""
+
+from collections.abc import Callable
+
+from schemas.bus.contract import BusError
+from schemas.bus.zenoh.bus import ZenohBus
+from schemas.process.clock import Clock
+
+_SLICE_S = 0.2
+"""Wall time after which `should_stop` is asked again."""
+
+
+def open_when_there(
+    open_client: Callable[[float], ZenohBus],
+    clock: Clock,
+    patience: float,
+    report: Callable[[str], None],
+    should_stop: Callable[[], bool] = lambda: False,
+) -> ZenohBus | None:
+    """The client that `open_client(patience)` opens, as soon as there is a host; None if `should_stop` became true.
+
+    `report` receives one line if there is no host at once.
+
+    Raises:
+        BusError: there is no host for `patience` s of wall time.
+    """
+    deadline = clock.now() + patience
+    reported = False
+    while not should_stop():
+        try:
+            return open_client(min(_SLICE_S, patience) if reported else 0.0)
+        except BusError as error:
+            if clock.now() >= deadline:
+                raise
+            if not reported:
+                reported = True
+                report(f"{error}; waiting for it for up to {patience:g} s")
+    return None

@@ -1,0 +1,115 @@
+"""The tables of a match file: teams, noise, radio, referee, recording and patience."""
+
+from typing import Annotated
+
+from pydantic import Field, field_validator, model_validator
+
+from schemas.config.noise import PRESETS
+from schemas.config.roster import MAX_ROBOTS
+from schemas.config.settings import RecordOptions
+from schemas.errors import did_you_mean
+from schemas.game import OfficiatingMode
+from schemas.side import Side
+from schemas.wire.message import Name, Part
+
+
+class TeamConfig(Part):
+    """One team of the match file: its robots and their program."""
+
+    name: str = ""
+    """Name of the team, for display; where it is empty, that of the side."""
+    brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
+    """`module:Class` of a brain in Python; each robot's process constructs one instance."""
+    command: list[str] | None = None
+    """Command line of a program in any language, in place of a brain; environment variables name its robot."""
+    size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
+    """Number of robots, where `robots` does not name them."""
+    robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
+    """Names of the robots, the goalkeeper first; where the list is empty, side and number, as `cyan1`."""
+    types: dict[Name, Name] = Field(default_factory=dict)
+    """Robot → its type, of the profile or of `[types.NAME]`; other robots are of the standard type."""
+
+    @model_validator(mode="after")
+    def _check_brain_or_command(self) -> "TeamConfig":
+        if self.brain is not None and self.command is not None:
+            raise ValueError("brain and command are both given; a team has one or the other")
+        return self
+
+
+def default_cyan() -> TeamConfig:
+    """The team in cyan of a match file that names none."""
+    return TeamConfig(name="Simple", brain="robot_agent.teams.simple:Simple")
+
+
+def default_magenta() -> TeamConfig:
+    """The team in magenta of a match file that names none."""
+    return TeamConfig(name="NuBot", brain="robot_agent.teams.nubot:NuBot")
+
+
+class TeamConfigs(Part):
+    """Both teams."""
+
+    cyan: TeamConfig = Field(default_factory=default_cyan)
+    """The team in cyan."""
+    magenta: TeamConfig = Field(default_factory=default_magenta)
+    """The team in magenta."""
+
+
+class NoiseConfig(Part):
+    """Quality of the robots' perception."""
+
+    preset: str = "profile"
+    """Name of a preset of perception noise; `profile` for the numbers of the profile."""
+
+    @field_validator("preset")
+    @classmethod
+    def _check_preset(cls, preset: str) -> str:
+        if preset not in PRESETS:
+            raise ValueError(did_you_mean(preset, PRESETS))
+        return preset
+
+
+class RadioOverride(Part):
+    """Radio numbers that replace those of the profile."""
+
+    delay: Annotated[float, Field(ge=0, le=5)] | None = None
+    """Least simulated time from sending to delivery, in s; None for the profile's."""
+    jitter: Annotated[float, Field(ge=0, le=5)] | None = None
+    """Longest further time until delivery beyond `delay`, in s; None for the profile's."""
+    loss: Annotated[float, Field(ge=0, le=1)] | None = None
+    """Share of deliveries that are lost, from 0 to 1; None for the profile's."""
+    budget: Annotated[float, Field(ge=0)] | None = None
+    """Most bits that a team may send, in bit/s averaged over one second; None for the profile's."""
+
+
+class OfficiatingConfig(Part):
+    """How the match is refereed."""
+
+    kick_off: Side = Side.CYAN
+    """The side that kicks off the first half."""
+    automatic: bool = True
+    """The match starts by itself when all robots are present; otherwise it waits for `touchline coach start`."""
+    mode: OfficiatingMode = OfficiatingMode.AUTOMATIC
+    """Who decides: the referee, people, or the referee with people who may overrule its proposals."""
+    proposal: Annotated[float, Field(ge=0, le=60)] = 3.0
+    """Mixed officiating: simulated time after which a proposal becomes a decision, in s."""
+    winner: bool | None = None
+    """A level match continues with extra time and penalties; None for the rule book's setting."""
+
+
+class RecordingConfig(RecordOptions):
+    """What is recorded, and whether the match waits for a recorder."""
+
+    wait: bool = False
+    """The first tick waits for a recorder, so that the recording is complete."""
+
+
+class Patience(Part):
+    """How long the host waits, in s of wall time."""
+
+    attendance: Annotated[float, Field(ge=0, le=600)] = 30.0
+    """Longest wait for all robots before the first tick, in s."""
+    answer: Annotated[float, Field(gt=0, le=60)] = 1.0
+    """Lockstep: longest wait for a robot's answer to one tick, in s."""
+    recorder: Annotated[float, Field(gt=0, le=600)] = 5.0
+    """Lockstep: longest wait for a recorder that makes no progress or has lost its connection, in s."""

@@ -1,0 +1,95 @@
+"""Which agent plays which robot: decides the claims of agents. Knows no bus."""
+
+import hmac
+from dataclasses import dataclass, field
+
+from schemas.messages.claim import AgentClaim
+
+_MOST = 200
+"""Most robots, and most sessions, that are remembered; a flood of invented names must not fill the memory."""
+
+
+@dataclass(frozen=True, slots=True)
+class Holder:
+    """The agent of a robot."""
+
+    session: str
+    source: str
+
+
+@dataclass(slots=True)
+class Claims:
+    """The agents of all robots. An agent loses its robot when its session ends, and at no other time.
+
+    A session whose link was broken gets its robot back if no other agent has claimed it meanwhile.
+    """
+
+    launch_token: str | None = None
+    """Secret that an agent must know; None admits every agent."""
+    holders: dict[str, Holder] = field(default_factory=dict)
+    """Robot → its agent."""
+    _unclaimed: set[str] = field(default_factory=set)
+    """Robots with the token of an agent that makes no claims."""
+    _sessions: set[str] = field(default_factory=set)
+    _former: dict[str, tuple[str, Holder]] = field(default_factory=dict)
+    """Session that is gone → its robot."""
+
+    def set_session(self, session: str, alive: bool) -> str | None:
+        """A session's liveliness token appeared or disappeared; returns the robot that changes with it, or None."""
+        return self._restore(session) if alive else self._release(session)
+
+    def set_unclaimed(self, robot: str, alive: bool) -> None:
+        """The token of a robot's agent that makes no claims appeared or disappeared."""
+        if not alive:
+            self._unclaimed.discard(robot)
+        elif len(self._unclaimed) < _MOST:
+            self._unclaimed.add(robot)
+
+    def is_present(self, robot: str) -> bool:
+        """Whether the robot has an agent that may play it."""
+        return robot in self.holders or (self.launch_token is None and robot in self._unclaimed)
+
+    def admits(self, robot: str) -> bool:
+        """Whether commands on this robot's key are from an agent that may play it, as far as the host can know."""
+        return self.launch_token is None or robot in self.holders
+
+    def refusal(self, claim: AgentClaim) -> str:
+        """Why the claim cannot succeed at any time; empty if it can."""
+        given = (claim.launch_token or "").encode()
+        if self.launch_token is not None and not hmac.compare_digest(given, self.launch_token.encode()):
+            return "the host admits only agents of its own launch, which know TOUCHLINE_LAUNCH_TOKEN"
+        if claim.robot not in self.holders and len(self.holders) >= _MOST:
+            return f"the host has {_MOST} agents already"
+        return ""
+
+    def obstacle(self, claim: AgentClaim) -> str:
+        """Why the claim does not succeed at present; empty if it does."""
+        holder = self.holders.get(claim.robot)
+        if claim.session not in self._sessions:
+            return f"the liveliness token alive/session/{claim.session} is missing; declare it before the claim"
+        if holder is not None:
+            return "" if holder.session == claim.session else f"{claim.robot} has an agent already: {holder.source}"
+        if self.launch_token is None and claim.robot in self._unclaimed:
+            return f"{claim.robot} has an agent already, which has made no claim"
+        return ""
+
+    def grant(self, claim: AgentClaim) -> None:
+        """Make the robot the agent's."""
+        self.holders[claim.robot] = Holder(claim.session, claim.source or "an agent without a description")
+
+    def _restore(self, session: str) -> str | None:
+        if len(self._sessions) < _MOST:
+            self._sessions.add(session)
+        if session not in self._former:
+            return None
+        robot, holder = self._former.pop(session)
+        return robot if self.holders.setdefault(robot, holder) is holder else None
+
+    def _release(self, session: str) -> str | None:
+        self._sessions.discard(session)
+        held = next((robot for robot, holder in self.holders.items() if holder.session == session), None)
+        if held is not None:
+            while len(self._former) >= _MOST:
+                del self._former[next(iter(self._former))]
+            self._former[session] = (held, self.holders.pop(held))
+        return held

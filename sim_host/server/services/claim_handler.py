@@ -1,0 +1,92 @@
+"""The handler of agents' claims. A claim of a robot that has an agent waits until that agent's link would have expired.
+
+An agent that is restarted elsewhere after a broken cable gets its robot as soon as its earlier session expires. A
+second agent is refused.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from schemas.bus.contract import LEASE_S, Bus, Query
+from schemas.messages.claim import AgentClaim, AgentClaimReply
+from schemas.topics import CLAIM
+from schemas.wire.message import BadMessageError
+from sim_host.server.claims import Claims
+from sim_host.server.invalid_log import InvalidLog
+
+EXPIRY_S = LEASE_S + 0.5
+"""Wall time for which a claim waits for the end of an earlier agent, s."""
+_MOST = 200
+"""Most claims that wait, and most refused sessions that are remembered."""
+
+
+class Refusal(NamedTuple):
+    """An agent that was refused."""
+
+    robot: str
+    text: str
+    """Who was refused, and why."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Waiting:
+    query: Query
+    claim: AgentClaim
+    until: float
+
+
+class ClaimHandler:
+    """Receives claims, decides them, and replies."""
+
+    def __init__(self, bus: Bus, claims: Claims, invalid_log: InvalidLog) -> None:
+        self._queries = bus.serve(CLAIM)
+        self._clock = bus.clock
+        self._claims = claims
+        self._invalid_log = invalid_log
+        self._waiting: list[_Waiting] = []
+        self._refused: dict[str, None] = {}
+        self.refusals: list[Refusal] = []
+        """Refused agents that have not been reported yet."""
+
+    def receive(self) -> None:
+        """Receive claims. Call it before changes of presence are read: a session's token arrives before its claim."""
+        while (query := self._queries.receive()) is not None:
+            try:
+                claim: AgentClaim = query.message()
+            except BadMessageError as error:
+                self._invalid_log.add(query.key, str(error), query.payload)
+                query.fail(str(error))
+                continue
+            if len(self._waiting) >= _MOST:
+                query.reply(AgentClaimReply(accepted=False, reason="too many agents claim robots at the same time"))
+                continue
+            self._waiting.append(_Waiting(query, claim, self._clock.now() + EXPIRY_S))
+
+    def decide(self) -> list[str]:
+        """Decide the received claims; returns the robots that were granted."""
+        if not self._waiting:
+            return []
+        waiting, self._waiting = self._waiting, []
+        granted = []
+        now = self._clock.now()
+        for one in waiting:
+            reason = self._claims.refusal(one.claim)
+            obstacle = reason or self._claims.obstacle(one.claim)
+            if not obstacle:
+                self._claims.grant(one.claim)
+                granted.append(one.claim.robot)
+                one.query.reply(AgentClaimReply(accepted=True))
+            elif reason or now >= one.until:
+                self._refuse(one, obstacle)
+            else:
+                self._waiting.append(one)
+        return granted
+
+    def _refuse(self, one: _Waiting, reason: str) -> None:
+        one.query.reply(AgentClaimReply(accepted=False, reason=reason))
+        claim = one.claim
+        if claim.session in self._refused or len(self._refused) >= _MOST:
+            return
+        self._refused[claim.session] = None
+        source = f" ({claim.source})" if claim.source else ""
+        self.refusals.append(Refusal(claim.robot, f"an agent{source} that claimed {claim.robot} was refused: {reason}"))

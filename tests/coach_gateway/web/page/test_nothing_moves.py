@@ -1,0 +1,207 @@
+"""What the match brings moves nothing under a hand: decisions, cards and goals have places reserved for them."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from schemas.bus.in_process_bus import SharedState
+from schemas.config.match_config import load_match
+from schemas.game import Card, EventKind, OffField, Phase
+from schemas.messages.game import DisciplinaryRecord, Score
+from schemas.messages.radio import Radio
+from schemas.side import Side
+from schemas.topics import EVENT
+from support.fake_host import FakeHost
+from support.messages import make_event
+from support.visitor import Visitor
+
+SIZES = [(1366, 768), (390, 844), (844, 390)]
+"""A laptop, a phone, and the phone on its side."""
+
+WATCH = """() => {
+    window.shifts = [];
+    new PerformanceObserver((list) => window.shifts.push(...list.getEntries().map(({ value, sources }) =>
+        [value, ...sources.map(({ node }) => node?.outerHTML?.slice(0, 80) ?? node?.nodeName)])))
+        .observe({ type: "layout-shift" });
+}"""
+BOXES = """() => {
+    const boxes = {};
+    for (const one of document.querySelectorAll("body *")) {
+        if (!one.checkVisibility() || one.closest("#events li")) continue;
+        const { x, y, width, height } = one.getBoundingClientRect();
+        one.dataset.known ??= String(window.known = (window.known ?? 0) + 1);
+        if (width > 1 && height > 1) boxes[one.dataset.known] = [x, y, one.outerHTML.slice(0, 90)];
+    }
+    return boxes;
+}"""
+"""Element → its place, of all that are seen but the lines of the list of events, which scrolls by itself."""
+
+
+class StagedMatch:
+    """A match whose host publishes what a test has it publish."""
+
+    def __init__(self, medium: Any, gateway_of: Callable[..., Any]) -> None:
+        match = load_match(None, {f"teams.{side}.size": 5 for side in Side} | {"teams.cyan.name": "Lions"})
+        self.medium = medium
+        self.host = FakeHost(medium, match, in_threads=True)
+        self.gateway = gateway_of(medium)
+        self.origin = self.gateway.origin
+        visitor = Visitor(self.origin)
+        visitor.hear_what_is_played()
+        for robot in self.host.config.robots(Side.CYAN):
+            self.host.believe(robot, Radio(role="striker", intention="shoot"))
+        self.host.say(phase=Phase.PLAY, running=True)
+        self.host.show()
+        visitor.hear("frame")
+        visitor.close()
+
+    def propose(self) -> None:
+        """The referee proposes a decision, in a long sentence."""
+        proposal = "free kick for Lions at (3.2, −1.5): magenta4 pushed cyan3 for 1.2 s with 0.9 m/s, 0.5 s are allowed"
+        self.host.say(proposal=proposal)
+
+    def show_card(self) -> None:
+        """A robot gets a card and leaves the field."""
+        away = DisciplinaryRecord(yellow=2, off_field=OffField.SECOND_YELLOW, left=87.0)
+        event = make_event(
+            self.host.state.tick, "2nd yellow card for magenta4", EventKind.CARD, robot="magenta4", card=Card.YELLOW
+        )
+        self.host.put(EVENT, event)
+        self.host.say(proposal=None, running=False, phase=Phase.FREE_KICK, side=Side.CYAN, robots={"magenta4": away})
+
+    def score(self) -> None:
+        """The tenth goal is scored: the score gets wider."""
+        score = Score(cyan=10, magenta=0)
+        event = make_event(
+            self.host.state.tick, "goal, counts for Lions", EventKind.GOAL, side=Side.CYAN, robot="cyan3", score=score
+        )
+        self.host.put(EVENT, event)
+        self.host.say(phase=Phase.KICK_OFF, side=Side.MAGENTA, left=7.0, score=score)
+
+    def close(self) -> None:
+        """End it."""
+        self.host.close()
+
+
+@pytest.fixture
+def staged(gateway_of: Callable[..., Any]) -> Iterator[StagedMatch]:
+    match = StagedMatch(SharedState(), gateway_of)
+    yield match
+    match.close()
+
+
+def moved(before: dict[str, Any], after: dict[str, Any]) -> list[str]:
+    """The elements that are now more than 4 px from where they were."""
+    return [
+        f"{box[2]}: {before[name][:2]} -> {box[:2]}"
+        for name, box in after.items()
+        if name in before and max(abs(box[0] - before[name][0]), abs(box[1] - before[name][1])) > 4
+    ]
+
+
+@pytest.mark.parametrize("role", ["spectator", "cyan", "referee"])
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_no_element_moves_under_a_proposal_a_card_or_a_goal(
+    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int, role: str
+) -> None:
+    tab = visit(staged.origin, role, width, height)
+    tab.page.wait_for_timeout(500)  # until the page is laid out
+    tab.page.evaluate(WATCH)
+    before = tab.page.evaluate(BOXES)
+    for happens, shown in (
+        (staged.propose, "window.touchline.match.state.proposal !== null"),
+        (staged.show_card, "document.getElementById('people').textContent.includes('magenta4')"),
+        (staged.score, "document.getElementById('score').textContent === '10 : 0'"),
+    ):
+        happens()
+        tab.until(shown)
+        tab.page.wait_for_timeout(300)  # panels are filled five times a second
+        assert moved(before, tab.page.evaluate(BOXES)) == []
+    assert tab.ask("window.shifts") == []
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_a_proposal_is_answered_in_its_place_on_every_screen(
+    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
+) -> None:
+    tab = visit(staged.origin, "referee", width, height)
+    staged.propose()
+    for name in ("confirm", "overrule"):
+        tab.until(f"!document.getElementById('{name}').disabled")
+        assert tab.page.locator("#proposal").is_visible()
+        inside = tab.ask(
+            f"""(() => {{
+                const slot = document.getElementById("pending").getBoundingClientRect();
+                const button = document.getElementById("{name}").getBoundingClientRect();
+                return button.top >= slot.top && button.bottom <= slot.bottom && button.height >= 30;
+            }})()"""
+        )
+        assert inside
+
+
+def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(
+    staged: StagedMatch, visit: Callable[..., Any]
+) -> None:
+    tab = visit(staged.origin)
+    tab.loses_its_server = True
+    staged.score()
+    staged.host.say(phase=Phase.FULL_TIME, running=False, side=None, left=None)
+    tab.until("window.touchline.match.over")
+    staged.host.close()
+    over = "The match is over. This page keeps its result until it is closed."
+    tab.until(f"document.getElementById('notice').textContent === {over!r}")
+    staged.gateway.close()
+    tab.until("!window.touchline.connection.up")
+    tab.page.wait_for_timeout(500)
+    assert tab.page.locator("#notice").inner_text() == over
+    assert tab.page.locator("#result-score").inner_text() == "10 : 0"
+    assert tab.page.locator("#cyan-scorers").inner_text() == "cyan3 0:00.0"
+    assert tab.page.locator("#result-title").inner_text() == "Final result"
+    assert tab.page.locator("#score").inner_text() == "10 : 0"
+
+
+def test_goals_and_the_score_are_announced_and_the_score_at_the_beginning_is_not(
+    staged: StagedMatch, visit: Callable[..., Any]
+) -> None:
+    tab = visit(staged.origin)
+    announcer = tab.page.locator("#announcer")
+    assert announcer.get_attribute("aria-live") == "polite"
+    assert announcer.inner_text() == ""
+    staged.score()
+    tab.until("document.getElementById('announcer').textContent === 'Goal for Lions. Lions 10, NuBot 0.'")
+    staged.host.say(score=Score(cyan=9, magenta=0))
+    tab.until("document.getElementById('announcer').textContent === 'The score is corrected. Lions 9, NuBot 0.'")
+
+
+def test_a_press_meant_for_one_proposal_does_not_answer_the_next(
+    staged: StagedMatch, visit: Callable[..., Any]
+) -> None:
+    tab = visit(staged.origin, "referee")
+    staged.propose()
+    tab.until("!document.getElementById('confirm').disabled")
+    replaced = """() => {
+        const { match } = window.touchline;
+        match.receive({ kind: "state", state: { ...match.state, proposal: "penalty for magenta" } });
+        return document.getElementById("confirm").disabled;
+    }"""
+    assert tab.page.evaluate(replaced) is True
+    tab.until("!document.getElementById('confirm').disabled")
+
+
+@pytest.mark.parametrize(("width", "height"), [*SIZES, (683, 384), (640, 360)])
+def test_the_whole_field_and_stop_are_in_view_on_every_screen(
+    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
+) -> None:
+    """Two of the sizes are laptops at a zoom of 200 %."""
+    tab = visit(staged.origin, "referee", width, height)
+    tab.page.wait_for_timeout(300)
+    for scrolled in (0, 10_000):
+        tab.page.evaluate(f"window.scrollTo(0, {scrolled})")
+        stop = tab.page.locator("#stop").bounding_box()
+        assert stop is not None and stop["y"] >= 0 and stop["y"] + stop["height"] <= height
+    tab.page.evaluate("window.scrollTo(0, 0)")
+    field = tab.page.locator("#moving").bounding_box()
+    assert field is not None and field["x"] >= 0 and field["x"] + field["width"] <= width
+    assert field["y"] >= 0 and field["y"] + field["height"] <= height
+    assert field["height"] >= min(0.3 * height, 0.6 * width)

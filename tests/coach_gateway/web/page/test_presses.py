@@ -1,0 +1,106 @@
+"""What a press does: a double click counts once, what cannot be undone is pressed twice or held, and space is text."""
+
+import math
+
+import pytest
+
+from schemas.game import Phase
+
+LATER_MS = 500
+"""Longer than two clicks of a double click are apart."""
+
+
+def test_a_double_click_scores_one_goal(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("goal", "cyan").dblclick()
+    tab.wait_for_log("Goal +, cyan accepted")
+    tab.page.wait_for_timeout(LATER_MS)
+    assert match.state.score.cyan == 1
+    tab.button("goal", "cyan").click()
+    match.until(lambda: match.state.score.cyan == 2)
+
+
+def test_a_held_key_presses_a_button_once(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("goal", "magenta").focus()
+    for _ in range(5):
+        tab.page.keyboard.down("Enter")  # the first is a press, further ones are its repetitions
+        tab.page.wait_for_timeout(150)
+    tab.page.keyboard.up("Enter")
+    tab.wait_for_log("Goal +, magenta accepted")
+    assert match.state.score.magenta == 1
+
+
+def test_the_end_of_a_half_is_pressed_twice_and_not_by_a_double_click(match, visit) -> None:
+    tab = visit(match, "referee")
+    button = tab.button("end_half")
+    button.dblclick()
+    assert button.inner_text() == "Press again"
+    tab.page.wait_for_timeout(LATER_MS)
+    assert tab.page.locator("#log li").count() == 0
+    button.click()
+    tab.wait_for_log("End half")
+    assert button.inner_text() == "End half"  # a third press would have to be made sure of again
+
+
+@pytest.mark.parametrize("way", ["mouse", "finger", "key"])
+def test_the_end_of_a_match_is_held_for_a_second(match, visit, way: str) -> None:
+    tab = visit(match, "referee", has_touch=way == "finger")
+    button = tab.button("end_game")
+    button.scroll_into_view_if_needed()
+    box = button.bounding_box()
+    assert box is not None
+    place = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def hold(ms: int) -> None:
+        if way == "mouse":
+            tab.page.mouse.move(*place)
+            tab.page.mouse.down()
+        elif way == "finger":
+            tab.touch("Start", place)
+        else:
+            button.focus()
+            tab.page.keyboard.down("Enter")
+        tab.page.wait_for_timeout(ms)
+        if way == "mouse":
+            tab.page.mouse.up()
+        elif way == "finger":
+            tab.touch("End")
+        else:
+            tab.page.keyboard.up("Enter")
+
+    for _ in range(2):
+        hold(300)
+    assert button.inner_text() == "End match"
+    assert tab.page.locator("#log li").count() == 0
+    assert match.state.phase is not Phase.FULL_TIME
+    hold(1300)
+    match.until(lambda: match.host.simulation.over)
+
+
+def test_a_space_in_a_text_is_typed_and_stops_nothing(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.open("coach")
+    for field, words in (("#order-tactic", "wide left"), ("#parameter-filter", "max speed")):
+        if field == "#parameter-filter":
+            tab.open("settings")
+        tab.page.locator(field).focus()
+        tab.page.keyboard.type(words)
+        assert tab.page.locator(field).input_value() == words
+    assert tab.page.locator("#log li").count() == 0
+    tab.page.locator("#place-x").focus()  # a number has no space
+    tab.page.keyboard.press("Space")
+    tab.wait_for_log("Stop accepted")
+
+
+def test_a_press_where_a_body_was_set_down_last_reaches_the_field(resting, visit) -> None:
+    match = resting
+    tab = visit(match, "referee")
+    tab.page.keyboard.press("Space")
+    tab.until("window.touchline.match.state?.phase === 'stopped'")
+    match.until(lambda: math.hypot(*(match.world["robots"]["cyan1"][axis] for axis in ("vx", "vy"))) < 0.02)
+    tab.until_seen("robots.cyan1", *match.where("cyan1"))
+    tab.drag(match.where("cyan1"), (-6.0, 5.0))
+    tab.wait_for_log("cyan1 to (−6.00, 5.00) accepted")
+    left, top = tab.ask("[drop.getBoundingClientRect().left, drop.getBoundingClientRect().top]")
+    assert tab.page.evaluate("([x, y]) => document.elementFromPoint(x + 0.5, y + 0.5).id", [left, top]) == "moving"

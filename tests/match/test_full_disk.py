@@ -1,0 +1,77 @@
+"""Matches whose recorder finds its disk full: the result is there, and the recording as far as the disk goes."""
+
+import json
+import os
+import resource
+import signal
+
+import pytest
+
+from recordings.editing.recovery import recover
+from recordings.reading.recording import open_recording
+
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
+
+FULL = 400_000
+"""Most bytes of a file: what a full disk does, by size."""
+MATCH = """
+name = "full"
+duration = 6
+
+[teams.cyan]
+robots = ["cyan1", "cyan2"]
+
+[teams.magenta]
+robots = ["magenta1", "magenta2"]
+"""
+
+
+def play(start, folder, endpoint):
+    (folder / "match.toml").write_text(MATCH)
+    words = ("match.toml", "--seed", "7", "--record", "m.mcap", "--json", "--listen", endpoint)
+    return start("touchline", "match", *words, folder=folder)
+
+
+def worlds(recording):
+    return [world.tick for _, world in recording.decoded("world")]
+
+
+def test_a_match_whose_disk_is_full_has_its_result_and_names_what_is_left(start, tmp_path, endpoint):
+    program = play(start, tmp_path, endpoint)
+    resource.prlimit(program.popen.pid, resource.RLIMIT_FSIZE, (FULL, FULL))  # before its processes, which inherit it
+    assert program.status() == 1
+    result = json.loads(program.out)
+    assert result["ticks"] > 300
+    assert set(result["score"]) == {"cyan", "magenta"}
+    assert program.err.splitlines()[-1] == f"touchline: {result['recording_fault']}"
+    assert "m.mcap.part: File too large" in result["recording_fault"]
+    assert "touchline recover m.mcap.part" in result["recording_fault"]
+    assert result["recording"] == "m.mcap.part"
+
+    done = recover(tmp_path / "m.mcap.part")
+    ticks = worlds(open_recording(done.path, whole=True))
+    assert ticks == list(range(len(ticks)))
+    assert ticks
+
+
+def test_a_recording_goes_on_when_there_is_room_again(start, tmp_path, endpoint):
+    program = play(start, tmp_path, endpoint)
+    recorder = program.process("recorder")
+    resource.prlimit(recorder, resource.RLIMIT_FSIZE, (FULL, FULL))  # its successor does not inherit it
+    assert program.status() == 0, program.err
+    assert "recorder ended with status 2; started again (1 of 3)" in program.err
+    recording = open_recording(tmp_path / "m.mcap", whole=True)
+    result = json.loads(program.out)
+    assert worlds(recording) == list(range(result["ticks"] + 1))
+    assert recording.result.lost == 0
+
+
+def test_a_recorder_killed_again_and_again_leaves_a_whole_recording(start, tmp_path, endpoint):
+    program = play(start, tmp_path, endpoint)
+    for count in (1, 2, 3):
+        os.kill(program.process("recorder"), signal.SIGKILL)
+        program.wait_for_error(f"recorder was ended by SIGKILL; started again ({count} of 3)")
+    assert program.status() == 0, program.err
+    recording = open_recording(tmp_path / "m.mcap", whole=True)
+    assert worlds(recording) == list(range(json.loads(program.out)["ticks"] + 1))
+    assert (recording.result.ended, recording.result.lost) == ("full_time", 0)

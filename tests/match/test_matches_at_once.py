@@ -1,0 +1,149 @@
+"""Several matches that start in the same second on one machine, and agents that come to a match that is not theirs."""
+
+import json
+import os
+import re
+import shlex
+import signal
+from pathlib import Path
+
+import pytest
+
+from recordings.reading.recording import open_recording
+from schemas.bus.announcement import announcement_in
+from schemas.topics import APPLIED
+from support.process_story import wait_for
+
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
+
+MATCH = "[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n"
+SEEDS = (1, 1, 2)
+
+
+def outcome(program, folder):
+    """What a match was, without its speed."""
+    assert program.status() == 0, program.err
+    result = json.loads(program.out)
+    assert result["losses"] == {}
+    applied = [recorded.message() for recorded in open_recording(folder / result["recording"]).messages(APPLIED.key)]
+    return result["score"], result["events"], applied[-1].tick, applied[-1].chain
+
+
+def test_matches_that_start_in_the_same_second_are_the_matches_of_their_seeds_alone(start, folder):
+    (folder / "small.toml").write_text(MATCH)
+
+    def begin(seed, name):
+        arguments = ("touchline", "match", "small.toml", "--duration", "2", "--seed", str(seed), "--json")
+        return start(*arguments, folder=folder, name=name)
+
+    together = [begin(seed, f"together{number}") for number, seed in enumerate(SEEDS)]
+    outcomes = [outcome(program, folder) for program in together]
+    alone = {seed: outcome(begin(seed, f"alone{seed}"), folder) for seed in set(SEEDS)}
+    assert alone[1] != alone[2]
+    assert outcomes == [alone[seed] for seed in SEEDS]
+
+
+@pytest.fixture(scope="module")
+def running(start, folder, tmp_path_factory):
+    """A match without end of one against one, its folder, and the environment in which it is announced."""
+    environment = {"XDG_RUNTIME_DIR": str(tmp_path_factory.mktemp("runtime"))}
+    (folder / "long.toml").write_text(
+        'name = "cup"\npace = "realtime"\n[teams.cyan]\nsize = 1\n[teams.magenta]\nsize = 1\n'
+    )
+    arguments = ("touchline", "match", "long.toml", "--duration", "80000", "--no-record")
+    program = start(*arguments, folder=folder, name="long", **environment)
+    program.process("magenta1")
+    return program, environment
+
+
+def command(start, folder, name, *arguments, **environment):
+    """A finished command of `touchline`."""
+    program = start("touchline", *arguments, folder=folder, name=name, **environment)
+    program.status()
+    return program
+
+
+def test_a_client_finds_the_running_match_whatever_its_port_and_name(start, folder, running):
+    _, environment = running
+    asked = command(start, folder, "asked", "coach", "state", "--json", **environment)
+    assert asked.status() == 0, asked.err
+    assert json.loads(asked.out)["tick"] >= 0
+
+
+def test_an_agent_of_another_launch_is_refused_by_name_on_both_ends(start, folder, running):
+    program, environment = running
+    brain = ("--brain", "robot_agent.teams.nubot:NuBot")
+    refused = command(start, folder, "foreign", "agent", "--robot", "cyan1", *brain, **environment)
+    assert refused.status() == 2
+    assert refused.err.splitlines() == [
+        "touchline: cyan1: refused by the host: the host admits only agents of its own launch, "
+        "which know TOUCHLINE_LAUNCH_TOKEN"
+    ]
+    wait_for(lambda: re.search(r"an agent \(process \d+ on .*\) that claimed cyan1 was refused", program.out), "event")
+
+
+def test_an_agent_that_crashed_gets_its_robot_back(folder, running):
+    program, _ = running
+    os.kill(program.process("cyan1"), signal.SIGKILL)
+    wait_for(lambda: "cyan1 was ended by SIGKILL; started again (1 of 3)" in program.out + program.err, "notice")
+    wait_for(lambda: "cyan1 answers" in program.out, "answers of the new agent")
+    assert "claimed cyan1 was refused: cyan1" not in program.out
+
+
+def test_of_two_running_matches_a_client_lists_both(start, folder, running):
+    _, environment = running
+    endpoint = folder / "second.json"
+    second = start(
+        *("touchline", "host", "--announcement", str(endpoint), "--listen", "tcp/127.0.0.1:0"),
+        folder=folder,
+        name="second",
+        **environment,
+    )
+    announcement = wait_for(lambda: announcement_in(endpoint), f"announcement; {second.err}")
+    watched = command(start, folder, "watched", "watch", **environment)
+    assert watched.status() == 2
+    first, *lines = watched.err.splitlines()
+    assert first == "touchline: 2 matches run on this machine; choose one by --connect:"
+    assert sorted(re.findall(r'--connect \S+   match "(\w+)", process \d+', "\n".join(lines))) == ["cup", "friendly"]
+    assert f'--connect {announcement.endpoint}   match "friendly"' in watched.err
+    second.popen.terminate()
+    second.status()
+
+
+def test_the_agent_of_the_readme_plays_as_typed_and_a_second_one_is_refused(start, folder):
+    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+    (line,) = re.findall(r"^touchline (agent .*)$", readme, re.MULTILINE)
+    endpoint = folder / "readme.json"
+    (folder / "cup.toml").write_text('name = "cup"\n' + MATCH)
+    start(
+        *("touchline", "host", "cup.toml", "--announcement", str(endpoint), "--listen", "tcp/127.0.0.1:0"),
+        folder=folder,
+        name="readme_host",
+    )
+    announcement = wait_for(lambda: announcement_in(endpoint), "announcement")
+    words = re.sub(r"tcp/\S+", announcement.endpoint, line)
+    root = {"PYTHONPATH": str(Path(__file__).parents[2])}
+    first = start("touchline", *shlex.split(words), folder=folder, name="readme_first", **root)
+
+    def robots():
+        asked = command(start, folder, "readme_state", "coach", "state", "--connect", announcement.endpoint)
+        return "1 of 4 robots are connected" in asked.err
+
+    wait_for(robots, f"the agent; {first.err}")
+    second = command(start, folder, "readme_second", *shlex.split(words), **root)
+    assert second.status() == 2
+    assert second.err.startswith("touchline: cyan1: refused by the host: cyan1 has an agent already: process ")
+    assert first.popen.poll() is None
+
+
+def test_a_match_whose_port_is_in_use_ends_before_any_robot_is_launched(start, folder, running):
+    _, environment = running
+    (announced,) = (announcement_in(path) for path in Path(environment["XDG_RUNTIME_DIR"]).rglob("*.json"))
+    name = f"taken{announced.pid}"
+    taken = command(start, folder, "taken", "match", "--name", name, "--listen", announced.endpoint)
+    assert taken.status() == 2
+    remedy = "choose another port, or tcp/127.0.0.1:0 for a free one"
+    assert (
+        taken.err.splitlines()[-1] == f"touchline: --listen {announced.endpoint} is in use by another process; {remedy}"
+    )
+    assert list((folder / "runs").glob(f"{name}-*")) == []

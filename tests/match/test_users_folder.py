@@ -1,0 +1,75 @@
+"""A match that is played from a user's folder, whose files have names that modules of Python and Touchline have."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
+
+NAMES = ("schemas", "robot_agent", "random", "socket", "numpy", "zenoh", "mcap", "starlette")
+BRAIN = """
+from touchline import Command
+from helper import ANSWER
+
+class Still:
+    def __init__(self, briefing):
+        self.robot = briefing.robot
+
+    def act(self, sight):
+        return Command(answers_tick=sight.tick + ANSWER)
+"""
+MATCH = """
+duration = 0.2
+[teams.cyan]
+brain = "still:Still"
+size = 1
+[teams.magenta]
+size = 1
+"""
+
+
+@pytest.fixture(scope="module")
+def cup(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a match file, a brain, and modules that must not be loaded."""
+    folder = tmp_path_factory.mktemp("cup")
+    (folder / "still.py").write_text(BRAIN)
+    (folder / "helper.py").write_text("ANSWER = 0\n")
+    (folder / "match.toml").write_text(MATCH)
+    for name in NAMES:
+        (folder / f"{name}.py").write_text(f"raise RuntimeError('the user has a file {name}.py')\n")
+    return folder
+
+
+def test_no_file_of_the_users_folder_hides_a_module_of_the_matchs_processes(start, cup):
+    program = start("touchline", "match", "match.toml", "--web", "--listen", "tcp/127.0.0.1:0", "--web-port", "0",
+                    "--pace", "lockstep", folder=cup, PYTHONPATH=_with_current_directory())  # fmt: skip
+    assert program.status() == 0, program.err + program.out
+    logs = "".join(log.read_text() for log in cup.glob("runs/*/*.log"))
+    assert "the user has a file" not in logs + program.err + program.out
+
+
+def test_a_brain_is_found_beside_the_match_file_from_another_directory(start, cup, tmp_path):
+    match = str(cup / "match.toml")
+    program = start("touchline", "match", match, "--listen", "tcp/127.0.0.1:0", folder=tmp_path)
+    assert program.status() == 0, program.err + program.out
+    assert "not started again" not in program.out
+
+
+def test_a_match_in_one_process_finds_its_brains_beside_its_file(start, cup, tmp_path):
+    (tmp_path / "play.py").write_text(
+        "from pathlib import Path\n"
+        "from touchline import load_match, play_match\n"
+        f"cup = Path({str(cup)!r})\n"
+        "outcome = play_match(load_match(cup / 'match.toml'), brain_folder=cup)\n"
+        "print(outcome.ticks > 0)\n"
+    )
+    program = start("play", folder=tmp_path)
+    assert program.status() == 0, program.err
+    assert program.out == "True\n"
+    assert program.err == ""
+
+
+def _with_current_directory() -> str:
+    """A PYTHONPATH with an empty entry, which means the current directory; `PYTHONPATH=$PYTHONPATH:/lib` makes one."""
+    return ":".join(["", *(entry for entry in sys.path if entry)])

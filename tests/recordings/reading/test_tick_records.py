@@ -1,0 +1,26 @@
+"""The robots of a recording whose inputs are compared with recorded commands."""
+
+import pytest
+
+from recordings.reading.tick_index import Segment, StartTick
+from recordings.reading.tick_records import command_check_of
+from schemas.game import EventKind
+from schemas.messages.applied import Applied, AppliedInput
+from schemas.messages.command import Drive
+from schemas.messages.game import GameEvent
+from support.recorder_rig import ROBOTS, RecorderRig
+
+WITHOUT_COMMANDS = {name: AppliedInput(drive=Drive(vx=2.0), dribble=False, answers_tick=200) for name in ROBOTS}
+"""Inputs that claim to be commands which were not recorded."""
+
+
+@pytest.mark.parametrize("rule", ["manual_control", "hand"], ids=["now", "in older recordings"])
+def test_inputs_of_a_robot_under_manual_control_are_not_compared_with_commands(rig: RecorderRig, rule: str) -> None:
+    event = GameEvent(tick=0, time=0.0, clock=0.0, kind=EventKind.AGENT, rule=rule, robot="cyan1", text="driven")
+    rig.host.writers["game/event"].put(event)
+    rig.play(range(10))
+    rig.leave()
+
+    check = command_check_of(rig.read(), Segment(range(10), StartTick(0, None, ()), (0.0, 0.2), 0))
+    check.add_applied(Applied(tick=201, time=4.02, inputs=WITHOUT_COMMANDS, chain="00"))
+    assert [mismatch.robot for mismatch in check.mismatches()] == ["cyan2", "magenta1", "magenta2"]

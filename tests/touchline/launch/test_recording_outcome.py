@@ -1,0 +1,41 @@
+from pathlib import Path
+
+from touchline.launch.recording_outcome import finished_recording, unfinished_recording
+
+PATH, LOG = Path("runs/a/match.mcap"), Path("runs/a/recorder.log")
+
+
+def test_a_finished_recording_without_losses_is_whole() -> None:
+    assert finished_recording(PATH, {}).is_whole
+
+
+def test_messages_that_did_not_reach_the_host_are_no_fault_of_the_recording() -> None:
+    outcome = finished_recording(PATH, {"robot/cyan1/command": 3, "team/cyan/order": 1})
+    assert outcome.is_whole
+    assert outcome.losses == {"robot/cyan1/command": 3, "team/cyan/order": 1}
+
+
+def test_a_recording_that_misses_messages_of_the_host_names_them() -> None:
+    outcome = finished_recording(PATH, {"world": 8, "host/applied": 8, "robot/cyan1/command": 8})
+    assert outcome.fault == (
+        "the recording misses 24 messages (world 8, host/applied 8, robot/cyan1/command 8): "
+        "the host no longer kept them when the recorder asked; runs/a/match.mcap has all others"
+    )
+
+
+def test_an_unfinished_recording_is_named_with_its_remedy() -> None:
+    part = Path("runs/a/match.mcap.part")
+    outcome = unfinished_recording(PATH, [part], "the recorder was ended by SIGKILL", LOG)
+    assert outcome.path == part
+    assert outcome.fault == (
+        "the recording is not complete: the recorder was ended by SIGKILL; "
+        "runs/a/match.mcap.part has what was written; repair it: touchline recover runs/a/match.mcap.part"
+    )
+
+
+def test_a_recording_of_which_nothing_is_left_is_lost() -> None:
+    outcome = unfinished_recording(PATH, [], "no host answers there", LOG)
+    assert outcome.path is None
+    assert outcome.fault == (
+        "the recording runs/a/match.mcap is lost: no host answers there; the recorder's log is runs/a/recorder.log"
+    )

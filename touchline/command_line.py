@@ -1,0 +1,109 @@
+"""The table of all commands, each in a file of its own under `commands/`."""
+
+import signal
+import sys
+from typing import Annotated
+
+import typer
+
+from touchline.cli.errors import CommandGroup
+from touchline.cli.version import version_text
+from touchline.commands import (
+    agent,
+    coach,
+    diff,
+    drive,
+    export,
+    filter,
+    host,
+    import_log,
+    info,
+    match,
+    merge,
+    parameters,
+    player,
+    record,
+    recorder,
+    recover,
+    replay,
+    scene,
+    scenes,
+    schema,
+    stats,
+    topics,
+    verify,
+    watch,
+)
+
+
+def _print_version(value: bool) -> None:
+    """Print the versions of this library and of its protocol, and exit, if the option is given."""
+    if value:
+        typer.echo(version_text())
+        raise typer.Exit()
+
+
+app = typer.Typer(
+    name="touchline",
+    cls=CommandGroup,
+    help="A testbed for teams of robots: play a match, or run its parts on several machines.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.", is_eager=True, callback=_print_version)
+    ] = False,
+) -> None:
+    """Options of the command line itself."""
+
+
+PLAY = "Play"
+WATCH = "Watch"
+OPERATE = "Operate a running match"
+PROCESSES = "Processes on several machines"
+RECORDINGS = "Recordings"
+PROTOCOL = "Protocol"
+
+app.command("match", rich_help_panel=PLAY)(match.match)
+app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
+
+app.command("watch", rich_help_panel=WATCH)(watch.watch)
+app.command("replay", rich_help_panel=WATCH)(replay.replay)
+app.command("player", rich_help_panel=WATCH)(player.player)
+
+app.add_typer(coach.app, name="coach", rich_help_panel=OPERATE)
+app.add_typer(coach.referee, name="referee", rich_help_panel=OPERATE)
+app.add_typer(scene.app, name="scene", rich_help_panel=OPERATE)
+app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
+app.command("drive", rich_help_panel=OPERATE)(drive.drive)
+app.add_typer(recorder.app, name="recorder", rich_help_panel=OPERATE)
+
+app.command("host", rich_help_panel=PROCESSES)(host.host)
+app.command("agent", rich_help_panel=PROCESSES)(agent.agent)
+app.command("record", rich_help_panel=PROCESSES)(record.record)
+
+app.command("info", rich_help_panel=RECORDINGS)(info.info)
+app.command("stats", rich_help_panel=RECORDINGS)(stats.stats)
+app.command("verify", rich_help_panel=RECORDINGS)(verify.verify)
+app.command("diff", rich_help_panel=RECORDINGS)(diff.diff)
+app.command("filter", rich_help_panel=RECORDINGS)(filter.filter)
+app.command("merge", rich_help_panel=RECORDINGS)(merge.merge)
+app.command("recover", rich_help_panel=RECORDINGS)(recover.recover)
+app.command("export", rich_help_panel=RECORDINGS)(export.export)
+app.command("import", rich_help_panel=RECORDINGS)(import_log.import_log)
+
+app.command("topics", rich_help_panel=PROTOCOL)(topics.topics)
+app.command("schema", rich_help_panel=PROTOCOL)(schema.schema)
+
+
+def main() -> None:
+    """Run the command line; exits with its status, after Ctrl-C with that of a process that SIGINT ended."""
+    try:
+        app(prog_name="touchline")
+    except KeyboardInterrupt:
+        sys.exit(128 + signal.SIGINT)

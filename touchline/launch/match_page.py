@@ -1,0 +1,32 @@
+"""What a match's page is given once the match is over: where its recording is, then figures, replay and statistics."""
+
+import shlex
+from collections.abc import Iterator
+
+from coach_gateway.web.match_result import STATISTICS, STATISTICS_ADDRESS
+from coach_gateway.web.protocol import ResultUpdate
+from schemas.errors import TouchlineError
+from touchline.launch.processes import MatchPlan
+
+
+def result_parts(plan: MatchPlan) -> Iterator[ResultUpdate]:
+    """The result of a match that was played, one part after another: reading a long recording takes a while."""
+    if plan.recording is None:
+        yield ResultUpdate()
+        return
+    known = ResultUpdate(replay=f"touchline replay {shlex.quote(str(plan.recording))} --web")
+    yield known
+    files = plan.recording_files
+    if len(files) != 1 or plan.config.record.snapshot is not None:
+        return  # statistics are those of one whole recording
+    from recordings.reading.recording import open_recording
+    from recordings.stats.page import page_of, write_page
+    from recordings.stats.table import side_rows
+
+    try:
+        figures, page = page_of(open_recording(files[0]))
+        write_page(plan.result_folder / STATISTICS, page)
+    except TouchlineError:
+        return  # the recording is there, and `touchline stats` reports what is wrong with it
+    rows = [(name, cyan, magenta) for name, cyan, magenta in side_rows(figures)]
+    yield known.model_copy(update={"figures": rows, "statistics": STATISTICS_ADDRESS})

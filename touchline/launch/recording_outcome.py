@@ -1,0 +1,62 @@
+"""What became of a match's recording: where it is, what it misses, and what can be done about it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from schemas.topic import Party
+from schemas.topics import TOPICS
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingOutcome:
+    """The recording of a match that was played to its end."""
+
+    path: Path | None
+    """The recording; None if there is none, or if nothing of it is left."""
+    losses: Mapping[str, int]
+    """Key → messages that are missing in it; keys without losses are left out."""
+    fault: str = ""
+    """Why it is not whole, and the remedy, in one sentence; empty if it is whole, or if none was asked for."""
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it has all that the host published and received."""
+        return not self.fault
+
+
+NO_RECORDING = RecordingOutcome(None, {})
+"""No recording was asked for."""
+
+
+def finished_recording(path: Path, losses: Mapping[str, int]) -> RecordingOutcome:
+    """The outcome if the recorder has finished.
+
+    Messages of robots and coaches that the host did not receive are losses of the link between them: the recording has
+    what the host has received. What the host has published is missing only where its batches were lost.
+    """
+    of_host = {key: count for key, count in losses.items() if _is_of_host(key)}
+    if not of_host:
+        return RecordingOutcome(path, losses)
+    fault = (
+        f"the recording misses {sum(losses.values())} messages ({_counts(losses)}): "
+        f"the host no longer kept them when the recorder asked; {path} has all others"
+    )
+    return RecordingOutcome(path, losses, fault)
+
+
+def unfinished_recording(path: Path, left: Sequence[Path], reason: str, log: Path) -> RecordingOutcome:
+    """The outcome if the recorder has not finished: `left` are its files, of which the last may be a `*.part`."""
+    if not left:
+        return RecordingOutcome(None, {}, f"the recording {path} is lost: {reason}; the recorder's log is {log}")
+    last = left[-1]
+    remedy = f"repair it: touchline recover {last}" if last.suffix == ".part" else f"the recorder's log is {log}"
+    return RecordingOutcome(last, {}, f"the recording is not complete: {reason}; {last} has what was written; {remedy}")
+
+
+def _is_of_host(key: str) -> bool:
+    return any(topic.writer is Party.HOST and topic.match(key) is not None for topic in TOPICS.values())
+
+
+def _counts(losses: Mapping[str, int]) -> str:
+    return ", ".join(f"{key} {count}" for key, count in losses.items())

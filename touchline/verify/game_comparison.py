@@ -1,0 +1,91 @@
+"""Compares the recorded events and states of the game with those of the simulated referee."""
+
+from collections.abc import Mapping, Sequence
+from itertools import zip_longest
+from typing import Any
+
+from recordings.reading.recording import RecordedMessage
+from schemas.game import EventKind
+from schemas.messages.game import GameEvent, GameState
+from schemas.topics import EVENT, STATE
+from schemas.wire.message import BadMessageError
+from sim_host.match.referee_resimulation import OfficiatedTick
+from touchline.verify.verdict import Detail
+
+
+def state_differences(states: Sequence[RecordedMessage], tick: OfficiatedTick) -> list[Detail]:
+    """Where the recorded state of the game in one tick is not the one that the simulated referee publishes."""
+    if not states:
+        if tick.state is None or tick.state_may_be_missing:
+            return []
+        return [Detail(STATE.key, "message", None, _state_text(tick.state))]
+    recorded = _message(states[0])
+    if tick.state is None:
+        return [] if tick.state_may_be_missing else [Detail(STATE.key, "message", _state_text(recorded), None)]
+    return _differences(STATE.key, recorded, tick.state)
+
+
+def event_differences(events: Sequence[RecordedMessage], tick: OfficiatedTick) -> list[Detail]:
+    """Where the recorded events of one tick are not those of the simulated referee; reports on agents are left out."""
+    recorded = [event for event in map(_message, events) if not is_agent_event(event)]
+    if len(recorded) == len(tick.events):
+        pairs = zip(recorded, tick.events, strict=True)
+        return [detail for theirs, ours in pairs for detail in _differences(_event_name(ours), theirs, ours)]
+    extra = [event for event in recorded if event not in tick.events]
+    missing = [event for event in tick.events if event not in recorded]
+    details = [Detail(_event_name(event), "message", None, event.text) for event in missing]
+    details += [Detail(_event_name(event), "message", _text(event), None) for event in extra]
+    if not details:
+        counts = zip_longest(_texts(recorded), _texts(tick.events))
+        details = [Detail(EVENT.key, "message", theirs, ours) for theirs, ours in counts if theirs != ours][:1]
+    return details
+
+
+def is_agent_event(event: GameEvent | None) -> bool:
+    """Whether an event is the host's report on an agent, and not the referee's."""
+    return event is not None and event.kind is EventKind.AGENT
+
+
+def _message(recorded: RecordedMessage) -> Any:
+    """The message; None if it is not valid."""
+    try:
+        return recorded.message()
+    except BadMessageError:
+        return None
+
+
+def _differences(name: str, recorded: GameState | GameEvent | None, simulated: GameState | GameEvent) -> list[Detail]:
+    if recorded == simulated:
+        return []
+    if recorded is None:
+        return [Detail(name, "message", "not a valid message", "a valid one")]
+    return list(_fields(name, recorded.plain(), simulated.plain()))
+
+
+def _fields(name: str, recorded: Any, simulated: Any, path: str = "") -> list[Detail]:
+    if isinstance(recorded, Mapping) and isinstance(simulated, Mapping):
+        return [
+            detail
+            for key in {**simulated, **recorded}
+            for detail in _fields(name, recorded.get(key), simulated.get(key), f"{path}.{key}".lstrip("."))
+        ]
+    if recorded == simulated:
+        return []
+    numbers = [value for value in (recorded, simulated) if isinstance(value, float)]
+    return [Detail(name, path, recorded, simulated, abs(numbers[0] - numbers[1]) if len(numbers) == 2 else None)]
+
+
+def _event_name(event: GameEvent | None) -> str:
+    return f"{EVENT.key} {event.kind}" if event is not None else EVENT.key
+
+
+def _state_text(state: GameState | None) -> str:
+    return "not a valid message" if state is None else f"{state.phase} {state.score.cyan} : {state.score.magenta}"
+
+
+def _text(event: GameEvent | None) -> str:
+    return "not a valid message" if event is None else event.text
+
+
+def _texts(events: Sequence[GameEvent | None]) -> list[str]:
+    return [_text(event) for event in events]
