@@ -5,6 +5,7 @@ Only this module, `bodies` and `fingerprint` import PyBullet.
 
 import math
 import struct
+import weakref
 from collections.abc import Sequence
 from itertools import chain
 from typing import Any
@@ -42,6 +43,8 @@ class Engine:
         self._models = roster.models
         self._heights = [model.body.height / 2 for model in roster.models]
         self.client = pybullet.connect(pybullet.DIRECT)
+        self._free = weakref.finalize(self, pybullet.disconnect, self.client)
+        self._free.atexit = False  # the process frees its memory by itself
         self._make = BodyMaker(self.client, profile)
         self._lift = GRAVITY * profile.time.physics_step
         self._ball_now: BodyState | None = None
@@ -51,8 +54,8 @@ class Engine:
         self._build()
 
     def close(self) -> None:
-        """Free the engine's memory."""
-        pybullet.disconnect(self.client)
+        """Free the engine's memory, 35 MB, without waiting until Python collects this object."""
+        self._free()
 
     def _build(self) -> None:
         client, profile = self.client, self._profile
