@@ -20,9 +20,10 @@ export class Pending {
   /** Shows the proposal of the referee, and the question to each side, if there are any. */
   update() {
     const { match } = this, proposal = match.live ? (match.state?.proposal ?? null) : null;
-    if (proposal !== this.#proposal) this.#replace(proposal);
-    show(byId("proposal"), proposal !== null);
     const asked = this.questions.filter((question) => question.update());
+    if (proposal !== this.#proposal) this.#replace(proposal);
+    byId("pending").classList.toggle("officiated", Boolean(match.state?.refbox) || asked.length > 0);
+    show(byId("proposal"), proposal !== null);
     show(byId("nothing-pending"), proposal === null && asked.length === 0);
     this.#lock();
   }

@@ -19,7 +19,7 @@ SEEN = "document.getElementById('cyan-question').checkVisibility()"
 
 
 class Box:
-    """A referee box that commands a stopped match, with 10 s for the answer in a match that runs at its own pace."""
+    """A referee box that commands a match, and has stopped it."""
 
     def __init__(self, match: Match) -> None:
         self.bus: Bus = match.medium.open_bus("friendly", WallClock())
