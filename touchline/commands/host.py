@@ -12,7 +12,8 @@ from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 @with_option_groups
 def host(
-    match: options.MatchOptions, more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement")]
+    match: options.MatchOptions,
+    more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement")],
 ) -> None:
     """Run the simulation host of a match; robots join with `touchline agent`.
 

@@ -67,6 +67,9 @@ const GROUPS = [
   ],
 ];
 
+/** What people may do while a referee box commands the match. */
+const BESIDE_A_BOX = ["stop", "name_robot"];
+
 export class Buttons {
   #buttons = [];
   #groups = [];
@@ -97,7 +100,7 @@ export class Buttons {
       return match.role === "spectator" ? "spectators watch; a token lets you command" : `not for the coach of ${match.role}`;
     }
     if (!match.hostThere) return "the host is away";
-    if (action && action !== "stop" && match.refbox.connected) return "the referee box commands the match";
+    if (action && !BESIDE_A_BOX.includes(action) && match.refbox.connected) return "the referee box commands the match";
     return robot && !selection.robot ? "choose a robot first" : null;
   }
 

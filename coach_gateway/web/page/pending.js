@@ -2,6 +2,7 @@
 
 import { byId, setText, show } from "./elements.js";
 import { APART_MS, onPress } from "./presses.js";
+import { RobotQuestion } from "./question.js";
 
 const ANSWERS = ["confirm", "overrule"];
 
@@ -12,15 +13,18 @@ export class Pending {
   constructor(match, requests, buttons) {
     Object.assign(this, { match, requests, buttons });
     for (const id of ANSWERS) onPress(byId(id), () => requests.ask(byId(id), byId(id).textContent, "action", { action: { action: id } }));
+    this.questions = ["cyan", "magenta"].map((side) => new RobotQuestion(side, match, requests, buttons));
     match.on("welcome host state refbox", () => this.update());
   }
 
-  /** Shows the proposal of the referee, if there is one. */
+  /** Shows the proposal of the referee, and the question to each side, if there are any. */
   update() {
     const { match } = this, proposal = match.live ? (match.state?.proposal ?? null) : null;
+    const asked = this.questions.filter((question) => question.update());
     if (proposal !== this.#proposal) this.#replace(proposal);
+    byId("pending").classList.toggle("officiated", Boolean(match.state?.refbox) || asked.length > 0);
     show(byId("proposal"), proposal !== null);
-    show(byId("nothing-pending"), proposal === null);
+    show(byId("nothing-pending"), proposal === null && asked.length === 0);
     this.#lock();
   }
 

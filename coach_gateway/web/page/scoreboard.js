@@ -62,7 +62,7 @@ export class Scoreboard {
     else if (!match.hostThere) words.push(match.live ? "The host has left; the page waits for it." : "The replay has ended.");
     if (match.refbox.connected) {
       const whom = match.refbox.team ? ` of ${match.refbox.team}` : "";
-      words.push(`A referee box commands the match${whom}; all buttons but Stop are locked.`);
+      words.push(`A referee box commands the match${whom}; all buttons but Stop and its questions are locked.`);
     }
     show(byId("notice"), words.length > 0);
     setText(byId("notice"), words.join(" "));

@@ -7,8 +7,8 @@ import pytest
 
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
-from schemas.game import Card, EventKind, OffField, Phase
-from schemas.messages.game import DisciplinaryRecord, Score
+from schemas.game import ActionName, Card, EventKind, OffField, Phase
+from schemas.messages.game import DisciplinaryRecord, RobotQuestion, Score
 from schemas.messages.radio import Radio
 from schemas.side import Side
 from schemas.topics import EVENT
@@ -61,6 +61,17 @@ class StagedMatch:
         proposal = "free kick for Lions at (3.2, −1.5): magenta4 pushed cyan3 for 1.2 s with 0.9 m/s, 0.5 s are allowed"
         self.host.say(proposal=proposal)
 
+    def ask_both_sides(self) -> None:
+        """A referee box requests a card for each side and names no robot; the proposal still waits."""
+        questions = []
+        for side in Side:
+            robots = self.host.config.robots(side)
+            question = RobotQuestion(
+                action=ActionName.DOUBLE_YELLOW, side=side, left=8.0, robots=robots, default=robots[-1]
+            )
+            questions += [question, question]
+        self.host.say(questions=questions)
+
     def show_card(self) -> None:
         """A robot gets a card and leaves the field."""
         away = DisciplinaryRecord(yellow=2, off_field=OffField.SECOND_YELLOW, left=87.0)
@@ -68,7 +79,9 @@ class StagedMatch:
             self.host.state.tick, "2nd yellow card for magenta4", EventKind.CARD, robot="magenta4", card=Card.YELLOW
         )
         self.host.put(EVENT, event)
-        self.host.say(proposal=None, running=False, phase=Phase.FREE_KICK, side=Side.CYAN, robots={"magenta4": away})
+        self.host.say(
+            proposal=None, questions=[], running=False, phase=Phase.FREE_KICK, side=Side.CYAN, robots={"magenta4": away}
+        )
 
     def score(self) -> None:
         """The tenth goal is scored: the score gets wider."""
@@ -102,15 +115,19 @@ def moved(before: dict[str, Any], after: dict[str, Any]) -> list[str]:
 
 @pytest.mark.parametrize("role", ["spectator", "cyan", "referee"])
 @pytest.mark.parametrize(("width", "height"), SIZES)
-def test_no_element_moves_under_a_proposal_a_card_or_a_goal(
-    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int, role: str
+@pytest.mark.parametrize("box", [False, True], ids=["no referee box", "a referee box"])
+def test_no_element_moves_under_a_proposal_a_question_a_card_or_a_goal(
+    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int, role: str, box: bool
 ) -> None:
+    staged.host.say(refbox=box)
+    asks = (staged.ask_both_sides, "window.touchline.match.state.questions.length === 4")
     tab = visit(staged.origin, role, width, height)
     tab.page.wait_for_timeout(500)  # until the page is laid out
     tab.page.evaluate(WATCH)
     before = tab.page.evaluate(BOXES)
     for happens, shown in (
         (staged.propose, "window.touchline.match.state.proposal !== null"),
+        *([asks] if box else []),
         (staged.show_card, "document.getElementById('people').textContent.includes('magenta4')"),
         (staged.score, "document.getElementById('score').textContent === '10 : 0'"),
     ):
@@ -138,6 +155,23 @@ def test_a_proposal_is_answered_in_its_place_on_every_screen(
             }})()"""
         )
         assert inside
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_a_question_beside_another_and_a_proposal_is_answered_in_its_place_on_every_screen(
+    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
+) -> None:
+    tab = visit(staged.origin, "cyan", width, height)
+    staged.propose()
+    staged.ask_both_sides()
+    last = tab.page.locator('#cyan-question [data-names="cyan5"]')
+    last.click()
+    tab.wait_for_log("Name cyan5 accepted")
+    slot, button = tab.page.locator("#pending").bounding_box(), last.bounding_box()
+    assert slot["y"] <= button["y"] and button["y"] + button["height"] <= slot["y"] + slot["height"]
+    assert button["height"] >= 30 and button["width"] >= 40
+    assert tab.page.locator("#cyan-question p").bounding_box()["height"] >= 15
+    assert not tab.page.locator("#magenta-question button").first.is_visible()
 
 
 def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(

@@ -1,0 +1,99 @@
+"""A referee box gives a card without a robot: who sees the question which robot it is, and who may answer."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from schemas.bus.contract import Bus
+from schemas.game import ActionName
+from schemas.messages.game import RefereeAction
+from schemas.process.clock import WallClock
+from schemas.side import Side
+from schemas.topics import ACTION
+from support.page_gateway import SOON
+from support.page_match import Match
+from support.visitor import Visitor
+
+SEEN = "document.getElementById('cyan-question').checkVisibility()"
+
+
+class Box:
+    """A referee box that commands a match, and has stopped it."""
+
+    def __init__(self, match: Match) -> None:
+        self.bus: Bus = match.medium.open_bus("friendly", WallClock())
+        self.bus.declare_alive("refbox", "cyan")
+        self.request(ActionName.STOP)
+
+    def request(self, action: ActionName, side: Side | None = None) -> None:
+        reply = self.bus.query(ACTION, RefereeAction(action=action, side=side, source="refbox"), SOON).result(SOON)
+        assert reply.accepted, reply.reason
+
+
+@pytest.fixture
+def boxed(officiated: Callable[..., Match]) -> Iterator[tuple[Match, Box]]:
+    match = officiated(still=True)
+    box = Box(match)
+    yield match, box
+    box.bus.close()
+
+
+@pytest.mark.parametrize("role", ["cyan", "referee"])
+def test_a_press_names_the_robot_of_a_card_and_the_question_goes(
+    boxed: tuple[Match, Box], visit: Callable[..., Any], role: str
+) -> None:
+    match, box = boxed
+    tab = visit(match, role)
+    assert not tab.ask(SEEN)
+    box.request(ActionName.YELLOW_CARD, Side.CYAN)
+    tab.until(SEEN)
+    assert "Yellow card for Blues: which robot? cyan2 in " in tab.page.locator("#cyan-question p").inner_text()
+    buttons = tab.page.locator("#cyan-question button")
+    assert buttons.all_inner_texts() == ["cyan1", "cyan2"]
+    buttons.first.click()
+    tab.wait_for_log("Name cyan1 accepted")
+    tab.until(f"!{SEEN}")
+    assert match.state.robots["cyan1"].yellow == 1
+    assert not match.state.questions
+
+
+@pytest.mark.parametrize("role", ["spectator", "magenta"])
+def test_others_see_the_question_without_buttons(
+    boxed: tuple[Match, Box], visit: Callable[..., Any], role: str
+) -> None:
+    match, box = boxed
+    tab = visit(match, role)
+    box.request(ActionName.YELLOW_CARD, Side.CYAN)
+    tab.until(SEEN)
+    assert "Yellow card for Blues: which robot?" in tab.page.locator("#cyan-question").inner_text()
+    assert not any(button.is_visible() for button in tab.page.locator("#pending button").all())
+
+
+def test_only_the_coach_of_the_side_names_its_robot_while_a_box_locks_all_other_actions(
+    boxed: tuple[Match, Box], gateway_of: Callable[..., Any]
+) -> None:
+    match, box = boxed
+    origin = gateway_of(match.medium).origin
+    pages = {role: Visitor(origin) for role in ("spectator", "magenta", "cyan")}
+    for role, page in pages.items():
+        page.hear_what_is_played()
+        if role != "spectator":
+            page.enter(role)
+    box.request(ActionName.RED_CARD, Side.CYAN)
+    answers = [
+        pages[role].ask("action", action={"action": action, "robot": "cyan1"})
+        for role, action in (
+            ("spectator", "name_robot"),
+            ("magenta", "name_robot"),
+            ("cyan", "repair"),
+            ("cyan", "name_robot"),
+        )
+    ]
+    assert [answer["accepted"] for answer in answers] == [False, False, False, True]
+    assert answers[0]["reason"].endswith("this page has none")
+    assert answers[1]["reason"] == "cyan1 is not for magenta's coach"
+    assert "referee box" in answers[2]["reason"]
+    match.until(lambda: match.state.robots["cyan1"].red == 1)
+    for page in pages.values():
+        page.close()
