@@ -1,6 +1,7 @@
 """The cameras of all robots: one picture shows the ball and the obstacles that each robot sees at one tick."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -9,26 +10,15 @@ from schemas.config.sections import Sensing
 from schemas.messages.sight import Obstacle
 from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.hulls import Hulls
-from sim_host.sensing.random_streams import (
-    SMALL_BATCH,
-    BatchedDraws,
-    Floats,
-    RandomStreams,
-    StreamId,
-    Vectors,
-    normal_pairs,
-)
+from sim_host.sensing.pair_draws import pair_draws
+from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId, Vectors
 from sim_host.sensing.shutter import Shutter
-from sim_host.sensing.sight_lines import Flags
+from sim_host.sensing.sight_lines import Flags, Indices
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Roster, Snapshot
 
 _NO_DISTANCE = np.array(1e-9)
 """m; avoids a division by zero for the distance of a robot from itself, which is not used."""
-_NOWHERE = np.array(np.inf)
-"""m; distance of a body that was not found, to sort it last."""
-_PER_OBSTACLE = 3
-"""x, y, radius."""
 
 
 class Picture(NamedTuple):
@@ -71,15 +61,17 @@ def rotated_ball(ball: list[float]) -> list[float]:
 
 
 class Camera:
-    """Takes pictures. Things are the ball and then the bodies, robots and obstacles. Arrays are robots × things."""
+    """Takes pictures. Things are the ball and then the bodies, robots and obstacles.
+
+    A pair is a robot and a thing that it sees, as an index in arrays robots × things.
+    """
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, shutter: Shutter) -> None:
         self._sensing = sensing
         self._streams = streams
         self._shutter = shutter
         self._roster = roster
-        self._rows = np.arange(len(roster.names))[:, None]
-        self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None] ** 2
+        self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None] ** 2
         self._ball_growth = np.array(sensing.ball_velocity_growth)
         self._ball_velocity = np.array(sensing.ball_velocity**2)
         self._ball_draws = BatchedDraws(self._draw_ball)
@@ -90,52 +82,57 @@ class Camera:
         s, roster = self._sensing, self._roster
         self._obstacles = obstacles
         self._hulls = Hulls(roster.models, obstacles)
-        self._names = (BALL, *roster.names, *(one.name for one in obstacles))
-        bodies = len(self._names) - 1
-        self._near = np.array([s.ball_position] + [s.obstacle_position] * bodies) ** 2
+        names = (BALL, *roster.names, *(one.name for one in obstacles))
+        robots, bodies = len(roster.names), len(names) - 1
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
-        self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * bodies)
-        self._is_other = np.arange(-1, bodies) != self._rows
-        self._draws = BatchedDraws(self._draw, SMALL_BATCH)
-        robots = len(roster.names)
-        self._blur = np.empty((robots, 1 + bodies), dtype=complex)
-        self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
-        self._bodies = np.empty((robots, bodies, _PER_OBSTACLE))
-        self._bodies[..., 2] = self._hulls.reach
-        self._first_body = bodies * self._rows
+        self._is_other = np.arange(-1, bodies) != np.arange(robots)[:, None]
+        self._draws = pair_draws(s, self._streams, self._shutter, roster.names, names)
+        self._robot_of = np.arange(robots).repeat(1 + bodies)
+        self._is_body = np.tile(np.arange(1 + bodies) > 0, robots)
+        self._near = np.where(self._is_body, s.obstacle_position, s.ball_position) ** 2
+        self._reach = np.tile(np.concatenate(([0.0], self._hulls.reach.round(DIGITS))), robots)
 
     def take_picture(self, snapshot: Snapshot, robots: RobotMotions, frames: TeamFrames) -> Picture:
         """Take a picture, in a tick in which one is due."""
         if snapshot.obstacles != self._obstacles:
             self._prepare(snapshot.obstacles)
         number, ball = self._shutter.number(snapshot.tick), snapshot.ball
-        draws, is_detected = self._draws.at(number)
         places = self._hulls.places(complex(ball.x, ball.y), robots.position) - robots.position[:, None]
         distance = np.abs(places)
-        found: Flags = distance <= self._range
-        found &= is_detected
+        is_near: Flags = distance <= self._range
+        is_near &= self._is_other
         if self._sensing.occlusion == "hulls":
-            found &= ~self._hulls.hidden(places, distance, robots.heading, ball.z)
-        self._blur_by(distance, draws)
-        blurred = places + places * self._blur
-        seen = frames.turn[:, None] * blurred
-        seen += (frames.sign * robots.position + frames.shift)[:, None]
-        away = np.where(found, np.abs(blurred), _NOWHERE)
+            in_view = self._hulls.not_hidden(is_near, places, distance, robots.heading, ball.z)
+        else:
+            in_view = np.flatnonzero(is_near)
+        pairs, draws = self._draws.detected(number, in_view)
+        robot, place = self._robot_of.take(pairs), places.reshape(-1).take(pairs)
+        blurred = place + place * self._blur(pairs, distance.reshape(-1).take(pairs), draws)
+        seen = frames.turn.take(robot) * blurred
+        seen += (frames.sign * robots.position + frames.shift).take(robot)
+        is_body = self._is_body.take(pairs)
+        bodies, balls = np.flatnonzero(is_body), np.flatnonzero(~is_body)
+        found = np.zeros(len(places), dtype=bool)
+        found[robot.take(balls)] = True
+        ball_place = np.zeros(len(places), dtype=complex)
+        ball_place[found] = seen.take(balls)
         return Picture(
             tick=snapshot.tick,
-            ball=self._ball(ball, seen[:, 0], distance[:, 0], frames.turn, self._ball_draws.at(number)),
-            found=found[:, 0].tolist(),
-            obstacles=self._nearest_first(away[:, 1:], seen[:, 1:], found[:, 1:]),
+            ball=self._ball(ball, ball_place, distance[:, 0], frames.turn, self._ball_draws.at(number)),
+            found=found.tolist(),
+            obstacles=self._nearest_first(bodies, robot, np.abs(blurred), seen, self._reach.take(pairs)),
         )
 
-    def _blur_by(self, distance: Floats, draws: Floats) -> None:
-        """Set the noise along and across the line of sight, as a share of the distance: along + i·across."""
+    def _blur(self, pairs: Indices, distance: Floats, draws: Floats) -> Vectors:
+        """The noise along and across the line of sight, as a share of the distance: along + i·across."""
         share = self._growth * distance
         share *= distance
-        share += self._near
+        share += self._near.take(pairs)
         np.sqrt(share, out=share)
         share /= distance + _NO_DISTANCE
-        np.multiply(share, draws, out=self._blur_parts)
+        blur = np.empty(len(pairs), dtype=complex)
+        np.multiply(share, draws, out=blur.view(float).reshape(-1, 2).T)
+        return blur
 
     def _ball(
         self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, draws: Floats
@@ -155,27 +152,20 @@ class Camera:
         numbers: list[list[float]] = seen.T.round(DIGITS).tolist()
         return numbers
 
-    def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
-        """The bodies that were found, in the order of their distance, which does not reveal their names."""
-        order = away.argsort(axis=1, kind="stable")
-        order += self._first_body
-        numbers = self._bodies
-        numbers[..., 0], numbers[..., 1] = places.real, places.imag
-        rows = numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0).round(DIGITS).tolist()
-        return [
-            [Obstacle(x=x, y=y, radius=radius) for x, y, radius in row[:count]]
-            for row, count in zip(rows, found.sum(axis=1).tolist(), strict=True)
-        ]
+    def _nearest_first(
+        self, bodies: Indices, robot: Indices, away: Floats, places: Vectors, reach: Floats
+    ) -> list[list[Obstacle]]:
+        """Per robot: the bodies among its pairs in the order of their distance, which does not reveal their names."""
+        order = bodies.take(away.take(bodies).argsort(kind="stable"))
+        order = order.take(robot.take(order).argsort(kind="stable"))
+        places = places.take(order)
+        x, y = places.real.round(DIGITS).tolist(), places.imag.round(DIGITS).tolist()
+        found = list(map(Obstacle, x, y, reach.take(order).tolist()))
+        ends = np.bincount(robot.take(bodies), minlength=len(self._roster.names)).cumsum().tolist()
+        return [found[start:end] for start, end in pairwise((0, *ends))]
 
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]
-
-    def _draw(self, numbers: range) -> list[tuple[Floats, Flags]]:
-        """Per picture: noise along and across the line of sight, (2, robots, things), and which things are detected."""
-        drawn = self._streams.pairwise_uniforms(StreamId.SEEN, self._roster.names, self._names, self._ticks(numbers))
-        noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
-        is_detected = (drawn[..., 2] >= self._dropout) & self._is_other
-        return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_detected, strict=True))
 
     def _draw_ball(self, numbers: range) -> list[Floats]:
         """Per picture, (3, robots): noise of the ball's height in m, and of vx and vy in units of their deviation.
