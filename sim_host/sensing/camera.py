@@ -13,7 +13,7 @@ from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.pair_draws import pair_draws
 from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId, Vectors
 from sim_host.sensing.shutter import Shutter
-from sim_host.sensing.sight_lines import Flags, Indices
+from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Roster, Snapshot
 
@@ -61,17 +61,14 @@ def rotated_ball(ball: list[float]) -> list[float]:
 
 
 class Camera:
-    """Takes pictures. Things are the ball and then the bodies, robots and obstacles.
-
-    A pair is a robot and a thing that it sees, as an index in arrays robots × things.
-    """
+    """Takes pictures. Things are the ball and then the bodies, robots and obstacles. Arrays are robots × things."""
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, shutter: Shutter) -> None:
         self._sensing = sensing
         self._streams = streams
         self._shutter = shutter
         self._roster = roster
-        self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None] ** 2
+        self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None] ** 2
         self._ball_growth = np.array(sensing.ball_velocity_growth)
         self._ball_velocity = np.array(sensing.ball_velocity**2)
         self._ball_draws = BatchedDraws(self._draw_ball)
@@ -84,13 +81,14 @@ class Camera:
         self._hulls = Hulls(roster.models, obstacles)
         names = (BALL, *roster.names, *(one.name for one in obstacles))
         robots, bodies = len(roster.names), len(names) - 1
+        self._near = np.array([s.ball_position] + [s.obstacle_position] * bodies) ** 2
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
         self._is_other = np.arange(-1, bodies) != np.arange(robots)[:, None]
         self._draws = pair_draws(s, self._streams, self._shutter, roster.names, names)
-        self._robot_of = np.arange(robots).repeat(1 + bodies)
-        self._is_body = np.tile(np.arange(1 + bodies) > 0, robots)
-        self._near = np.where(self._is_body, s.obstacle_position, s.ball_position) ** 2
-        self._reach = np.tile(np.concatenate(([0.0], self._hulls.reach.round(DIGITS))), robots)
+        self._blur = np.empty((robots, 1 + bodies), dtype=complex)
+        self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
+        self._ends = np.arange(1, robots + 1)
+        self._radius = self._hulls.reach.round(DIGITS)
 
     def take_picture(self, snapshot: Snapshot, robots: RobotMotions, frames: TeamFrames) -> Picture:
         """Take a picture, in a tick in which one is due."""
@@ -99,40 +97,29 @@ class Camera:
         number, ball = self._shutter.number(snapshot.tick), snapshot.ball
         places = self._hulls.places(complex(ball.x, ball.y), robots.position) - robots.position[:, None]
         distance = np.abs(places)
-        is_near: Flags = distance <= self._range
-        is_near &= self._is_other
+        found: Flags = distance <= self._range
+        found &= self._is_other
         if self._sensing.occlusion == "hulls":
-            in_view = self._hulls.not_hidden(is_near, places, distance, robots.heading, ball.z)
-        else:
-            in_view = np.flatnonzero(is_near)
-        pairs, draws = self._draws.detected(number, in_view)
-        robot, place = self._robot_of.take(pairs), places.reshape(-1).take(pairs)
-        blurred = place + place * self._blur(pairs, distance.reshape(-1).take(pairs), draws)
-        seen = frames.turn.take(robot) * blurred
-        seen += (frames.sign * robots.position + frames.shift).take(robot)
-        is_body = self._is_body.take(pairs)
-        bodies, balls = np.flatnonzero(is_body), np.flatnonzero(~is_body)
-        found = np.zeros(len(places), dtype=bool)
-        found[robot.take(balls)] = True
-        ball_place = np.zeros(len(places), dtype=complex)
-        ball_place[found] = seen.take(balls)
+            self._hulls.hide(found, places, distance, robots.heading, ball.z)
+        self._blur_by(distance, self._draws.detect(number, found))
+        blurred = places + places * self._blur
+        seen = frames.turn[:, None] * blurred
+        seen += (frames.sign * robots.position + frames.shift)[:, None]
         return Picture(
             tick=snapshot.tick,
-            ball=self._ball(ball, ball_place, distance[:, 0], frames.turn, self._ball_draws.at(number)),
-            found=found.tolist(),
-            obstacles=self._nearest_first(bodies, robot, np.abs(blurred), seen, self._reach.take(pairs)),
+            ball=self._ball(ball, seen[:, 0], distance[:, 0], frames.turn, self._ball_draws.at(number)),
+            found=found[:, 0].tolist(),
+            obstacles=self._nearest_first(np.abs(blurred[:, 1:]), seen[:, 1:], found[:, 1:]),
         )
 
-    def _blur(self, pairs: Indices, distance: Floats, draws: Floats) -> Vectors:
-        """The noise along and across the line of sight, as a share of the distance: along + i·across."""
+    def _blur_by(self, distance: Floats, draws: Floats) -> None:
+        """Set the noise along and across the line of sight, as a share of the distance: along + i·across."""
         share = self._growth * distance
         share *= distance
-        share += self._near.take(pairs)
+        share += self._near
         np.sqrt(share, out=share)
         share /= distance + _NO_DISTANCE
-        blur = np.empty(len(pairs), dtype=complex)
-        np.multiply(share, draws, out=blur.view(float).reshape(-1, 2).T)
-        return blur
+        np.multiply(share, draws, out=self._blur_parts)
 
     def _ball(
         self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, draws: Floats
@@ -152,17 +139,15 @@ class Camera:
         numbers: list[list[float]] = seen.T.round(DIGITS).tolist()
         return numbers
 
-    def _nearest_first(
-        self, bodies: Indices, robot: Indices, away: Floats, places: Vectors, reach: Floats
-    ) -> list[list[Obstacle]]:
-        """Per robot: the bodies among its pairs in the order of their distance, which does not reveal their names."""
-        order = bodies.take(away.take(bodies).argsort(kind="stable"))
-        order = order.take(robot.take(order).argsort(kind="stable"))
-        places = places.take(order)
-        x, y = places.real.round(DIGITS).tolist(), places.imag.round(DIGITS).tolist()
-        found = list(map(Obstacle, x, y, reach.take(order).tolist()))
-        ends = np.bincount(robot.take(bodies), minlength=len(self._roster.names)).cumsum().tolist()
-        return [found[start:end] for start, end in pairwise((0, *ends))]
+    def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
+        """The bodies that were found, in the order of their distance, which does not reveal their names."""
+        robot, body = found.nonzero()
+        order = np.lexsort((away[found], robot))
+        place = places[found].take(order)
+        x, y = place.real.round(DIGITS).tolist(), place.imag.round(DIGITS).tolist()
+        bodies = list(map(Obstacle, x, y, self._radius.take(body.take(order)).tolist()))
+        ends = robot.searchsorted(self._ends).tolist()
+        return [bodies[start:end] for start, end in pairwise((0, *ends))]
 
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]

@@ -12,8 +12,9 @@ from sim_host.sensing.shadows import hulls_near_lines
 from sim_host.sensing.sight_lines import Flags, Indices, through_boxes, through_circles
 from sim_host.snapshot import ObstacleState
 
-_MANY = 28
-"""From this number of hulls on, it costs less to find those near a line of sight than to try them all."""
+_MANY = 42
+"""From this number on, it costs less to find the hulls near each line of sight than to try all of them; with few, four
+times as much."""
 
 
 class Hulls:
@@ -79,21 +80,18 @@ class Hulls:
         places[0], places[1 : 1 + len(robots)] = ball, robots
         return places
 
-    def not_hidden(
-        self, is_near: Flags, places: Vectors, distance: Floats, headings: Floats, ball_height: float
-    ) -> Indices:
-        """The pairs of a robot and a thing, of those that are near each other, whose line of sight no hull crosses.
+    def hide(self, found: Flags, places: Vectors, distance: Floats, headings: Floats, ball_height: float) -> None:
+        """Remove hidden things from those that each robot would find without hulls.
 
         `places` of the things as seen from each robot, m, shape (robots, things), and their `distance`. A thing is
-        hidden when the line to its centre passes through a hull that is at least as high and not farther away. The
-        pairs are indices in these arrays.
+        hidden when the line to its centre passes through a hull that is at least as high and not farther away.
         """
         self._update_ball_height(ball_height)
         turned = np.exp(1j * np.concatenate((headings, self._headings))[self._owner]) if len(self._owner) else _NONE
         if len(self._height) < _MANY:
-            return np.flatnonzero(is_near & ~self._hidden_by_any(places, distance, turned))
-        pairs = np.flatnonzero(is_near)
-        return pairs[~self._hidden_in_shadows(pairs, places, distance, turned)]
+            found &= ~self._hidden_by_any(places, distance, turned)
+        else:
+            found[found] = ~self._hidden_in_shadows(np.flatnonzero(found), places, distance, turned)
 
     def _hidden_by_any(self, places: Vectors, distance: Floats, turned: Vectors) -> Flags:
         """Which things are hidden from which robots, by a trial of all hulls; `turned` are the boxes' headings."""

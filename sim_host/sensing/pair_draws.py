@@ -1,8 +1,7 @@
 """The random numbers of a camera's picture: which things each robot detects, and the noise of their places.
 
-A pair is a robot and a thing, by its index in the array robots × things. The numbers of a pair depend on its names and
-the tick alone, so both classes give the same ones: `AllPairs` draws those of all pairs for many pictures at once,
-`SinglePairs` those of the pairs in view in each picture.
+The numbers of a pair of a robot and a thing depend on their names and the tick alone. So both classes give the same
+ones: `AllPairs` draws those of all pairs for many pictures at once, `PairsInView` those of the pairs in view alone.
 """
 
 from collections.abc import Sequence
@@ -21,19 +20,20 @@ from sim_host.sensing.random_streams import (
     normal_pairs,
 )
 from sim_host.sensing.shutter import Shutter
-from sim_host.sensing.sight_lines import Flags, Indices
+from sim_host.sensing.sight_lines import Flags
 
-_MANY_PAIRS = 700
-"""From this number on, `SinglePairs` costs less in a picture; below it, numpy's overhead would double its cost."""
+_MANY_PAIRS = 1800
+"""From this number on, `PairsInView` costs less. With few pairs, it costs six times as much: the overhead of numpy."""
 
 
 class PairDraws(Protocol):
     """The draws of one set of robots and things."""
 
-    def detected(self, number: int, pairs: Indices) -> tuple[Indices, Floats]:
-        """Those of these pairs whose thing is detected in picture `number`, with their noise.
+    def detect(self, number: int, found: Flags) -> Floats:
+        """Remove what is not detected in picture `number` from the things that each robot has in view.
 
-        The noise, shape (2, pairs), is along and across the line of sight, in units of its standard deviation.
+        Returns the noise along and across the line of sight in units of its standard deviation, shape (2, robots,
+        things); meaningless where nothing was in view. It is valid until the next call.
         """
 
 
@@ -41,7 +41,7 @@ def pair_draws(
     sensing: Sensing, streams: RandomStreams, shutter: Shutter, robots: Sequence[str], things: Sequence[str]
 ) -> PairDraws:
     """The cheaper draws for this number of pairs; the first of the things is the ball."""
-    kind = AllPairs if len(robots) * len(things) < _MANY_PAIRS else SinglePairs
+    kind = AllPairs if len(robots) * len(things) < _MANY_PAIRS else PairsInView
     return kind(sensing, streams, shutter, robots, things)
 
 
@@ -58,11 +58,11 @@ class AllPairs:
         self._noise_rate = sensing.noise_rate
         self._draws = BatchedDraws(self._draw, SMALL_BATCH)
 
-    def detected(self, number: int, pairs: Indices) -> tuple[Indices, Floats]:
+    def detect(self, number: int, found: Flags) -> Floats:
         """See `PairDraws`."""
         noise, is_detected = self._draws.at(number)
-        pairs = pairs.compress(is_detected.take(pairs))
-        return pairs, noise.take(pairs, axis=1)
+        found &= is_detected
+        return noise
 
     def _draw(self, numbers: range) -> list[tuple[Floats, Flags]]:
         """Per picture: the noise of all pairs, and which of them are detected."""
@@ -70,12 +70,10 @@ class AllPairs:
         drawn = self._streams.pairwise_uniforms(StreamId.SEEN, self._robots, self._things, ticks)
         noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._noise_rate)
         is_detected = drawn[..., 2] >= self._dropout
-        shape = (len(ticks), len(self._robots) * len(self._things))
-        by_part = np.ascontiguousarray(np.moveaxis(noise.reshape(*shape, 2), -1, 1))
-        return list(zip(by_part, is_detected.reshape(shape), strict=True))
+        return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_detected, strict=True))
 
 
-class SinglePairs:
+class PairsInView:
     """Draws for the pairs in view, picture by picture."""
 
     def __init__(
@@ -83,19 +81,19 @@ class SinglePairs:
     ) -> None:
         self._streams = streams
         self._shutter = shutter
-        self._robot_words = name_words(robots).repeat(len(things))
-        self._thing_words = np.tile(name_words(things), len(robots))
-        self._dropout = np.tile(_dropouts(sensing, len(things)), len(robots))
+        self._robots, self._things = name_words(robots), name_words(things)
+        self._dropout = _dropouts(sensing, len(things))
         self._noise_rate = sensing.noise_rate
+        self._noise = np.zeros((2, len(robots), len(things)))
 
-    def detected(self, number: int, pairs: Indices) -> tuple[Indices, Floats]:
+    def detect(self, number: int, found: Flags) -> Floats:
         """See `PairDraws`."""
-        robots, things = self._robot_words.take(pairs), self._thing_words.take(pairs)
+        robot, thing = found.nonzero()
+        robots, things = self._robots.take(robot), self._things.take(thing)
         drawn = self._streams.uniforms_of_pairs(StreamId.SEEN, robots, things, self._shutter.tick_of(number))
-        is_detected = drawn[:, 2] >= self._dropout.take(pairs)
-        drawn = drawn[is_detected]
-        noise = normal_pairs(drawn[:, :2]) * (drawn[:, 3:] < self._noise_rate)
-        return pairs.compress(is_detected), np.ascontiguousarray(noise.T)
+        found[found] = drawn[:, 2] >= self._dropout.take(thing)
+        self._noise[:, robot, thing] = (normal_pairs(drawn[:, :2]) * (drawn[:, 3:] < self._noise_rate)).T
+        return self._noise
 
 
 def _dropouts(sensing: Sensing, things: int) -> Floats:
