@@ -9,7 +9,7 @@ from schemas.frames import wrap
 from schemas.messages.command import Drive, Kick, KickMode
 
 TURN_RATE = 3.0
-"""rad/s; while aiming with the ball. The dribbler of profile `msl` loses half of the balls at 4 rad/s, and none at 3."""
+"""rad/s; while aiming with the ball. The dribbler of profile `msl` loses half of the balls at 4 rad/s, none at 3."""
 
 
 def kick_at(
