@@ -157,5 +157,5 @@ def _fields(path: str, one: Any, other: Any) -> Iterator[FieldDifference]:
         for index in range(max(len(one), len(other))):
             left, right = (side[index] if index < len(side) else _MISSING for side in (one, other))
             yield from _fields(f"{path}[{index}]", left, right)
-    elif one != other or (isinstance(one, float) and False):
+    elif one != other or (isinstance(one, float) and math.copysign(1.0, one) != math.copysign(1.0, other)):
         yield FieldDifference(path, one, other)
