@@ -10,6 +10,7 @@ from sim_host.referee.evidence.stays import NO_STAYS
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules import (
     backward,
+    charging,
     double_touch,
     dragged,
     dribble_circle,
@@ -99,6 +100,18 @@ RULES: tuple[Rule, ...] = (
         occasion="dribble",
     ),
     Rule("long_hold", long_hold.judge, ("fouls.long_hold", "handling.hold_duration"), occasion="dribble"),
+    Rule(
+        "charging",
+        charging.judge,
+        (
+            "fouls.charging",
+            "contact.charge_speed",
+            "contact.charge_margin",
+            "contact.charge_ball",
+            "contact.charge_card_speed",
+        ),
+        occasion="impacts",
+    ),
     Rule("pushing", pushing.judge, ("fouls.pushing", "contact.push_distance"), occasion="pushes"),
     Rule("goal_area", goal_area.judge, ("fouls.goal_area", "areas.goal_area_duration"), occasion="stays"),
     Rule(
@@ -138,7 +151,7 @@ def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[R
     return _rules_for(_time(situation, clocks_alone), _occasions(situation))
 
 
-OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
+OCCASIONS = ("set piece", "crossing", "kick", "dribble", "impacts", "pushes", "stays", "outside", "contest", "still ball")
 """The occasions that rules depend on, in the order of `_occasions`."""
 
 
@@ -151,6 +164,7 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
         situation.crossing is not None,
         seen.flight is not None,
         seen.dribble is not None,
+        bool(situation.snapshot.impacts),
         bool(seen.pushes),
         seen.stays is not NO_STAYS,
         bool(seen.outside),

@@ -37,6 +37,7 @@ def foul(
     place: tuple[float, float],
     phase: Phase = Phase.FREE_KICK,
     restart_from: tuple[float, float] | None = None,
+    card: Card | None = None,
 ) -> Decision:
     """The decision on a foul: a restart for the other side where the ball is, and a card for the first offender.
 
@@ -51,6 +52,7 @@ def foul(
         place: m; where it happened.
         phase: the restart.
         restart_from: m; the place that determines the spot of the restart, if not the ball's.
+        card: the card that the deed itself earns; otherwise the rule book's choice for the foul.
     """
     side = situation.match.roster.side_of(offenders[0])
     ball = situation.snapshot.ball
@@ -66,7 +68,7 @@ def foul(
         measured=measured,
         limit=limit,
         unit=unit,
-        card=CARDS[getattr(situation.match.book.fouls, name)],
+        card=card or CARDS[getattr(situation.match.book.fouls, name)],
     )
 
 
