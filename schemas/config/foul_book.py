@@ -53,7 +53,8 @@ class Contact:
         float, Quantity("m/s", "a robot that hits an opponent at a higher closing speed charges it", 0.5, 20)
     ] = 1.5
     charge_margin: Annotated[
-        float, Quantity("m/s", "robots whose speeds toward each other differ by less are both or neither at fault", 0, 5)
+        float,
+        Quantity("m/s", "robots whose speeds toward each other differ by less are both or neither at fault", 0, 5),
     ] = 0.3
     charge_ball: Annotated[
         float, Quantity("m", "gap between hull and ball up to which a robot that hits an opponent plays the ball", 0, 2)

@@ -61,13 +61,15 @@ class Restarts:
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
     encroach_margin: Annotated[
-        float, Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2)
+        float,
+        Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),
     ] = 0.1
     encroach_retreat: Annotated[
         float, Quantity("s", "time to retreat for a robot that was too near at START or was pushed there", 0, 60)
     ] = 2.0
     advantage: Annotated[
-        float, Quantity("s", "time that play goes on for a side that keeps the ball after a foul; 0: no advantage", 0, 30)
+        float,
+        Quantity("s", "time that play goes on for a side that keeps the ball after a foul; 0: no advantage", 0, 30),
     ] = 0.0
 
 

@@ -39,7 +39,11 @@ def shoves_after(before: tuple[Shove, ...], snapshot: Snapshot, dt: float) -> tu
 
 
 def own_speed(
-    match: MatchConstants, shoves: tuple[Shove, ...], robot: int, velocity: tuple[float, float], toward: tuple[float, float]
+    match: MatchConstants,
+    shoves: tuple[Shove, ...],
+    robot: int,
+    velocity: tuple[float, float],
+    toward: tuple[float, float],
 ) -> tuple[float, Shove | None]:
     """m/s at which a robot with this velocity drives in a direction by itself, and the shove that explains the rest.
 

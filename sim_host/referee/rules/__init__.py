@@ -151,7 +151,18 @@ def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[R
     return _rules_for(_time(situation, clocks_alone), _occasions(situation))
 
 
-OCCASIONS = ("set piece", "crossing", "kick", "dribble", "impacts", "pushes", "stays", "outside", "contest", "still ball")
+OCCASIONS = (
+    "set piece",
+    "crossing",
+    "kick",
+    "dribble",
+    "impacts",
+    "pushes",
+    "stays",
+    "outside",
+    "contest",
+    "still ball",
+)
 """The occasions that rules depend on, in the order of `_occasions`."""
 
 

@@ -1,11 +1,11 @@
 """Charging: a robot that drives into an opponent at speed.
 
-The offender is the robot that drove faster toward the other, by its own drive: for a second after another robot has hit
-it, a robot is not responsible for more speed than its drive can have gained since, nor while an opponent pushes it. If a
-teammate hit it, the teammate is the offender. Two robots that drive into each other nearly equally fast commit no foul,
-nor does a robot that plays the ball: it has the ball, or the ball is within its reach on the side on which it drives
-into the opponent. Robots side by side approach each other slowly, however fast they drive. The other side gets a free
-kick, or a penalty if the offender is in its own penalty area; a fast charge is a yellow card, too.
+The offender is the robot that drove faster toward the other by its own drive. For a second after another robot has hit
+it, a robot is not responsible for more speed than its drive can have gained since, nor while an opponent pushes it; if
+a teammate hit it, the teammate is the offender. Two robots that drive into each other nearly equally fast commit no
+foul. A robot that plays the ball commits none either: the ball is within its reach, on the side on which it drives into
+the opponent. Robots side by side approach each other slowly, however fast they drive. The other side gets a free kick,
+or a penalty if the offender is in its own penalty area; a fast charge is a yellow card, too.
 
 Section: play, charging.
 Measures: the velocities of both robots before the impact, along the normal of their contact, as the engine reports it.
