@@ -63,7 +63,7 @@ class Restarts:
     encroach_margin: Annotated[
         float,
         Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),
-    ] = 0.1
+    ] = 0.2
     encroach_retreat: Annotated[
         float, Quantity("s", "time to retreat for a robot that was too near at START or was pushed there", 0, 60)
     ] = 2.0

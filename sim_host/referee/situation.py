@@ -4,8 +4,9 @@ import dataclasses
 from enum import Enum
 from typing import NamedTuple
 
-from schemas.game import Phase
+from schemas.game import SIDED, Phase
 from sim_host.referee.evidence import NO_EVIDENCE, evidence_after
+from sim_host.referee.evidence.intrusions import intrusions_after
 from sim_host.referee.game.refbox_presence import refbox_gone_after
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.set_piece import set_piece_after
@@ -66,9 +67,17 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
     )
     if state.shoot_out is not None and state.running:
         now_state = now_state._replace(shoot_out=_with_nearest_ball(match, now_state, snapshot, state.shoot_out))
+    piece = now_state.set_piece
+    if piece is not None and state.running and not in_play and is_encroachment_judged(match, now_state):
+        now_state = now_state._replace(set_piece=intrusions_after(match, now_state, piece, snapshot, dt))
     inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y
     crossing = None if inside or state.ball is None else crossed(match, state.ball, now)
     return Situation(match, now_state, snapshot, crossing)
+
+
+def is_encroachment_judged(match: MatchConstants, state: RefereeState) -> bool:
+    """Whether robots may encroach on this restart: penalties and dropped balls have rules of their own."""
+    return match.book.fouls.encroachment != "off" and state.phase in SIDED and state.phase is not Phase.PENALTY
 
 
 def crossed(

@@ -74,6 +74,10 @@ class RefereeRig:
             return name
         return f"{self.roster.side_of(name).opponent}{name[-1]}"
 
+    def side_sign(self, name: str) -> int:
+        """Sign of the x direction that the side of a robot attacks in the first half."""
+        return self.roster.side_of(name).attack(1)
+
     def _turned(self, x: float, y: float) -> tuple[float, float]:
         return (-x, -y) if self.mirrored else (x, y)
 

@@ -15,6 +15,7 @@ from sim_host.referee.rules import (
     dragged,
     dribble_circle,
     early_touch,
+    encroachment,
     goal,
     goal_area,
     goal_line,
@@ -56,6 +57,19 @@ RULES: tuple[Rule, ...] = (
     Rule("early_touch", early_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("double_touch", double_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance"), occasion="set piece"),
+    Rule(
+        "encroachment",
+        encroachment.judge,
+        (
+            "fouls.encroachment",
+            *RESTART_FOUL,
+            "restarts.opponent_distance",
+            "restarts.teammate_distance",
+            "restarts.encroach_margin",
+            "restarts.encroach_retreat",
+        ),
+        occasion="set piece",
+    ),
     Rule(
         "own_goal_kick", own_goal_kick.judge, ("scoring.robots_touched", "restarts.corner_inset"), occasion="crossing"
     ),
