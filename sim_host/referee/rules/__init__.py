@@ -155,9 +155,15 @@ def first_decision(situation: Situation, *, clocks_alone: bool = False) -> tuple
     """The first rule that decides in this tick, with its decision."""
     for rule in rules_to_ask(situation, clocks_alone=clocks_alone):
         decision = rule.judge(situation)
-        if decision is not None:
+        if decision is not None and not _is_noted(situation, rule, decision):
             return rule, decision
     return None
+
+
+def _is_noted(situation: Situation, rule: Rule, decision: Decision) -> bool:
+    """Whether a foul goes on that an advantage is played for."""
+    noted = situation.state.advantage
+    return noted is not None and noted.rule == rule.name and noted.decision.robot == decision.robot
 
 
 def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, ...]:

@@ -1,6 +1,6 @@
 """Common parts of all fouls: whether the rule book calls them, the text of the event, and the restart.
 
-The referee stops the game at once and plays no advantage. People may undo the decision.
+The referee stops the game at once, unless it plays an advantage. People may undo the decision.
 """
 
 from schemas.game import Card, EventKind, Phase
@@ -56,10 +56,11 @@ def foul(
     """
     side = situation.match.roster.side_of(offenders[0])
     ball = situation.snapshot.ball
+    remark = "" if situation.match.advantage else "; no advantage is played"
     start = restart_from if restart_from is not None else (ball.x, ball.y)
     return Decision(
         kind=EventKind.FOUL,
-        text=f"{text}; no advantage is played",
+        text=text + remark,
         restart=restart_at(situation.match, situation.state, phase, side.opponent, start),
         side=side,
         robot=offenders[0],
