@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 from schemas.game import SIDED, Phase
 from sim_host.referee.evidence import NO_EVIDENCE, evidence_after
-from sim_host.referee.evidence.intrusions import intrusions_after
 from sim_host.referee.game.refbox_presence import refbox_gone_after
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.set_piece import set_piece_after
 from sim_host.referee.game.shoot_out import ShootOut
 from sim_host.referee.match_constants import MatchConstants
+from sim_host.referee.placement.intrusions import intrusions_after
 from sim_host.snapshot import BallState, Snapshot
 
 
