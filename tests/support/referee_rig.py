@@ -199,6 +199,6 @@ class RefereeRig:
 
 def _impact(robots: RobotStates, first: int, second: int) -> Impact:
     one, other = robots[first], robots[second]
-    away = math.dist((one.x, one.y), (other.x, other.y))
+    away = max(1e-9, math.dist((one.x, one.y), (other.x, other.y)))
     direction = ((other.x - one.x) / away, (other.y - one.y) / away)
     return Impact(first, second, direction, (one.vx, one.vy), (other.vx, other.vy))

@@ -18,7 +18,7 @@ PHASES = [0.0, 0.013, 0.031, 0.047]
 
 
 def called(rig, ticks=200, **inputs):
-    """The fouls that the referee calls while the robots drive, each with the measured quantity, until the first stop."""
+    """The first fouls that the referee calls while the robots drive, each with the measured quantity."""
     profile, roster = rig.profile, rig.roster
     starts = {name: Pose(0.0, 0.0, 0.0) for name in roster.names}
     referee = Referee(
