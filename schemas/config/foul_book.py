@@ -60,7 +60,7 @@ class Contact:
         float, Quantity("m", "gap between hull and ball up to which a robot that hits an opponent plays the ball", 0, 2)
     ] = 0.3
     charge_card_speed: Annotated[
-        float, Quantity("m/s", "a charge at a higher closing speed is a yellow card; 0: never", 0, 20)
+        float, Quantity("m/s", "a robot that drives faster into the opponent is shown a yellow card; 0: none", 0, 20)
     ] = 0.0
 
 

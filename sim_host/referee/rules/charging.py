@@ -5,7 +5,7 @@ it, a robot is not responsible for more speed than its drive can have gained sin
 a teammate hit it, the teammate is the offender. Two robots that drive into each other nearly equally fast commit no
 foul. A robot that plays the ball commits none either: the ball is within its reach, on the side on which it drives into
 the opponent. Robots side by side approach each other slowly, however fast they drive. The other side gets a free kick,
-or a penalty if the offender is in its own penalty area; a fast charge is a yellow card, too.
+or a penalty if the offender is in its own penalty area. An offender that drove fast is shown a yellow card, too.
 
 Section: play, charging.
 Measures: the velocities of both robots before the impact, along the normal of their contact, as the engine reports it.
@@ -37,6 +37,8 @@ class Charge(NamedTuple):
     """Unit vector from the robot that hit to the victim."""
     speed: float
     """m/s at which they approached each other."""
+    driven_speed: float
+    """m/s of it that the offender drove."""
 
 
 def judge(situation: Situation) -> Decision | None:
@@ -69,14 +71,14 @@ def _charge(situation: Situation, impact: Impact) -> Charge | None:
         if abs(one - other) < numbers.charge_margin:
             return None
         if one > other:
-            return Charge(impact.first, impact.first, impact.second, impact.direction, one + other)
-        return Charge(impact.second, impact.second, impact.first, back, one + other)
+            return Charge(impact.first, impact.first, impact.second, impact.direction, one + other, one)
+        return Charge(impact.second, impact.second, impact.first, back, one + other, other)
     for robot, victim, cause, toward in (
         (impact.first, impact.second, one_cause, impact.direction),
         (impact.second, impact.first, other_cause, back),
     ):
         if cause is not None and roster.sides[cause.by] is roster.sides[robot] and cause.speed > numbers.charge_speed:
-            return Charge(cause.by, robot, victim, toward, impact.closing_speed)
+            return Charge(cause.by, robot, victim, toward, impact.closing_speed, cause.speed)
     return None
 
 
@@ -110,7 +112,7 @@ def _decision(situation: Situation, charge: Charge) -> Decision:
         f"{name} {deed} {victim} at {charge.speed:.2f} m/s{' in its own penalty area' * inside}, "
         f"limit {numbers.charge_speed:.2f}; intent is not judged"
     )
-    hard = numbers.charge_card_speed > 0.0 and exceeds(charge.speed, numbers.charge_card_speed)
+    hard = numbers.charge_card_speed > 0.0 and exceeds(charge.driven_speed, numbers.charge_card_speed)
     return foul(
         situation,
         "charging",

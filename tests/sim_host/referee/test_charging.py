@@ -81,6 +81,12 @@ def test_the_robot_that_drove_faster_toward_the_other_is_the_offender_and_neithe
     assert fouls(rig) == ([("charging", offender)] if offender else [])
 
 
+def test_the_speed_of_the_other_robot_makes_no_card(new_rig):
+    rig = placed(new_rig())
+    hit(rig, cyan3=2.9, magenta2=-2.0)
+    assert [event.card for event in rig.events if event.kind is EventKind.FOUL] == [None]
+
+
 def test_robots_side_by_side_that_touch_do_not_charge(new_rig):
     rig = placed(new_rig())
     rig.tick(impacts=[("cyan3", "magenta2")], motions={"cyan3": (0.0, 1.0, 4.0), "magenta2": (0.0, -0.4, 4.0)})
