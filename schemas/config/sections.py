@@ -236,12 +236,30 @@ class Sensing:
 
 @dataclass(frozen=True, slots=True)
 class RadioChannel:
-    """The radio channel between teammates, which the host simulates."""
+    """The radio between teammates, which the host simulates.
 
-    delay: Annotated[float, Quantity("s", "least simulated time from sending to delivery", 0, 5)]
-    jitter: Annotated[float, Quantity("s", "longest further time until delivery, uniformly distributed", 0, 5)]
+    Numbers with a default are missing in old recordings, which were played with the default.
+    """
+
+    delay: Annotated[float, Quantity("s", "least simulated time from sending to arrival", 0, 5)]
+    jitter: Annotated[float, Quantity("s", "longest further time until arrival, uniformly distributed", 0, 5)]
     loss: Annotated[float, Quantity("1", "share of deliveries that never arrive", 0, 1)]
     budget: Annotated[float, Quantity("bit/s", "most that a team may send, averaged over one second", 0, 1e9)]
+    model: Annotated[
+        str,
+        Choice(
+            "separate gives each side its own channel, with exact times; shared makes messages of both sides wait for "
+            "each other; ticks counts whole ticks from the end of the tick",
+            ("separate", "shared", "ticks"),
+        ),
+    ] = "ticks"
+    bit_rate: Annotated[float, Quantity("bit/s", "bits of a message per second on the shared channel", 1e4, 1e9)] = 3e6
+    frame_time: Annotated[
+        float, Quantity("s", "further time on the shared channel that each message takes", 0, 0.1)
+    ] = 4e-4
+    queue: Annotated[
+        float, Quantity("s", "longest wait for the shared channel; beyond it a message is refused", 0, 5)
+    ] = 0.1
 
 
 @dataclass(frozen=True, slots=True)
