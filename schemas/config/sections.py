@@ -194,8 +194,17 @@ class Kicker:
 
 
 @dataclass(frozen=True, slots=True)
+class CameraView:
+    """What a robot's camera has in view. Old recordings have no such section: their cameras see all round."""
+
+    field_of_view: Annotated[
+        float, Quantity("rad", "total angle about the kick axis in which ball and obstacles are seen", 0.01, math.tau)
+    ] = math.tau
+
+
+@dataclass(frozen=True, slots=True)
 class Sensing:
-    """What robots perceive: sensors of their own motion, and an omnidirectional camera.
+    """What robots perceive: sensors of their own motion, and a camera.
 
     Noise is Gaussian and given as standard deviations. That of the camera grows with the distance d: along the line of
     sight it is √(near² + (range_noise·d)²), across it √(near² + (bearing_noise·d)²).
@@ -278,10 +287,13 @@ SECTIONS: dict[str, type] = {
     "wheels": Wheels,
     "dribble": Dribble,
     "kicker": Kicker,
+    "camera": CameraView,
     "sensing": Sensing,
     "radio": RadioChannel,
     "safety": Safety,
 }
 """Section name in the file → the dataclass that holds it."""
-TYPE_SECTIONS: dict[str, type] = {name: SECTIONS[name] for name in ("robot", "drive", "wheels", "dribble", "kicker")}
+TYPE_SECTIONS: dict[str, type] = {
+    name: SECTIONS[name] for name in ("robot", "drive", "wheels", "dribble", "kicker", "camera")
+}
 """The sections whose numbers a type of robot may change."""
