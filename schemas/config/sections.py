@@ -135,6 +135,10 @@ class DriveLimits:
             ("velocity", "traction", "omni"),
         ),
     ] = "velocity"
+    stuck_window: Annotated[
+        float,
+        Quantity("s", "time over which progress is compared with demand; 0: stuck after 0.2 s below half speed", 0, 5),
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
