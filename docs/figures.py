@@ -109,7 +109,7 @@ def _speed_after(profile: str, distance: float) -> float:
     start = -9.0
     bodies = {"cyan1": (start - loaded.dribble.gap, 0.0, 0.0), "ball": (start, 0.0, 0.0)}
     kick = {"cyan1": runs.told(kick=Kick(mode=KickMode.GROUND, speed=10.0))}
-    run = runs.play(loaded, bodies, lambda time: kick if time == 0.0 else {}, 2.5)
+    run = runs.play(loaded, bodies, lambda time: kick if time == 0.0 else {}, 5.0)
     x, speed = run.ball("x", "vx").T
     return float(speed[np.argmax(x > start + distance)])
 

@@ -34,9 +34,8 @@ class _RadioMessage:
 
     def read_at(self, tick: int, tick_s: float) -> ReceivedRadio:
         """The message with its age at this tick."""
-        if self.at != tick:
-            self.received = replace(self.received, age=round((tick - self.left) * tick_s, DIGITS))
-            self.at = tick
+        self.received = replace(self.received, age=round((tick - self.left) * tick_s, DIGITS))
+        self.at = tick
         return self.received
 
 
@@ -49,8 +48,10 @@ class _Batch:
     """Per sender: its message, or None."""
     arrives: Ticks
     """Receiver × sender: the tick of arrival, or `NEVER`."""
+    first: int
+    """A tick before which no message arrives."""
     last: int
-    """The last tick of arrival."""
+    """A tick after which no message arrives."""
 
 
 class RadioAir:
@@ -97,11 +98,11 @@ class RadioAir:
         successor._newest[np.ix_(new, new)] = self._newest[np.ix_(old, old)]
         successor._held[np.ix_(new, new)] = self._held[np.ix_(old, old)]
         for batch in self._under_way:
-            messages: Objects = np.full(len(roster.names), None)
+            messages: Objects = np.empty(len(roster.names), dtype=object)
             arrives = np.full((len(roster.names),) * 2, NEVER)
             messages[new] = batch.messages[old]
             arrives[np.ix_(new, new)] = batch.arrives[np.ix_(old, old)]
-            successor._under_way.append(_Batch(batch.tick, messages, arrives, batch.last))
+            successor._under_way.append(_Batch(batch.tick, messages, arrives, batch.first, batch.last))
         return successor
 
     def send(self, tick: int, contents: Mapping[str, Radio]) -> dict[str, str]:
@@ -114,8 +115,8 @@ class RadioAir:
             return {}
         drawn = self._timing.at(tick)
         outgoing = sorted([(tick - 1 + drawn.leaves[self._index[name]], self._index[name]) for name in contents])
-        messages: Objects = np.full(len(self._index), None)
-        ends = np.full(len(self._index), np.inf)
+        messages: Objects = np.empty(len(self._index), dtype=object)
+        ends: dict[int, float] = {}
         refusals = {}
         for left, index in outgoing:
             name = self._roster.names[index]
@@ -126,14 +127,14 @@ class RadioAir:
                 continue
             messages[index] = _RadioMessage(left, ReceivedRadio.of(content))
             ends[index] = end
+        senders = list(ends)
+        arrives = np.full(drawn.arrives.shape, NEVER)
         if self._air.model == "shared":
-            arrives = arrival_ticks(ends + drawn.flights)
-            self._under_way.append(_Batch(tick, messages, arrives, int(last_arrival(arrives))))
+            arrives[:, senders] = arrival_ticks(np.array([*ends.values()]) + drawn.flights[:, senders])
+            self._under_way.append(_Batch(tick, messages, arrives, tick, int(last_arrival(arrives))))
         else:
-            arrives = drawn.arrives
-            if len(contents) - len(refusals) < len(self._index):
-                arrives = np.where(np.isfinite(ends), arrives, NEVER)
-            self._under_way.append(_Batch(tick, messages, arrives, drawn.last))
+            arrives[:, senders] = drawn.arrives[:, senders]
+            self._under_way.append(_Batch(tick, messages, arrives, drawn.first, drawn.last))
         return refusals
 
     def _transmit(self, left: float, bits: int, side: Side) -> tuple[float, str | None]:
@@ -151,6 +152,8 @@ class RadioAir:
     def receive(self, tick: int) -> list[dict[str, ReceivedRadio]]:
         """Per robot, in the order of the roster: teammate → its newest message that has arrived by this tick."""
         for batch in self._under_way:
+            if batch.first > tick:
+                continue
             arrived = batch.arrives <= tick
             arrived &= self._newest < batch.tick
             np.copyto(self._newest, batch.tick, where=arrived)
@@ -159,8 +162,8 @@ class RadioAir:
         names, tick_s = self._roster.names, self._tick_s
         return [
             {
-                names[sender]: message.read_at(tick, tick_s)
-                for sender, message in enumerate(of_robot)
+                name: message.received if message.at == tick else message.read_at(tick, tick_s)
+                for name, message in zip(names, of_robot, strict=True)
                 if message is not None
             }
             for of_robot in self._held.tolist()

@@ -32,6 +32,8 @@ class Flights(NamedTuple):
     """Ticks from leaving to arrival, receiver × sender; infinite where the message is lost or not for this receiver."""
     arrives: Ticks
     """The first tick whose sights have the message, receiver × sender, if no channel delays it; or `NEVER`."""
+    first: int
+    """The first of these ticks."""
     last: int
     """The last of these ticks; -1 if no message arrives."""
 
@@ -75,8 +77,8 @@ class RadioTiming:
             arrives = arrival_ticks(number + flights)
         else:
             arrives = arrival_ticks(number - 1 + leaves[:, None, :] + flights)
-        last = last_arrival(arrives).tolist()
-        return [Flights(*of_tick) for of_tick in zip(leaves.tolist(), flights, arrives, last, strict=True)]
+        first, last = arrives.min(axis=(1, 2)).tolist(), last_arrival(arrives).tolist()
+        return list(map(Flights, leaves.tolist(), flights, arrives, first, last))
 
     def _leaves(self, ticks: range) -> Floats:
         """Ticks until the messages leave, (ticks, senders): a tick in whole ticks, else at any time within the tick."""
