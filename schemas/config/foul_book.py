@@ -40,6 +40,12 @@ class Areas:
     penalty_area_duration: Annotated[
         float, Quantity("s", "longest time of more robots than that in a penalty area", 0, 600)
     ]
+    penalty_area_stay: Annotated[
+        float, Quantity("s", "longest time of one robot in a penalty area, alone or not; 0: no limit", 0, 600)
+    ] = 0.0
+    recovery: Annotated[
+        float, Quantity("1", "s by which these times shrink for each s outside the area; 0: they end at once", 0, 10)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +55,9 @@ class Contact:
     push_distance: Annotated[float, Quantity("m", "longest way that a robot pushes an opponent", 0.05, 10)]
     stand_off_duration: Annotated[float, Quantity("s", "longest time that two opponents push each other", 1, 120)]
     outside_duration: Annotated[float, Quantity("s", "longest time of a robot wholly outside the lines", 0, 600)]
+    outside_recovery: Annotated[
+        float, Quantity("1", "s by which this time shrinks for each s inside the lines; 0: it ends at once", 0, 10)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)

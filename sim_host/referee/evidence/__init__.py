@@ -28,13 +28,13 @@ class Evidence(NamedTuple):
     flight: Flight | None = None
     """The last kick, until the ball is touched or a lob has landed."""
     stays: Stays = NO_STAYS
-    """Robots in areas where they may not stay, with their durations."""
+    """Clocks of robots in goal areas and penalty areas."""
     pushes: tuple[Push, ...] = ()
     """Pairs of robots of different sides that lean on each other."""
     contest: Contest | None = None
     """The contest while both sides are at the ball."""
     outside: tuple[tuple[int, float], ...] = ()
-    """Robots that are wholly outside the lines, by their index in the roster, each with its duration in s."""
+    """Clocks in s of robots that are or were wholly outside the lines, by their index in the roster."""
 
 
 NO_EVIDENCE = Evidence()
@@ -65,14 +65,14 @@ def evidence_after(
     if flight is not None or snapshot.kicked is not None:
         flight = flight_after(match, flight, snapshot)
     stays = before.stays
-    if zones.deep or stays.robots or stays.crowds:
+    if zones.deep or stays is not NO_STAYS:
         stays = stays_after(match, stays, zones, snapshot, dt)
     pushes = before.pushes
     if pushes or snapshot.contacts:
         pushes = pushes_after(match, pushes, snapshot, dt)
     outside = before.outside
     if outside or zones.outside:
-        outside = outside_after(outside, zones, dt)
+        outside = outside_after(match, outside, zones, dt)
     if (
         play is before.play
         and dribble is before.dribble

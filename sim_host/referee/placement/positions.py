@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from schemas.frames import Pose
 from schemas.game import GameStage, Phase
-from sim_host.referee.areas import in_goal_area, in_penalty_area
+from sim_host.referee.areas import in_a_penalty_area, in_goal_area, in_penalty_area
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.restart import Restart, Spot
 from sim_host.referee.match_constants import MatchConstants
@@ -142,8 +142,14 @@ def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
             turn = (step + 1) // 2 * (1 if step % 2 else -1) * math.tau / _BEARINGS
             away = nearest + ring
             place = x + away * math.cos(bearing + turn), y + away * math.sin(bearing + turn)
-            if abs(place[0]) <= pitch.goal_line and abs(place[1]) <= pitch.touch_line:
+            if abs(place[0]) <= pitch.goal_line and abs(place[1]) <= pitch.touch_line and not _is_timed(line_up, place):
                 yield place
+
+
+def _is_timed(line_up: LineUp, place: Spot) -> bool:
+    """Whether the time of a robot at a place is limited, as in a penalty area."""
+    match = line_up.match
+    return match.book.areas.penalty_area_stay > 0.0 and in_a_penalty_area(match.pitch, *place)
 
 
 def _has_room(line_up: LineUp, index: int) -> bool:

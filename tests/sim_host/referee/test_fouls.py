@@ -215,10 +215,15 @@ CASES = {
         "goal_area", stand_in_goal_area("cyan3", 1), 0.02, 0.0, rules="china-sim-2020"
     ),
     "illegal attack, penalty area": Case(
-        "penalty_area", crowd(1, ("cyan3", "cyan4")), 10.04, 9.96, offenders=("cyan4", "cyan3")
+        "penalty_area", crowd(1, ("cyan3", "cyan4")), 0.02, 0.0, offenders=("cyan4", "cyan3")
     ),
     "illegal defence, penalty area": Case(
-        "penalty_area", crowd(-1, ("cyan1", "cyan3", "cyan4")), 10.04, 9.96, offenders=("cyan4", "cyan3")
+        "penalty_area", crowd(-1, ("cyan1", "cyan3", "cyan4")), 0.02, 0.0, offenders=("cyan4", "cyan3")
+    ),
+    "one attacker waits in the penalty area": Case("penalty_area", crowd(1, ("cyan3",)), 10.04, 9.96),
+    "one defender waits in the penalty area": Case("penalty_area", crowd(-1, ("cyan1", "cyan3")), 10.04, 9.96),
+    "the goalkeeper waits in the other penalty area": Case(
+        "penalty_area", crowd(1, ("cyan1",)), 10.04, 9.96, offenders=KEEPER
     ),
     "penalty area at once in china": Case(
         "penalty_area", crowd(1, ("cyan3", "cyan4")), 0.02, 0.0, offenders=("cyan4", "cyan3"), rules="china-sim-2020"
@@ -299,7 +304,7 @@ def test_a_friendly_forgives(new_rig, rule):
 def test_the_goalkeeper_may_be_in_its_goal_area_and_beside_one_other_in_its_penalty_area(new_rig):
     rig = new_rig().playing()
     rig.robots |= {"cyan1": (-rig.pitch.goal_line + 0.3, 0.0), "cyan3": (-rig.pitch.goal_line + 1.5, 1.0)}
-    rig.run(12.0)
+    rig.run(9.0)
     assert EventKind.FOUL not in rig.kinds()
 
 
