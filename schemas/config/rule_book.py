@@ -7,7 +7,7 @@ from importlib import resources
 from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
-from schemas.config.quantity import Quantity, merge_tables, read_section
+from schemas.config.quantity import Choice, Quantity, merge_tables, read_section
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
@@ -38,7 +38,9 @@ class Restarts:
 
     stop_to_signal: Annotated[float, Quantity("s", "pause from STOP to the restart signal", 0, 60)]
     signal_to_start: Annotated[float, Quantity("s", "time to take positions, from the signal to START", 0, 60)]
-    positions_limit: Annotated[float, Quantity("s", "longest wait of START for robots in illegal positions", 0, 60)]
+    positions_limit: Annotated[
+        float, Quantity("s", "longest wait of START for robots in illegal positions, see `positions_from`", 0, 60)
+    ]
     time_limit: Annotated[float, Quantity("s", "latest time after START for the ball to be in play", 1, 60)]
     penalty_limit: Annotated[float, Quantity("s", "the same at a penalty: time to reach the ball", 1, 60)]
     in_play_distance: Annotated[float, Quantity("m", "the ball is in play after rolling freely this far", 0, 5)]
@@ -60,6 +62,10 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
+    positions_from: Annotated[
+        str,
+        Choice("`positions_limit` counts from the signal, or from the earliest START", ("signal", "earliest start")),
+    ] = "earliest start"
 
 
 @dataclass(frozen=True, slots=True)

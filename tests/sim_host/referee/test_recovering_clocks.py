@@ -6,31 +6,17 @@ import pytest
 
 from schemas.game import EventKind, OfficiatingMode, Phase
 from schemas.side import Side
-from sim_host.referee.core import Referee
 from sim_host.referee.evidence.stays import NO_STAYS
+from support.referee_rig import with_book
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
 
 def without_recovery(rig):
     """The same rig with the rule book of before clocks recovered."""
-    book = rig.book
-    rig.book = dataclasses.replace(
-        book,
-        areas=dataclasses.replace(book.areas, recovery=0.0),
-        contact=dataclasses.replace(book.contact, outside_recovery=0.0),
-    )
-    rig.referee = Referee(
-        rig.book,
-        rig.pitch,
-        rig.constants.ball,
-        rig.roster,
-        duration=None,
-        kick_off=CYAN,
-        automatic=True,
-        starts=rig.starts,
-    )
-    return rig
+    areas = dataclasses.replace(rig.book.areas, recovery=0.0)
+    contact = dataclasses.replace(rig.book.contact, outside_recovery=0.0)
+    return with_book(rig, dataclasses.replace(rig.book, areas=areas, contact=contact))
 
 
 def fouls(rig):
