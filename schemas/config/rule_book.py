@@ -70,10 +70,14 @@ class Restarts:
 
 @dataclass(frozen=True, slots=True)
 class Stall:
-    """When a ball that no robot moves is dropped."""
+    """When a ball that lies still or makes no progress is dropped."""
 
     still_speed: Annotated[float, Quantity("m/s", "a slower ball counts as still", 0, 2)]
     still_duration: Annotated[float, Quantity("s", "a ball still for this long is dropped", 1, 120)]
+    progress_distance: Annotated[
+        float, Quantity("m", "a ball that leaves a circle of this radius makes progress; 0: none is required", 0, 20)
+    ] = 0.0
+    progress_duration: Annotated[float, Quantity("s", "longest time of a ball in play without progress", 1, 120)] = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +144,7 @@ class RuleBook(Described):
     people: People
     """Repairs, substitutions and forfeits."""
     stall: Stall
-    """When a ball that no robot moves is dropped."""
+    """When a ball that lies still or makes no progress is dropped."""
     scrum: Scrum
     """When a ball that both sides contest is dropped."""
     scoring: Scoring

@@ -48,7 +48,13 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
     seen = NO_EVIDENCE
     if state.running:
         seen = evidence_after(
-            match, state.evidence, match.keepers(state.participation.absences), state.cyan_attacks, snapshot, dt
+            match,
+            state.evidence,
+            match.keepers(state.participation.absences),
+            state.cyan_attacks,
+            snapshot,
+            dt,
+            in_play=in_play,
         )
     refbox_gone = state.refbox_gone
     if snapshot.refbox or refbox_gone is not None:

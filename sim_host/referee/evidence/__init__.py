@@ -11,6 +11,7 @@ from sim_host.referee.evidence.dribble import Dribble, dribble_after
 from sim_host.referee.evidence.flight import Flight, flight_after
 from sim_host.referee.evidence.outside import outside_after
 from sim_host.referee.evidence.play import NO_TOUCHES, Play, play_after
+from sim_host.referee.evidence.progress import Progress, progress_after
 from sim_host.referee.evidence.pushes import Push, pushes_after
 from sim_host.referee.evidence.stays import NO_STAYS, Stays, stays_after
 from sim_host.referee.evidence.zones import find_zones
@@ -35,6 +36,8 @@ class Evidence(NamedTuple):
     """The contest while both sides are at the ball."""
     outside: tuple[tuple[int, float], ...] = ()
     """Clocks in s of robots that are or were wholly outside the lines, by their index in the roster."""
+    progress: Progress | None = None
+    """The circle that the ball in play has to leave."""
 
 
 NO_EVIDENCE = Evidence()
@@ -48,10 +51,13 @@ def evidence_after(
     cyan_attacks: int,
     snapshot: Snapshot,
     dt: float,
+    *,
+    in_play: bool,
 ) -> Evidence:
     """The evidence after one more tick of `dt` in s.
 
-    `is_keeper` is per robot of the roster; `cyan_attacks` is the sign of the x direction that cyan attacks.
+    `is_keeper` is per robot of the roster; `cyan_attacks` is the sign of the x direction that cyan attacks; `in_play`
+    is whether the ball was in play before this tick.
     """
     zones = find_zones(match, is_keeper, cyan_attacks, snapshot)
     play = play_after(match, before.play, cyan_attacks, snapshot) if snapshot.touches else before.play
@@ -73,6 +79,9 @@ def evidence_after(
     outside = before.outside
     if outside or zones.outside:
         outside = outside_after(match, outside, zones, dt)
+    progress = before.progress
+    if in_play:
+        progress = progress_after(match, progress, dribble, snapshot)
     if (
         play is before.play
         and dribble is before.dribble
@@ -81,6 +90,7 @@ def evidence_after(
         and pushes is before.pushes
         and contest is before.contest
         and outside is before.outside
+        and progress is before.progress
     ):
         return before
-    return Evidence(play, dribble, flight, stays, pushes, contest, outside)
+    return Evidence(play, dribble, flight, stays, pushes, contest, outside, progress)

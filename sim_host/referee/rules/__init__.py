@@ -22,6 +22,7 @@ from sim_host.referee.rules import (
     lob,
     long_hold,
     lost_ball,
+    no_progress,
     not_rolling,
     own_goal_kick,
     own_half_goal,
@@ -127,6 +128,12 @@ RULES: tuple[Rule, ...] = (
     Rule("stand_off", stand_off.judge, ("contact.stand_off_duration",), occasion="pushes"),
     Rule("scrum", scrum.judge, ("scrum.reach", "scrum.progress", "scrum.duration"), occasion="contest"),
     Rule("stall", stall.judge, ("stall.still_speed", "stall.still_duration"), occasion="still ball"),
+    Rule(
+        "no_progress",
+        no_progress.judge,
+        ("stall.progress_distance", "stall.progress_duration"),
+        occasion="no progress",
+    ),
     Rule("half_end", half_end.judge, ("periods.halves", "periods.half_duration"), while_running=False),
 )
 
@@ -154,7 +161,18 @@ def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[R
     return _rules_for(_time(situation, clocks_alone), _occasions(situation))
 
 
-OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
+OCCASIONS = (
+    "set piece",
+    "crossing",
+    "kick",
+    "dribble",
+    "pushes",
+    "stays",
+    "outside",
+    "contest",
+    "still ball",
+    "no progress",
+)
 """The occasions that rules depend on, in the order of `_occasions`."""
 
 
@@ -172,6 +190,7 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
         bool(seen.outside),
         seen.contest is not None,
         state.still > 0.0,
+        no_progress.is_due(situation),
     )
 
 
