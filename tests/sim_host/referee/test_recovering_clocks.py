@@ -39,9 +39,9 @@ def hop(rig, rule, share, out, rounds):
     inside, away, limit = places(rig, rule)
     for _ in range(rounds):
         rig.robots["cyan3"] = inside
-        rig.run(share * limit)
+        rig.play_on(share * limit)
         rig.robots["cyan3"] = away
-        rig.run(out)
+        rig.play_on(out)
 
 
 RULES = ["penalty_area", "goal_area", "leaving_field"]
@@ -72,7 +72,7 @@ def test_a_second_outside_gives_a_second_back(new_rig, rule, rest, called):
     inside, _, limit = places(rig, rule)
     hop(rig, rule, 0.9, rest * limit, 1)
     rig.robots["cyan3"] = inside
-    rig.run(0.9 * limit)
+    rig.play_on(0.9 * limit)
     assert bool(fouls(rig)) is called
 
 
@@ -89,18 +89,18 @@ def test_a_robot_outside_is_not_called_while_its_clock_runs_down(new_rig, rule):
     rig = new_rig(mode=OfficiatingMode.MIXED, proposal=1.0).playing()
     inside, away, limit = places(rig, rule)
     rig.robots["cyan3"] = inside
-    rig.run(limit + 2 * rig.dt)
+    rig.play_on(limit + 2 * rig.dt)
     assert rig.state.proposal is not None
     rig.robots["cyan3"] = away
     assert rig.ask("overrule").replies[0].accepted
-    rig.run(0.5 * limit)
+    rig.play_on(0.5 * limit)
     assert rig.state.proposal is None and fouls(rig) == []
 
 
 def test_the_robot_that_came_last_is_named_first(new_rig):
     rig = new_rig().playing()
     rig.robots["cyan4"] = (rig.pitch.goal_line - 1.5, 3.0)
-    rig.run(3.0)
+    rig.play_on(3.0)
     rig.robots["cyan3"] = (rig.pitch.goal_line - 1.5, 0.0)
     rig.tick((rig.pitch.goal_line - 2.0, 0.0))
     event = next(event for event in rig.events if event.kind is EventKind.FOUL)
@@ -125,8 +125,7 @@ def test_a_crowd_that_parts_for_a_tick_is_called_when_its_time_is_up(new_rig):
     rig.robots["cyan4"] = (x, 3.0)
     for _ in range(2):
         rig.robots["cyan3"] = (x, 0.0)
-        for _ in range(round(0.9 * limit / rig.dt)):
-            rig.tick((rig.at % 500 / 100.0, 0.0))
+        rig.play_on(0.9 * limit)
         rig.robots["cyan3"] = (5.0, 0.0)
         rig.tick()
     assert fouls(rig) == [("penalty_area", "cyan3")] or fouls(rig) == [("penalty_area", "cyan4")]
@@ -148,7 +147,7 @@ def test_robots_that_the_referee_moves_are_not_put_into_a_penalty_area_where_the
 def test_stop_ends_all_clocks(new_rig):
     rig = new_rig().playing()
     rig.robots["cyan3"] = places(rig, "penalty_area")[0]
-    rig.run(9.0)
+    rig.play_on(9.0)
     rig.ask("free_kick", MAGENTA, (4.0, 0.0))
     rig.until(lambda state: state.running)
     assert rig.state.evidence.stays is NO_STAYS
