@@ -99,3 +99,4 @@ class Fouls:
     pushing: Annotated[str, Choice("pushing an opponent away", CALLS)]
     lob: Annotated[str, Choice("a lob from the team's own half that is not a pass", CALLS)]
     leaving_field: Annotated[str, Choice("leaving the field", CALLS)]
+    penalty_kick: Annotated[str, Choice("leaving the places at a penalty before the kick", CALLS)] = "off"

@@ -66,6 +66,9 @@ class Restarts:
         str,
         Choice("`positions_limit` counts from the signal, or from the earliest START", ("signal", "earliest start")),
     ] = "earliest start"
+    penalty_behind: Annotated[
+        int, Quantity("1", "1: at a penalty all but kicker and goalkeeper stay behind the ball; 0: not", 0, 1)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)

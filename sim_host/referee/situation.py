@@ -11,6 +11,7 @@ from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.set_piece import set_piece_after
 from sim_host.referee.game.shoot_out import ShootOut
 from sim_host.referee.match_constants import MatchConstants
+from sim_host.referee.placement.penalty_strays import with_strays
 from sim_host.snapshot import BallState, Snapshot
 
 
@@ -70,6 +71,8 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
         refbox_gone=refbox_gone,
         questions=tuple([question.after(dt) for question in state.questions]) if state.questions else (),
     )
+    if state.phase is Phase.PENALTY and state.running:
+        now_state = with_strays(match, now_state, snapshot)
     if state.shoot_out is not None and state.running:
         now_state = now_state._replace(shoot_out=_with_nearest_ball(match, now_state, snapshot, state.shoot_out))
     inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y

@@ -99,6 +99,22 @@ def position_faults(
     return tuple(faults)
 
 
+def penalty_faults(
+    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot
+) -> tuple[PositionFault, ...]:
+    """The robots other than the kicker in wrong places for a penalty, in the order of the roster."""
+    line_up = _line_up(match, state, restart, snapshot)
+    check = _wrong_at_shoot_out if state.stage is GameStage.SHOOT_OUT else _wrong_at_penalty
+    faults = []
+    for index in line_up.on_field:
+        violation = None if index == line_up.kicker else check(line_up, index)
+        if violation is not None:
+            name = match.roster.names[index]
+            text = f"{name} was {violation.phrase} before the kick"
+            faults.append(PositionFault(name, text, violation.measured, violation.limit))
+    return tuple(faults)
+
+
 def is_spot_covered(match: MatchConstants, state: RefereeState, spot: Spot, snapshot: Snapshot) -> bool:
     """Whether a robot stands on a spot, so that the ball cannot be placed there."""
     line_up = _line_up(match, state, Restart(state.phase, state.side, spot), snapshot)
@@ -229,7 +245,8 @@ def _in_other_half(line_up: LineUp, index: int) -> Violation | None:
 
 
 def _wrong_at_penalty(line_up: LineUp, index: int) -> Violation | None:
-    """The defending goalkeeper has to be in its goal area, all others but the kicker outside the penalty area."""
+    """The defending goalkeeper has to be in its goal area, others outside the penalty area, away from the ball and
+    behind it; the kicker anywhere."""
     if index == line_up.kicker:
         return None
     pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
@@ -238,6 +255,9 @@ def _wrong_at_penalty(line_up: LineUp, index: int) -> Violation | None:
         return None if in_goal_area(pitch, end, robot.x, robot.y) else Violation("outside its goal area")
     if in_penalty_area(pitch, end, robot.x, robot.y, line_up.match.reaches[index]):
         return Violation("in the penalty area")
+    ahead = robot.x * end + line_up.match.reaches[index] - line_up.restart.spot[0] * end
+    if line_up.match.book.restarts.penalty_behind and ahead > 0.0:
+        return Violation(f"{ahead:.2f} m ahead of the ball", ahead, 0.0)
     return _near_ball(line_up, index)
 
 

@@ -27,6 +27,7 @@ from sim_host.referee.rules import (
     own_goal_kick,
     own_half_goal,
     penalty_area,
+    penalty_kick,
     pushing,
     scrum,
     shoot_out,
@@ -52,10 +53,12 @@ class Rule:
 
 
 RESTART_FOUL = ("restarts.restart_fouls", "restarts.in_play_distance")
+PENALTY = ("fouls.penalty_kick", "restarts.penalty_behind", "restarts.opponent_distance", "stall.still_speed")
 RULES: tuple[Rule, ...] = (
     Rule("early_touch", early_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("double_touch", double_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance"), occasion="set piece"),
+    Rule("penalty_kick", penalty_kick.judge, PENALTY, occasion="set piece"),
     Rule(
         "own_goal_kick", own_goal_kick.judge, ("scoring.robots_touched", "restarts.corner_inset"), occasion="crossing"
     ),
@@ -137,7 +140,10 @@ RULES: tuple[Rule, ...] = (
     Rule("half_end", half_end.judge, ("periods.halves", "periods.half_duration"), while_running=False),
 )
 
-SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),)
+SHOOT_OUT: tuple[Rule, ...] = (
+    Rule("penalty_kick", penalty_kick.judge, PENALTY),
+    Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),
+)
 """The rules of the penalty shoot-out."""
 RULES_BY_TIME: Mapping[str, tuple[Rule, ...]] = {
     "running": RULES,

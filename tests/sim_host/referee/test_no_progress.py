@@ -177,7 +177,7 @@ def test_a_goalkeeper_that_keeps_the_ball_in_its_area_loses_it_to_a_drop_at_the_
         rig.tick((x, 1.0), ["cyan1"], possession="cyan1")
     (event,) = stalls(rig)
     assert (event.robot, event.place.x) == ("cyan1", pytest.approx(x))
-    assert rig.state.pending.spot == pytest.approx((-pitch.goal_line + pitch.penalty_mark, pitch.touch_line / 2))
+    assert rig.state.pending.spot == pytest.approx((-pitch.goal_line + pitch.penalty_mark, 0.0))
 
 
 def test_the_simulation_league_shows_its_card_for_a_long_hold_before_the_ball_is_dropped(new_rig):
