@@ -47,6 +47,8 @@ class SetPiece(NamedTuple):
     """The robot of the taker's side that has kicked the ball."""
     since_kick: float = 0.0
     """s."""
+    appointed: str | None = None
+    """At a penalty, the robot that was nearest to the ball at START, and takes it."""
     strays: tuple[Stray, ...] = ()
     """At a penalty, robots that were in wrong places before the kick, each once, in order."""
 

@@ -1,5 +1,6 @@
 """Robots that leave their places at a penalty before the kick, between START and the outcome.
 
+The kicker is the robot of its side that is nearest to the ball at START; no teammate takes its place.
 In play, all robots but the kicker have their places until the kick. In a shoot-out, in which the kicker may dribble,
 the goalkeeper has its place until the kicker's side touches the ball, and the others until the end of the attempt.
 """
@@ -8,7 +9,7 @@ from schemas.game import GameStage, Phase
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.set_piece import Stray
 from sim_host.referee.match_constants import MatchConstants
-from sim_host.referee.placement.positions import penalty_faults
+from sim_host.referee.placement.positions import kicker_of, penalty_faults
 from sim_host.snapshot import Snapshot
 
 
@@ -20,14 +21,18 @@ def with_strays(match: MatchConstants, state: RefereeState, snapshot: Snapshot) 
     in_shoot_out = state.stage is GameStage.SHOOT_OUT
     if not in_shoot_out and (piece.kicker is not None or piece.moved > match.book.restarts.drag_distance):
         return state
+    if piece.appointed is None:
+        piece = piece._replace(appointed=kicker_of(match, state, piece.restart, snapshot))
     known = {stray.robot for stray in piece.strays}
     free = _free_keepers(match, state) if in_shoot_out else ()
     new = [
         Stray(*fault)
-        for fault in penalty_faults(match, state, piece.restart, snapshot)
+        for fault in penalty_faults(match, state, piece, snapshot)
         if fault.robot not in known and fault.robot not in free
     ]
-    return state._replace(set_piece=piece._replace(strays=(*piece.strays, *new))) if new else state
+    if new:
+        piece = piece._replace(strays=(*piece.strays, *new))
+    return state if piece is state.set_piece else state._replace(set_piece=piece)
 
 
 def _free_keepers(match: MatchConstants, state: RefereeState) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ from schemas.game import GameStage, Phase
 from sim_host.referee.areas import in_goal_area, in_penalty_area
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.restart import Restart, Spot
+from sim_host.referee.game.set_piece import SetPiece
 from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
@@ -90,11 +91,19 @@ def position_faults(
     return tuple(faults)
 
 
+def kicker_of(match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot) -> str | None:
+    """The robot that takes a restart: of its side, the nearest to the ball."""
+    index = line_up_of(match, state, restart, snapshot).kicker
+    return None if index is None else match.roster.names[index]
+
+
 def penalty_faults(
-    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot
+    match: MatchConstants, state: RefereeState, piece: SetPiece, snapshot: Snapshot
 ) -> tuple[PositionFault, ...]:
-    """The robots other than the kicker in wrong places for a penalty, in the order of the roster."""
-    line_up = line_up_of(match, state, restart, snapshot)
+    """The robots other than the kicker in wrong places for a started penalty, in the order of the roster."""
+    line_up = line_up_of(match, state, piece.restart, snapshot)
+    if piece.appointed in match.roster.names:
+        line_up = line_up._replace(kicker=match.roster.names.index(piece.appointed))
     check = _wrong_at_shoot_out if state.stage is GameStage.SHOOT_OUT else _wrong_at_penalty
     faults = []
     for index in line_up.on_field:

@@ -130,6 +130,13 @@ def test_nothing_is_called_where_all_keep_their_places(new_rig, scores):
     assert fouls(rig) == [] and rig.state.score == Score(cyan=int(scores))
 
 
+def test_a_teammate_that_comes_nearer_to_the_ball_than_the_kicker_has_left_its_place_and_the_kicker_has_not(new_rig):
+    rig = started(new_rig)
+    rig.tick()
+    stray(rig, {"cyan3": (7.0, 0.0), "cyan2": (6.5, 0.0)}, ticks=5)
+    assert [one.robot for one in rig.state.set_piece.strays] == ["cyan3"]
+
+
 def test_after_the_kick_robots_go_where_they_like(new_rig):
     rig = started(new_rig)
     rig.tick(rig.state.spot, ["cyan2"], kicked="cyan2")
