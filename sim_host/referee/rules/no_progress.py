@@ -3,7 +3,7 @@
 A robot that turns on its spot with the ball, dribbles to and fro within its circle, or releases the ball and catches it
 again at the same place makes no progress; neither do teammates that pass the ball among themselves within the circle.
 
-Section: play; restarts, dropped ball. The rule book demands progress within 10 s; its distance is ours.
+Section: play, pushing: stand-off, for its 10 s; ours without an opponent, and for the distance.
 Measures: the time for which the centre of the ball has been within the circle around the place where it was caught, or
 where it was when it left the last circle.
 Not judged: which robot could have played it.
