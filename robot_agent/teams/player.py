@@ -15,6 +15,7 @@ from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
 from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
+from robot_agent.teams.area_turn import AreaTurn
 from robot_agent.teams.reports import radio_message, why_refused
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
@@ -85,6 +86,7 @@ class Player(ABC):
         self._rolling = Rolling.of(self.setup.ball)
         self._goal_area = Area.goal(self.setup.pitch)
         self._penalty_area = Area.penalty(self.setup.pitch)
+        self._area_turn = AreaTurn(self._rule_limits, self._penalty_area)
         self._carry: Carry | None = None
         self.possession = Possession()
         """Which side has the ball, and whether a goal would count; updated only where the rules require a pass."""
@@ -198,8 +200,9 @@ class Player(ABC):
         if self._rule_limits.keeps_out:
             drive = keep_out(belief.me, drive, self._goal_area, self.limits)
         if self._rule_limits.takes_turns:
+            must_be_out = self._area_turn.has_to_be_out(belief, self.keeper)
             outside = keep_out(belief.me, drive, self._penalty_area, self.limits)
-            if outside is not drive and self._is_second_in_area(belief):
+            if must_be_out and outside is not drive:
                 drive = outside
         if self._rule_limits.spares_opponents and not self._plays_ball(belief):
             drive = brake_before(belief.me, drive, belief.opponents, self.setup.robot.reach, self.limits)
@@ -211,21 +214,6 @@ class Player(ABC):
             return belief.holding
         reach = self.setup.robot.reach + self.setup.ball.radius + PLAYS_BALL
         return math.dist(belief.me[:2], belief.ball.now[:2]) < reach
-
-    def _is_second_in_area(self, belief: WorldBelief) -> bool:
-        """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
-
-        Where a second robot there is a foul at once, the teammate may be anywhere, since it may be about to enter.
-        """
-        end = math.copysign(1.0, belief.me.x)
-        ball = belief.ball.now[:2] if belief.ball is not None else (end * self.setup.pitch.goal_line, 0.0)
-        mine = math.dist(ball, belief.me[:2])
-        return not belief.holding and any(
-            math.dist(ball, mate.body[:2]) < mine
-            and (self._rule_limits.at_once or self._penalty_area.has(end, *mate.body[:2]))
-            for name, mate in belief.mates.items()
-            if name != self.keeper
-        )
 
     def _carry_on(self, belief: WorldBelief, action: Action, carry: Carry) -> Action:
         """Release the ball or stop before the dribbling circle ends; turn before the way backward is too long."""

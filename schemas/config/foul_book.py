@@ -40,6 +40,12 @@ class Areas:
     penalty_area_duration: Annotated[
         float, Quantity("s", "longest time of more robots than that in a penalty area", 0, 600)
     ]
+    penalty_area_stay: Annotated[
+        float, Quantity("s", "longest time of one robot in a penalty area, alone or not; 0: no limit", 0, 600)
+    ] = 0.0
+    recovery: Annotated[
+        float, Quantity("1", "s by which these times shrink for each s outside the area; 0: they end at once", 0, 10)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +67,9 @@ class Contact:
     ] = 0.3
     charge_card_speed: Annotated[
         float, Quantity("m/s", "a robot that drives faster into the opponent is shown a yellow card; 0: none", 0, 20)
+    ] = 0.0
+    outside_recovery: Annotated[
+        float, Quantity("1", "s by which this time shrinks for each s inside the lines; 0: it ends at once", 0, 10)
     ] = 0.0
 
 
@@ -105,3 +114,4 @@ class Fouls:
     leaving_field: Annotated[str, Choice("leaving the field", CALLS)]
     charging: Annotated[str, Choice("driving into an opponent at speed", CALLS)] = "off"
     encroachment: Annotated[str, Choice("coming too near to a restart between START and the kick", CALLS)] = "off"
+    penalty_kick: Annotated[str, Choice("leaving the places at a penalty before the kick", CALLS)] = "off"

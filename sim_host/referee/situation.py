@@ -12,6 +12,7 @@ from sim_host.referee.game.set_piece import set_piece_after
 from sim_host.referee.game.shoot_out import ShootOut
 from sim_host.referee.match_constants import MatchConstants
 from sim_host.referee.placement.intrusions import intrusions_after
+from sim_host.referee.placement.penalty_strays import with_strays
 from sim_host.snapshot import BallState, Snapshot
 
 
@@ -49,7 +50,13 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
     seen = NO_EVIDENCE
     if state.running:
         seen = evidence_after(
-            match, state.evidence, match.keepers(state.participation.absences), state.cyan_attacks, snapshot, dt
+            match,
+            state.evidence,
+            match.keepers(state.participation.absences),
+            state.cyan_attacks,
+            snapshot,
+            dt,
+            in_play=in_play,
         )
     refbox_gone = state.refbox_gone
     if snapshot.refbox or refbox_gone is not None:
@@ -66,6 +73,8 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
         refbox_gone=refbox_gone,
         questions=tuple([question.after(dt) for question in state.questions]) if state.questions else (),
     )
+    if state.phase is Phase.PENALTY and state.running:
+        now_state = with_strays(match, now_state, snapshot)
     if state.shoot_out is not None and state.running:
         now_state = now_state._replace(shoot_out=_with_nearest_ball(match, now_state, snapshot, state.shoot_out))
     piece = now_state.set_piece

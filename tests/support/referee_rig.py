@@ -1,12 +1,13 @@
 """A rig for the referee: a world of points that does what the referee asks and nothing else."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.rule_book import RuleBook, load_rule_book
 from schemas.frames import Pose
 from schemas.game import ActionName, EventKind, Phase, Point
 from schemas.messages.game import GameEvent, RefereeAction
@@ -158,6 +159,13 @@ class RefereeRig:
     def run(self, seconds: float) -> list[Ruling]:
         return [self.tick() for _ in range(round(seconds / self.dt))]
 
+    def play_on(self, seconds: float, **seen: Any) -> list[Ruling]:
+        """Tick while the ball makes progress: every 2 s it is 4 m away from where it was; `seen` as in `tick`."""
+        return [
+            self.tick((1.0 + self.at * self.dt // 2.0 % 2.0 * 4.0, 0.0), **seen)
+            for _ in range(round(seconds / self.dt))
+        ]
+
     def until(self, done: Callable[[Any], bool], limit: float = 60.0) -> "RefereeRig":
         """Tick until the state is as wanted."""
         for _ in range(round(limit / self.dt)):
@@ -202,3 +210,21 @@ def _impact(robots: RobotStates, first: int, second: int) -> Impact:
     away = max(1e-9, math.dist((one.x, one.y), (other.x, other.y)))
     direction = ((other.x - one.x) / away, (other.y - one.y) / away)
     return Impact(first, second, direction, (one.vx, one.vy), (other.vx, other.vy))
+
+
+def with_book(rig: RefereeRig, book: RuleBook) -> RefereeRig:
+    """The rig with a referee that applies another rule book, before the first tick."""
+    match = rig.constants
+    rig.book = book
+    rig.constants = dataclasses.replace(match, book=book)
+    rig.referee = Referee(
+        book,
+        match.pitch,
+        match.ball,
+        match.roster,
+        duration=None,
+        kick_off=match.kick_off,
+        automatic=match.automatic,
+        starts=match.starts,
+    )
+    return rig

@@ -37,8 +37,10 @@ def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
         discipline.show_card(draft, rule, decision.robot, decision.card)
     if decision.shot_scored is not None:
         penalties.next_penalty(draft, rule)
-    else:
-        restart.stop(draft, rule, decision.restart)
+        return
+    if draft.state.shoot_out is not None:
+        penalties.retake(draft)
+    restart.stop(draft, rule, decision.restart)
 
 
 def _published_score(state: RefereeState, decision: Decision) -> Score | None:

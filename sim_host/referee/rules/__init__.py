@@ -24,10 +24,12 @@ from sim_host.referee.rules import (
     lob,
     long_hold,
     lost_ball,
+    no_progress,
     not_rolling,
     own_goal_kick,
     own_half_goal,
     penalty_area,
+    penalty_kick,
     pushing,
     scrum,
     shoot_out,
@@ -53,10 +55,12 @@ class Rule:
 
 
 RESTART_FOUL = ("restarts.restart_fouls", "restarts.in_play_distance")
+PENALTY = ("fouls.penalty_kick", "restarts.penalty_behind", "restarts.opponent_distance", "stall.still_speed")
 RULES: tuple[Rule, ...] = (
     Rule("early_touch", early_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("double_touch", double_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance"), occasion="set piece"),
+    Rule("penalty_kick", penalty_kick.judge, PENALTY, occasion="set piece"),
     Rule(
         "encroachment",
         encroachment.judge,
@@ -127,21 +131,46 @@ RULES: tuple[Rule, ...] = (
         occasion="impacts",
     ),
     Rule("pushing", pushing.judge, ("fouls.pushing", "contact.push_distance"), occasion="pushes"),
-    Rule("goal_area", goal_area.judge, ("fouls.goal_area", "areas.goal_area_duration"), occasion="stays"),
+    Rule(
+        "goal_area",
+        goal_area.judge,
+        ("fouls.goal_area", "areas.goal_area_duration", "areas.recovery"),
+        occasion="stays",
+    ),
     Rule(
         "penalty_area",
         penalty_area.judge,
-        ("fouls.penalty_area", "areas.penalty_area_robots", "areas.penalty_area_duration"),
+        (
+            "fouls.penalty_area",
+            "areas.penalty_area_robots",
+            "areas.penalty_area_duration",
+            "areas.penalty_area_stay",
+            "areas.recovery",
+        ),
         occasion="stays",
     ),
-    Rule("leaving_field", leaving_field.judge, ("fouls.leaving_field", "contact.outside_duration"), occasion="outside"),
+    Rule(
+        "leaving_field",
+        leaving_field.judge,
+        ("fouls.leaving_field", "contact.outside_duration", "contact.outside_recovery"),
+        occasion="outside",
+    ),
     Rule("stand_off", stand_off.judge, ("contact.stand_off_duration",), occasion="pushes"),
     Rule("scrum", scrum.judge, ("scrum.reach", "scrum.progress", "scrum.duration"), occasion="contest"),
     Rule("stall", stall.judge, ("stall.still_speed", "stall.still_duration"), occasion="still ball"),
+    Rule(
+        "no_progress",
+        no_progress.judge,
+        ("stall.progress_distance", "stall.progress_duration"),
+        occasion="no progress",
+    ),
     Rule("half_end", half_end.judge, ("periods.halves", "periods.half_duration"), while_running=False),
 )
 
-SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),)
+SHOOT_OUT: tuple[Rule, ...] = (
+    Rule("penalty_kick", penalty_kick.judge, PENALTY),
+    Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),
+)
 """The rules of the penalty shoot-out."""
 RULES_BY_TIME: Mapping[str, tuple[Rule, ...]] = {
     "running": RULES,
@@ -182,6 +211,7 @@ OCCASIONS = (
     "outside",
     "contest",
     "still ball",
+    "no progress",
 )
 """The occasions that rules depend on, in the order of `_occasions`."""
 
@@ -201,6 +231,7 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
         bool(seen.outside),
         seen.contest is not None,
         state.still > 0.0,
+        no_progress.is_due(situation),
     )
 
 
