@@ -37,7 +37,7 @@ def opening_state(config: MatchConfig) -> RefereeState:
         TouchlineError: the profile, the rule book or the scene of the match file is invalid.
     """
     live_parameters, book = LiveParameters.of(config), load_rule_book(config.rules)
-    start, began = opening_layout(config, live_parameters, book.restarts)
+    start, began = opening_layout(config, live_parameters, book)
     roster = Roster.of_entries(began.layout.robots, live_parameters.types)
     referee = make_referee(book, live_parameters.profile, roster, config.duration, config.referee)
     return referee.begin_at(start.game, began.ball)

@@ -4,7 +4,7 @@ import math
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
-from schemas.config.rule_book import Restarts
+from schemas.config.rule_book import Restarts, RuleBook
 from schemas.config.scene import Scene, SceneGame, SceneRobot
 from schemas.config.sections import Pitch
 from schemas.frames import Pose
@@ -22,18 +22,16 @@ _ROW = 9
 """Robots in each row behind the first five; every other row is shifted to the gaps of the row before."""
 
 
-def opening_layout(
-    config: MatchConfig, live_parameters: LiveParameters, restarts: Restarts
-) -> tuple[Scene, LayoutChange]:
+def opening_layout(config: MatchConfig, live_parameters: LiveParameters, book: RuleBook) -> tuple[Scene, LayoutChange]:
     """The scene that a match begins with, and the layout that it makes.
 
     Raises:
-        TouchlineError: a body would overlap another, or lie outside the field.
+        TouchlineError: a side has more robots than the rule book allows, or the pitch has no room for a body.
     """
     profile = live_parameters.profile
-    scene = config.scene if config.scene is not None else start_scene(config, profile, restarts)
+    scene = config.scene if config.scene is not None else start_scene(config, profile, book.restarts)
     began = scene_layout(scene, "")
-    check_layout(began.layout, Specs(profile.field, profile.ball, live_parameters.types), began.layout.names)
+    check_layout(began.layout, Specs(profile.field, profile.ball, live_parameters.types, book), began.layout.names)
     return scene, began
 
 
