@@ -12,7 +12,6 @@ from schemas.game import OfficiatingMode
 from schemas.side import Side
 from schemas.wire.message import Name, Part
 
-
 DEFAULT_SIZE = 5
 """Robots of a team that gives neither a size nor names."""
 

@@ -61,6 +61,9 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
+    moves_apart: Annotated[
+        int, Quantity("1", "1: robots moved at the limit get places apart from each other; 0: each its own", 0, 1)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +106,7 @@ class People:
     ]
     returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that return in one stoppage", 1, 11)]
     most_robots: Annotated[int, Quantity("1", "robots of a side in a match, at most", 1, MAX_ROBOTS)] = 5
+    entry_rows: Annotated[int, Quantity("1", "rows of places at the touch line where robots come back", 1, 5)] = 1
 
 
 SECTIONS: dict[str, type] = {

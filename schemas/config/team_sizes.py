@@ -19,5 +19,5 @@ def check_team_sizes(robots: Sequence[RosterEntry], book: RuleBook) -> None:
         count = sum(robot.side is side for robot in robots)
         if count > most:
             wider = [name for name in SHIPPED if load_rule_book(name).people.most_robots >= count]
-            remedy = f"; rule books that allow {count}: {', '.join(wider)}" if wider else ""
-            raise TouchlineError(f"{side} has {count} robots, the rule book {book.name} allows {most} of a side{remedy}")
+            remedy = f"; {count} are allowed by {', '.join(wider)}" if wider else ""
+            raise TouchlineError(f"{side} has {count} robots; the rules {book.name} allow {most} of a side{remedy}")

@@ -5,7 +5,8 @@ from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
 from schemas.config.rule_book import RuleBook, load_rule_book
 from sim_host.match.live_parameters import LiveParameters
-from sim_host.match.start_scene import opening_layout, start_poses
+from sim_host.match.start_poses import start_poses
+from sim_host.match.start_scene import opening_layout
 from sim_host.referee.core import Referee
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster
@@ -23,7 +24,7 @@ def make_referee(
         duration=duration,
         kick_off=options.kick_off,
         automatic=options.automatic,
-        starts=start_poses(roster, profile.field, book.restarts),
+        starts=start_poses(roster, profile.field, book.restarts)[0],
         mode=options.mode,
         proposal=options.proposal,
         winner=options.winner,

@@ -21,7 +21,7 @@ from sim_host.referee.game import set_piece
 from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.placement.clear_ground import clear_restart
-from sim_host.referee.placement.positions import PositionFault, is_spot_covered, legal_pose, position_faults
+from sim_host.referee.placement.positions import PositionFault, is_spot_covered, legal_poses, position_faults
 from sim_host.referee.procedures import discipline
 from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.wording import restart_text
@@ -145,7 +145,8 @@ def _before_start(draft: RulingDraft, restart: Restart) -> None:
 def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[PositionFault, ...]) -> None:
     """START when the positions limit is over: name robots in wrong positions, move them or show them a card."""
     numbers = draft.book.restarts
-    for fault in wrong:
+    poses = legal_poses(draft.match, draft.state, restart, draft.snapshot, wrong) if numbers.moves_offenders else []
+    for place, fault in enumerate(wrong):
         robot = draft.snapshot.robots[draft.match.roster.names.index(fault.robot)]
         draft.add_event(
             EventKind.FOUL,
@@ -160,7 +161,7 @@ def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[Positi
         )
         draft.state = draft.state._replace(offender=fault.robot)
         if numbers.moves_offenders:
-            draft.place_robot(fault.robot, legal_pose(draft.match, draft.state, restart, draft.snapshot, fault))
+            draft.place_robot(fault.robot, poses[place])
         if numbers.position_card and draft.match.mode is OfficiatingMode.AUTOMATIC:
             discipline.show_card(draft, POSITIONS, fault.robot, Card.YELLOW)
     start(draft, restart, f", although {wrong[0].text}" if wrong else "")
