@@ -4,11 +4,11 @@ import itertools
 import math
 
 import pytest
-from support.referee_rig import RefereeRig
 
 from schemas.game import GameStage, Phase
 from schemas.side import Side
 from sim_host.referee.placement.positions import position_faults
+from support.referee_rig import RefereeRig
 
 RESTARTS = {
     "kick_off": None,
