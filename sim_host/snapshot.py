@@ -1,7 +1,7 @@
 """The state of the world at one tick, as plain numbers in the field frame: the input of the referee and the sensors."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import NamedTuple, Self
 
@@ -13,6 +13,7 @@ from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.roster import RosterEntry
+from schemas.frames import Pose
 from schemas.side import Side
 
 BALL = "ball"
@@ -66,6 +67,34 @@ class RobotStates(tuple[RobotState, ...]):
         self = super().__new__(cls, robots)
         self.motions = RobotMotions.of(self)
         return self
+
+
+class Impact(NamedTuple):
+    """Two robots that have hit each other, by their indices in the roster, the smaller index first."""
+
+    first: int
+    second: int
+    direction: tuple[float, float]
+    """Unit vector from the first to the second, across the place where they touch."""
+    first_velocity: tuple[float, float]
+    """m/s before the impact."""
+    second_velocity: tuple[float, float]
+    """m/s before the impact."""
+
+    @property
+    def first_speed(self) -> float:
+        """m/s at which the first drove toward the second; negative if it drove away."""
+        return self.first_velocity[0] * self.direction[0] + self.first_velocity[1] * self.direction[1]
+
+    @property
+    def second_speed(self) -> float:
+        """m/s at which the second drove toward the first; negative if it drove away."""
+        return -self.second_velocity[0] * self.direction[0] - self.second_velocity[1] * self.direction[1]
+
+    @property
+    def closing_speed(self) -> float:
+        """m/s at which they approached each other."""
+        return self.first_speed + self.second_speed
 
 
 class BallState(NamedTuple):
@@ -166,9 +195,17 @@ class Snapshot:
     """A league's referee box is connected."""
     contacts: tuple[tuple[int, int], ...] = ()
     """Pairs of robots that touch each other, by their indices in the roster, sorted, the smaller index first."""
+    impacts: tuple[Impact, ...] = ()
+    """Robots that have hit each other since the tick before, in the order of the roster."""
     ball_spin: tuple[float, float] = (0.0, 0.0)
     """rad/s; the ball's spin about the field's x and y. A rolling ball has the spin (−vy, vx) / radius."""
     obstacles: tuple[ObstacleState, ...] = ()
     """Fixed bodies, in the order in which they were added."""
     kickers_ready: tuple[bool, ...] = ()
     """Per robot: its kicker is charged."""
+
+    def with_robot_at(self, name: str, pose: Pose) -> "Snapshot":
+        """The same snapshot with a robot at another pose."""
+        index = self.roster.names.index(name)
+        moved = self.robots[index]._replace(x=pose.x, y=pose.y, heading=pose.heading)
+        return replace(self, robots=RobotStates((*self.robots[:index], moved, *self.robots[index + 1 :])))

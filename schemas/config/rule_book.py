@@ -7,11 +7,12 @@ from importlib import resources
 from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
-from schemas.config.quantity import Quantity, merge_tables, read_section
+from schemas.config.quantity import Choice, Quantity, merge_tables, read_section
+from schemas.config.roster import MAX_ROBOTS
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
-SHIPPED = ("china-sim-2020", "friendly", "msl", "paper")
+SHIPPED = ("china-sim-2020", "eleven", "friendly", "msl", "paper")
 """The rule books that the package ships."""
 
 
@@ -38,7 +39,9 @@ class Restarts:
 
     stop_to_signal: Annotated[float, Quantity("s", "pause from STOP to the restart signal", 0, 60)]
     signal_to_start: Annotated[float, Quantity("s", "time to take positions, from the signal to START", 0, 60)]
-    positions_limit: Annotated[float, Quantity("s", "longest wait of START for robots in illegal positions", 0, 60)]
+    positions_limit: Annotated[
+        float, Quantity("s", "longest wait of START for robots in illegal positions, see `positions_from`", 0, 60)
+    ]
     time_limit: Annotated[float, Quantity("s", "latest time after START for the ball to be in play", 1, 60)]
     penalty_limit: Annotated[float, Quantity("s", "the same at a penalty: time to reach the ball", 1, 60)]
     in_play_distance: Annotated[float, Quantity("m", "the ball is in play after rolling freely this far", 0, 5)]
@@ -60,14 +63,39 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
+    encroach_margin: Annotated[
+        float,
+        Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),
+    ] = 0.2
+    encroach_retreat: Annotated[
+        float, Quantity("s", "time to retreat for a robot that was too near at START or was pushed there", 0, 60)
+    ] = 2.0
+    advantage: Annotated[
+        float,
+        Quantity("s", "time that play goes on for a side that keeps the ball after a foul; 0: no advantage", 0, 30),
+    ] = 0.0
+    positions_from: Annotated[
+        str,
+        Choice("`positions_limit` counts from the signal, or from the earliest START", ("signal", "earliest start")),
+    ] = "earliest start"
+    penalty_behind: Annotated[
+        int, Quantity("1", "1: at a penalty all but kicker and goalkeeper stay behind the ball; 0: not", 0, 1)
+    ] = 0
+    moves_apart: Annotated[
+        int, Quantity("1", "1: robots moved at the limit get places apart from each other; 0: each its own", 0, 1)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Stall:
-    """When a ball that no robot moves is dropped."""
+    """When a ball that lies still or makes no progress is dropped."""
 
     still_speed: Annotated[float, Quantity("m/s", "a slower ball counts as still", 0, 2)]
     still_duration: Annotated[float, Quantity("s", "a ball still for this long is dropped", 1, 120)]
+    progress_distance: Annotated[
+        float, Quantity("m", "a ball that leaves a circle of this radius makes progress; 0: none is required", 0, 20)
+    ] = 0.0
+    progress_duration: Annotated[float, Quantity("s", "longest time of a ball in play without progress", 1, 120)] = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,23 +112,31 @@ class Discipline:
     reds_to_removal: Annotated[
         int, Quantity("1", "with each such number of red cards of a side, the robot is out for the match", 0, 20)
     ]
-    reset_each_half: Annotated[int, Quantity("1", "1: yellow cards are cleared at half time", 0, 1)]
+    reset_each_half: Annotated[int, Quantity("1", "1: yellow cards and repeated fouls are cleared at half time", 0, 1)]
+    repeated_encroachment: Annotated[
+        int, Quantity("1", "encroachments of one robot from which on each is a yellow card; 0: none", 0, 20)
+    ] = 0
+    repeated_fouls: Annotated[
+        int, Quantity("1", "fouls of one kind by one robot from which on each is a yellow card; 0: none", 0, 20)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)
 class People:
-    """Robots that leave and return."""
+    """How many robots a side has, and how they leave and return."""
 
-    least_robots: Annotated[int, Quantity("1", "a side that cannot field as many robots forfeits; 0: never", 0, 5)]
+    least_robots: Annotated[int, Quantity("1", "a side that cannot field as many robots forfeits; 0: never", 0, 11)]
     forfeit_goals: Annotated[int, Quantity("1", "least goal difference of a forfeited match", 0, 20)]
     repair: Annotated[float, Quantity("s", "time off the field of a robot in repair", 0, 600)]
-    repairs_at_once: Annotated[int, Quantity("1", "robots of a side in repair at the same time", 0, 5)]
+    repairs_at_once: Annotated[int, Quantity("1", "robots of a side in repair at the same time", 0, 11)]
     substitutions: Annotated[int, Quantity("1", "substitutions of a side in one match", 0, 20)]
     substitution: Annotated[float, Quantity("s", "time from a robot's leaving to its substitute's entry", 0, 600)]
     silent_limit: Annotated[
         float, Quantity("s", "time after which a robot without a program is taken off the field; 0: never", 0, 600)
     ]
-    returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that return in one stoppage", 1, 5)]
+    returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that return in one stoppage", 1, 11)]
+    most_robots: Annotated[int, Quantity("1", "robots of a side in a match, at most", 1, MAX_ROBOTS)] = 5
+    entry_rows: Annotated[int, Quantity("1", "rows of places at the touch line where robots come back", 1, 5)] = 1
 
 
 SECTIONS: dict[str, type] = {
@@ -132,9 +168,9 @@ class RuleBook(Described):
     discipline: Discipline
     """Cards and their consequences."""
     people: People
-    """Repairs, substitutions and forfeits."""
+    """Sizes of the sides, repairs, substitutions and forfeits."""
     stall: Stall
-    """When a ball that no robot moves is dropped."""
+    """When a ball that lies still or makes no progress is dropped."""
     scrum: Scrum
     """When a ball that both sides contest is dropped."""
     scoring: Scoring

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from schemas.config.roster import Placement
+from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase
@@ -11,7 +12,6 @@ from schemas.messages.scene import SceneReply, SceneRequest
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.subsystems import Subsystems
-from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import BALL, Snapshot
 from sim_host.staging.layout import Layout, LayoutChange, Specs
@@ -22,7 +22,7 @@ class OperatorRequests:
     """Holds the layout, the parameters and the episode of a match, and the changes that its next tick applies."""
 
     def __init__(
-        self, live_parameters: LiveParameters, subsystems: Subsystems, start: Scene, began: LayoutChange
+        self, live_parameters: LiveParameters, subsystems: Subsystems, book: RuleBook, start: Scene, began: LayoutChange
     ) -> None:
         """`start` is the scene that the match begins with, and `began` the layout that it makes."""
         self.live_parameters = live_parameters
@@ -33,6 +33,7 @@ class OperatorRequests:
         )
         """Changes to apply before the next tick."""
         self._subsystems = subsystems
+        self._book = book
         self._reset_scenes = ResetScenes(start, start)
 
     def pop_pending(self) -> PendingChanges:
@@ -106,15 +107,13 @@ class OperatorRequests:
             self.episode += 1
             return self._subsystems.referee.begin_at(change.game, change.ball)
         if change.placements or self.layout.robots != before.robots:
-            participation = state.participation.of_robots(self._subsystems.roster.names)
-            # A body that was set down did not run or dribble to its place: what was seen before proves nothing.
-            return state._replace(participation=participation, evidence=NO_EVIDENCE)
+            return state.after_layout_change(self._subsystems.roster.names)
         return state
 
     @property
     def _specs(self) -> Specs:
         profile = self.live_parameters.profile
-        return Specs(profile.field, profile.ball, self.live_parameters.types)
+        return Specs(profile.field, profile.ball, self.live_parameters.types, self._book)
 
 
 def _setting_text(value: Setting) -> str:

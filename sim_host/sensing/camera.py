@@ -15,6 +15,7 @@ from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams,
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.team_frames import TeamFrames
+from sim_host.sensing.view import View
 from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Roster, Snapshot
 
 _NO_DISTANCE = np.array(1e-9)
@@ -85,6 +86,7 @@ class Camera:
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
         self._is_other = np.arange(-1, bodies) != np.arange(robots)[:, None]
         self._draws = pair_draws(s, self._streams, self._shutter, roster.names, names)
+        self._view = View.of([model.camera for model in roster.models])
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
         self._ends = np.arange(1, robots + 1)
@@ -99,6 +101,8 @@ class Camera:
         distance = np.abs(places)
         found: Flags = distance <= self._range
         found &= self._is_other
+        if self._view is not None:
+            found &= self._view.has(places, distance, robots.heading)
         if self._sensing.occlusion == "hulls":
             self._hulls.hide(found, places, distance, robots.heading, ball.z)
         self._blur_by(distance, self._draws.detect(number, found))
