@@ -2,7 +2,6 @@
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
-from schemas.config.rule_book import load_rule_book
 from schemas.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.claim import AgentClaim, AgentClaimReply
@@ -207,5 +206,5 @@ def _parameters() -> tuple[WireMessage, ...]:
 def _setup() -> Setup:
     """The setup of the default match, which is played without a match file."""
     config = MatchConfig()
-    profile, book = config.load_profile(), load_rule_book(config.rules)
+    profile, book = config.load_profile(), config.load_rule_book()
     return Setup.of(config, profile, book, {"engine": "pybullet 3.2.7, api 202010061"})

@@ -12,7 +12,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
-from schemas.config.rule_book import RuleBook, load_rule_book
+from schemas.config.rule_book import RuleBook
 from schemas.game import EventKind
 from schemas.messages.applied import Applied
 from schemas.messages.game import GameEvent, GameState
@@ -40,12 +40,12 @@ class OfficiatingSettings(NamedTuple):
         """The settings from a match file, or else from the host's setup; None if neither has them.
 
         Raises:
-            TouchlineError: the rule book is not one of this version.
+            TouchlineError: the numbers of the rule book are not recorded.
         """
         if config is not None:
-            return cls(load_rule_book(config.rules), config.duration, config.referee)
+            return cls(config.load_rule_book(), config.duration, config.referee)
         if setup is not None and setup.referee is not None:
-            return cls(load_rule_book(setup.rules), setup.duration, setup.referee)
+            return cls(setup.rule_book(), setup.duration, setup.referee)
         return None
 
 

@@ -11,7 +11,7 @@ from msgspec import Raw
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
-from schemas.config.rule_book import RuleBook, load_rule_book
+from schemas.config.rule_book import RuleBook
 from schemas.game import Phase
 from schemas.messages.applied import AppliedInput, OperatorChange, chained_part
 from schemas.messages.coach import CoachOrder
@@ -71,7 +71,7 @@ class Simulation:
     def __init__(self, config: MatchConfig) -> None:
         self.config = config
         live_parameters = LiveParameters.of(config)
-        self.book: RuleBook = load_rule_book(config.rules)
+        self.book: RuleBook = config.load_rule_book()
         self._engine = {**fingerprint(), "referee": referee_fingerprint()}
         start, began = opening_layout(config, live_parameters, self.book.restarts)
         self._subsystems = Subsystems(config, self.book, live_parameters, began.layout.robots)

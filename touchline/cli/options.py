@@ -15,7 +15,6 @@ from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import SHIPPED as PROFILES
 from schemas.config.robot_model import models_of
 from schemas.config.rule_book import SHIPPED as RULE_BOOKS
-from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.missing_engine import missing_engine_text
@@ -31,7 +30,7 @@ Scene = Annotated[str | None, typer.Option(help="Start in this scene, by name or
 Profile = Annotated[
     str | None, typer.Option(help=f"Field, bodies and limits: {', '.join(PROFILES)}, or the path of a file.")
 ]
-Rules = Annotated[str | None, typer.Option(help=f"Rule book: {', '.join(RULE_BOOKS)}.")]
+Rules = Annotated[str | None, typer.Option(help=f"Rule book: {', '.join(RULE_BOOKS)}, or the path of a file.")]
 Include = Annotated[
     list[str] | None,
     typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable."),
@@ -87,7 +86,7 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     given = {key.replace("__", "."): value for key, value in flags.items() if value is not None}
     config = load_match(file, given)
     models_of(config, config.load_profile())
-    book = load_rule_book(config.rules)
+    book = config.load_rule_book()
     need_pybullet()
     from sim_host.match.live_parameters import LiveParameters
     from sim_host.match.start_scene import opening_layout

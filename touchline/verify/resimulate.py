@@ -13,6 +13,7 @@ from pathlib import Path
 
 from recordings.container.manifest import KeyCount
 from recordings.inspection.contradictions import contradictions, record_faults
+from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
 from schemas.errors import TouchlineError
@@ -100,7 +101,7 @@ def _missing_worlds(recording: Recording, missing: int) -> list[str]:
 
 def _why_no_referee(recording: Recording, segments: list[Segment]) -> str:
     """Why the referee cannot be simulated; empty if it can."""
-    if OfficiatingSettings.of(recording.manifest.config, recording.manifest.setup) is None:
+    if OfficiatingSettings.of(config_of(recording), recording.manifest.setup) is None:
         return "the recording has neither its match file nor a setup with the referee's settings"
     if not all(segment.start.has_referee for segment in segments):
         return "the recording does not hold the states of its referee, as it is from an older version"
