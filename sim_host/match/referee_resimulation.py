@@ -23,7 +23,7 @@ from sim_host.match.state_schedule import StateSchedule
 from sim_host.match.world_fields import Fields
 from sim_host.referee.core import Referee
 from sim_host.referee.game.referee_state import RefereeState
-from sim_host.referee.game.state_json import state_from_json
+from sim_host.referee.game.state_json import state_from_json, without_newer_fields
 from sim_host.snapshot import Roster, Snapshot
 
 
@@ -110,11 +110,11 @@ class RefereeResimulation:
         conflicts = [] if by_scene else self._unlike_the_ruling(applied)
         if recorded is not None:
             if not by_scene:
-                conflicts += _conflicts(recorded, self._state)
+                conflicts += _conflicts(recorded, self._state, applied.referee)
             elif applied.episode == self._episode:
                 # an operator who moves bodies or robots changes what has been seen, and who takes part; nothing else
                 expected = self._state._replace(participation=recorded.participation, evidence=recorded.evidence)
-                conflicts += _conflicts(recorded, expected)
+                conflicts += _conflicts(recorded, expected, applied.referee)
             self._state = recorded
         if applied.episode != self._episode and (not by_scene or applied.episode < self._episode):
             conflicts.append(StateConflict("episode", applied.episode, self._episode))
@@ -192,9 +192,11 @@ def _recorded_state(applied: Applied) -> RefereeState | None:
         ) from None
 
 
-def _conflicts(recorded: RefereeState, simulated: RefereeState) -> list[StateConflict]:
+def _conflicts(recorded: RefereeState, simulated: RefereeState, text: str) -> list[StateConflict]:
+    """The fields that differ, among those in the recorded text: the text of an older version has fewer."""
     if recorded == simulated:
         return []
+    simulated = without_newer_fields(simulated, recorded, text)
     pairs = zip(RefereeState._fields, recorded, simulated, strict=True)
     return [StateConflict(name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
 
