@@ -14,6 +14,7 @@ from schemas.messages.parameters import Parameter, ParameterOperation, Parameter
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderOperation, RecorderProgress, RecorderReply, RecorderRequest
+from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
@@ -117,6 +118,8 @@ def _game() -> tuple[WireMessage, ...]:
         ),
         RefereeAction(action=ActionName.FREE_KICK, side=Side.MAGENTA, place=Point(x=2.0, y=-3.5)),
         ActionReply(accepted=False, reason="free_kick: no half is being played, the phase is half_time"),
+        SeatRequest(operation=SeatOperation.TAKE, referee="gateway_5f0c6e1d", source="referee's page"),
+        SeatReply(accepted=True, holder="referee's page (gateway_5f0c6e1d)"),
     )
 
 
