@@ -15,6 +15,10 @@ from schemas.config.quantity import merge_tables
 from schemas.errors import TouchlineError, did_you_mean
 
 VERSION_KEY = "version"
+PROFILE_KEY = "profile"
+"""In a rule book: the profile whose pitch it describes."""
+HEADER = (VERSION_KEY, PROFILE_KEY)
+"""Keys of a file that those which extend it do not get."""
 UNVERSIONED = 0
 """The version of a file without one: a user's own, or one that is older than versions."""
 
@@ -45,8 +49,8 @@ class NumberFiles:
         if parent is None:
             return tables
         base = self.tables(str(parent), (*below, name))
-        base.pop(VERSION_KEY, None)
-        return merge_tables(base, tables)
+        inherited = {key: value for key, value in base.items() if key not in HEADER}
+        return merge_tables(inherited, tables)
 
     def text(self, name: str) -> str:
         """The TOML text of one file.

@@ -31,7 +31,7 @@ from schemas.config.sections import (
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
-SHIPPED = ("msl", "ideal", "omni", "omni3", "paper")
+SHIPPED = ("msl", "ideal", "omni", "omni3", "msl-2016", "paper")
 """The profiles that the package ships."""
 FILES = NumberFiles("profile", "profiles", SHIPPED)
 """Where profiles are read from."""

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
-from schemas.config.number_files import UNVERSIONED, VERSION_KEY, NumberFiles, version_of
+from schemas.config.number_files import HEADER, PROFILE_KEY, UNVERSIONED, NumberFiles, version_of
 from schemas.config.quantity import Quantity, read_section
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
-SHIPPED = ("china-sim-2020", "friendly", "msl", "paper")
+SHIPPED = ("china-sim-2020", "friendly", "msl", "msl-2016", "msl-2019", "paper")
 """The rule books that the package ships."""
 FILES = NumberFiles("rules", "rule_books", SHIPPED)
 """Where rule books are read from."""
@@ -158,6 +158,8 @@ class RuleBook(Described):
     """`section.key` → origin of the number."""
     version: int = UNVERSIONED
     """Version of the numbers; 0 for a file without one, and in recordings that are older than versions."""
+    profile: str | None = None
+    """Name of the profile whose pitch the rule book describes; None for a rule book that describes none."""
 
 
 def load_rule_book(name: str) -> RuleBook:
@@ -182,11 +184,13 @@ def rule_book_of(name: str, tables: Mapping[str, Any], *, recorded: bool = False
         key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins, recorded=recorded)
         for key, cls in SECTIONS.items()
     }
-    version = version_of(tables, name)
-    for section in sorted(set(tables) - {*SECTIONS, VERSION_KEY}):
+    version, profile = version_of(tables, name), tables.get(PROFILE_KEY)
+    if profile is not None and not isinstance(profile, str):
+        raise TouchlineError(f'{name}: profile is {profile!r}; write the name of a profile, profile = "msl"')
+    for section in sorted(set(tables) - {*SECTIONS, *HEADER}):
         raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, SECTIONS)}")
     origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
-    return RuleBook(name=name, origins=origins, version=version, **sections)
+    return RuleBook(name=name, origins=origins, version=version, profile=profile, **sections)
 
 
 def rule_book_tables(name: str) -> dict[str, Any]:

@@ -37,8 +37,9 @@ card.
 
 SITUATIONS = """
 For a committee: each situation that this referee judges, the clause, the file of the rule, the event and the restart
-that it gives, and the test that shows it. Laws are numbered as in FIFA's Laws of the Game, which the league's rule
-books reproduce with changes of their own; our sources quote these books by subject, so that pages are not named.
+that it gives, and the test that shows it. A clause is the subject in the league's rule book: our sources quote the rule
+books by subject, without numbers of clauses or pages. In brackets stand the laws on that subject in FIFA's Laws of the
+Game, which the rule books reproduce with changes of their own; which law belongs to a subject is our assignment.
 """
 NOT_JUDGED = """
 What rule books have and this referee leaves to people, and what each rule leaves open.

@@ -21,14 +21,14 @@ from sim_host.referee.rules import RULES, SHOOT_OUT, Rule
 LABELS = ("Section", "Measures", "Not judged")
 """The labels that the docstring of every rule has, in this order, after the description of the rule."""
 LAWS = {
-    "match": "Law 7, and the competition rules",
-    "restarts, throw-in": "Law 15",
-    "restarts, corner and goal kick": "Laws 16 and 17",
-    "restarts": "Laws 8 and 13 to 17",
-    "play, scoring": "Law 10",
-    "play": "Law 12",
+    "match": "7",
+    "restarts, throw-in": "15",
+    "restarts, corner and goal kick": "16, 17",
+    "restarts": "8, 13 to 17",
+    "play, scoring": "10",
+    "play": "12",
 }
-"""Subject at the beginning of `Section:` → the law on it, the longest subject first."""
+"""Subject at the beginning of `Section:` → FIFA's laws on it, the longest subject first."""
 OURS = "ours"
 """The clause of what no rule book has."""
 _RESTARTS = re.compile(
@@ -72,12 +72,12 @@ def not_judged() -> Iterator[tuple[str, str]]:
 
 
 def clause(section: str) -> str:
-    """The section of a rule with the law on its subject."""
+    """The section of a rule with FIFA's laws on its subject."""
     subject = section.removesuffix(".")
     if subject.startswith((OURS, "none")) or "has no such limit" in subject:
         return subject
     law = next((law for name, law in LAWS.items() if subject.startswith(name)), None)
-    return subject if law is None else f"{law}: {subject}"
+    return subject if law is None else f"{subject} (FIFA {law})"
 
 
 def parts_of_rule(rule: Rule) -> tuple[str, dict[str, str]]:

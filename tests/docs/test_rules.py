@@ -72,10 +72,10 @@ def test_what_rules_leave_open_stands_in_the_table():
 @pytest.mark.parametrize(
     ("section", "named"),
     [
-        ("play, scoring.", "Law 10: play, scoring"),
-        ("play, pushing.", "Law 12: play, pushing"),
-        ("restarts, throw-in.", "Law 15: restarts, throw-in"),
-        ("match.", "Law 7, and the competition rules: match"),
+        ("play, scoring.", "play, scoring (FIFA 10)"),
+        ("play, pushing.", "play, pushing (FIFA 12)"),
+        ("restarts, throw-in.", "restarts, throw-in (FIFA 15)"),
+        ("match.", "match (FIFA 7)"),
         ("ours.", "ours"),
         ("none; ours, since only a simulation can.", "none; ours, since only a simulation can"),
     ],

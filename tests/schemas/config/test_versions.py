@@ -19,12 +19,15 @@ from schemas.errors import TouchlineError
 DIGESTS = {
     "profiles/ideal": (1, "d65651492ae5"),
     "profiles/msl": (1, "ead0e1b36a16"),
+    "profiles/msl-2016": (1, "a636a33ad3a7"),
     "profiles/omni": (1, "cd98f0afcaea"),
     "profiles/omni3": (1, "a5e0458d34c8"),
     "profiles/paper": (1, "94f581d8b8f0"),
     "rule_books/china-sim-2020": (1, "1d61d61902b4"),
     "rule_books/friendly": (1, "ef3415066355"),
     "rule_books/msl": (1, "20c03bc34c0b"),
+    "rule_books/msl-2016": (1, "bed3513f4c4b"),
+    "rule_books/msl-2019": (1, "bed3513f4c4b"),
     "rule_books/paper": (1, "20e0df7b02d1"),
 }
 """File → its version, and a digest of its numbers."""
