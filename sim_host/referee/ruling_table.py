@@ -137,16 +137,19 @@ def _kinds(module: ModuleType) -> tuple[EventKind, ...]:
 def _tests() -> dict[str, str]:
     """Rule → the first test that compares the rule of an event with its name, or has it as a case.
 
-    Files that name many rules come first: they are about rules.
+    Files that name many rules come first: they are about rules. A test that names the rule through a constant or a
+    function of its file comes last.
     """
     root = Path(inspect.getfile(sys.modules["sim_host"])).parents[1]
     files: list[tuple[str, list[tuple[str, str]]]] = []
+    indirect: list[tuple[str, list[tuple[str, str]]]] = []
     for path in sorted((root / _TESTS).glob("test_*.py")):
         tree = ast.parse(path.read_text("utf-8"))
         files.append(((_TESTS / path.name).as_posix(), [*_cases(tree), *_comparisons(tree)]))
+        indirect.append((files[-1][0], list(_mentions(tree))))
     files.sort(key=lambda file: -len({rule for _, rule in file[1]}))
     found: dict[str, str] = {}
-    for where, named in files:
+    for where, named in [*files, *indirect]:
         for name, rule in named:
             found.setdefault(rule, f"{where}::{name}")
     return found
@@ -169,6 +172,24 @@ def _comparisons(tree: ast.Module) -> Iterator[tuple[str, str]]:
                 if isinstance(node, ast.Compare) and ".rule" in ast.unparse(node):
                     strings = _strings([node, *node.comparators])
                     yield from ((function.name, string) for string in strings)
+
+
+def _mentions(tree: ast.Module) -> Iterator[tuple[str, str]]:
+    """Name of the first test that uses a constant or a function of its file, and the strings in that."""
+    tests = [one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name.startswith("test_")]
+    for definition in tree.body:
+        if isinstance(definition, ast.FunctionDef):
+            names = {definition.name} if definition not in tests else set()
+        else:
+            names = {one.id for one in ast.walk(definition) if isinstance(one, ast.Name) and _is_stored(one)}
+        for test in tests:
+            if names & {one.id for one in ast.walk(test) if isinstance(one, ast.Name)}:
+                yield from ((test.name, string) for string in _strings([definition]))
+                break
+
+
+def _is_stored(name: ast.Name) -> bool:
+    return isinstance(name.ctx, ast.Store)
 
 
 def _strings(nodes: Iterable[ast.AST]) -> list[str]:
