@@ -175,7 +175,7 @@ def _comparisons(tree: ast.Module) -> Iterator[tuple[str, str]]:
 
 
 def _mentions(tree: ast.Module) -> Iterator[tuple[str, str]]:
-    """Name of the first test that uses a constant or a function of its file, and the strings in that."""
+    """Name of a test, and the strings in what it compares or in the definitions of its file that it uses."""
     tests = [one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name.startswith("test_")]
     for definition in tree.body:
         if isinstance(definition, ast.FunctionDef):
@@ -186,6 +186,9 @@ def _mentions(tree: ast.Module) -> Iterator[tuple[str, str]]:
             if names & {one.id for one in ast.walk(test) if isinstance(one, ast.Name)}:
                 yield from ((test.name, string) for string in _strings([definition]))
                 break
+    for test in tests:
+        compared = [node for node in ast.walk(test) if isinstance(node, ast.Compare)]
+        yield from ((test.name, string) for string in _strings(compared))
 
 
 def _is_stored(name: ast.Name) -> bool:

@@ -73,11 +73,7 @@ class RefereeSeat:
                 self._changes.append(f"{sender} officiates")
         if self.holder is None or self.holder.referee == sender.referee:
             return None
-        remedy = (
-            "disconnect one of the two boxes"
-            if is_box
-            else "only stop is accepted; press Take over, or run touchline referee take-over"
-        )
+        remedy = "disconnect one of the two boxes" if is_box else "press Take over, or run touchline referee take-over"
         return self._refuse(action, f"{self.holder} officiates; {remedy}")
 
     def handle(self, request: SeatRequest) -> SeatReply:
@@ -121,7 +117,7 @@ class RefereeSeat:
         if action.referee not in self._refused and len(self._refused) < _MAX_REFUSED:
             self._refused.add(action.referee)
             sender = Holder(action.referee, action.source)
-            self._changes.append(f"{sender} is refused as referee ({action.action}): {reason}")
+            self._changes.append(f"{sender} is refused as referee ({action.action}): {reason.partition('; ')[0]}")
         return reason
 
     def _shown_holder(self) -> str | None:
