@@ -10,6 +10,7 @@ from recordings.container.attachments import PROFILE, RULE_BOOK, UNVERSIONED_RUL
 from recordings.reading.recording import Recording
 from schemas.config.match_config import MatchConfig
 from schemas.config.number_files import UNVERSIONED
+from schemas.config.profile import load_profile
 from schemas.config.quantity import merge_tables
 from schemas.config.rule_book import load_rule_book, unversioned_tables
 from schemas.errors import TouchlineError
@@ -19,13 +20,26 @@ def config_of(recording: Recording) -> MatchConfig | None:
     """The config of a recording with its attached profile and rule book; None if the config was not recorded.
 
     Raises:
-        TouchlineError: an attachment is damaged, or nothing in the recording has the numbers of its rule book.
+        TouchlineError: an attachment is damaged or lost, and this program has the numbers of another version.
     """
     config = recording.manifest.config
     if config is None:
         return None
-    tables = {"profile_tables": _attached(recording, PROFILE), "rule_book_tables": _rule_book_tables(recording, config)}
-    return config.model_copy(update={key: value for key, value in tables.items() if value is not None})
+    tables = {
+        "profile_tables": _profile_tables(recording, config),
+        "rule_book_tables": _rule_book_tables(recording, config),
+    }
+    return config.model_copy(update=tables)
+
+
+def _profile_tables(recording: Recording, config: MatchConfig) -> dict[str, Any] | None:
+    """The recorded tables of the profile; None for the shipped one, which has the version of the recording."""
+    tables = _attached(recording, PROFILE) or config.profile_tables
+    setup = recording.manifest.setup
+    if tables is None and setup is not None and setup.profile_version != UNVERSIONED:
+        shipped = load_profile(config.profile).version
+        _check_version(recording, PROFILE, f"the profile {config.profile}", shipped, setup.profile_version)
+    return tables
 
 
 def _rule_book_tables(recording: Recording, config: MatchConfig) -> dict[str, Any] | None:
@@ -42,12 +56,16 @@ def _rule_book_tables(recording: Recording, config: MatchConfig) -> dict[str, An
     if version == UNVERSIONED:
         return unversioned_tables(config.rules)
     shipped = load_rule_book(config.rules).version
-    if shipped != version:
-        raise TouchlineError(
-            f"{recording.path}: its attached {RULE_BOOK} is missing or damaged, and the rule book {config.rules} has "
-            f"version {shipped} in this program, {version} in the recording; use another copy of the recording"
-        )
+    _check_version(recording, RULE_BOOK, f"the rule book {config.rules}", shipped, version)
     return None
+
+
+def _check_version(recording: Recording, attachment: str, what: str, shipped: int, recorded: int) -> None:
+    if shipped != recorded:
+        raise TouchlineError(
+            f"{recording.path}: its attached {attachment} is missing or damaged, and {what} has version {shipped} in "
+            f"this program, {recorded} in the recording; use another copy of the recording"
+        )
 
 
 def _attached(recording: Recording, name: str) -> dict[str, Any] | None:

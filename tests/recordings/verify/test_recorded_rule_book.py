@@ -18,6 +18,7 @@ from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.config.number_files import NumberFiles
+from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from sim_host.match import program_versions
@@ -26,21 +27,19 @@ from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
 
 BEFORE_VERSIONS = Path(__file__).parents[1] / "data" / "before_versions.mcap"
-SLOWER_STOP = ("stop_to_signal = { value = 2.0", "stop_to_signal = { value = 0.3")
+SHORTER_STOP = ("stop_to_signal = { value = 2.0", "stop_to_signal = { value = 0.3")
 FRIENDLY_STOP = ("stop_to_signal = { value = 0.5", "stop_to_signal = { value = 0.1")
 TWO_A_SIDE = {"teams.cyan.size": 2, "teams.magenta.size": 2}
 
 
 @pytest.fixture
-def later_books(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A later program: its shipped rule books have other numbers, another version, and a faster pause after STOP."""
+def later_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A later program: its shipped files have another version, and its rule books a shorter pause after STOP."""
     read = NumberFiles.text
 
     def changed(files: NumberFiles, name: str) -> str:
         text = read(files, name)
-        if files.folder != "rule_books":
-            return text
-        return text.replace(*SLOWER_STOP).replace(*FRIENDLY_STOP).replace("version = ", "version = 9")
+        return text.replace(*SHORTER_STOP).replace(*FRIENDLY_STOP).replace("version = ", "version = 9")
 
     monkeypatch.setattr(NumberFiles, "text", changed)
     assert load_rule_book("msl").restarts.stop_to_signal == 0.3
@@ -68,29 +67,37 @@ def test_a_recording_from_before_versions_is_identical_with_its_referee() -> Non
     assert {"touch_line", "pushing", "not_rolling", "half_end"} <= rules
 
 
-@pytest.mark.usefixtures("later_books")
+@pytest.mark.usefixtures("later_numbers")
 def test_a_recording_from_before_versions_is_identical_when_the_shipped_rule_book_has_changed() -> None:
     is_verified_with_its_referee(BEFORE_VERSIONS)
 
 
-@pytest.mark.usefixtures("later_books")
+@pytest.mark.usefixtures("later_numbers")
 def test_a_recording_of_today_is_identical_when_the_shipped_rule_book_has_changed(today: Path) -> None:
     is_verified_with_its_referee(today)
 
 
-@pytest.mark.usefixtures("later_books")
+@pytest.mark.usefixtures("later_numbers")
 def test_its_sights_are_simulated_again_by_the_embedded_rule_book(today: Path) -> None:
     brain = "robot_agent.teams.simple:Simple"
     comparison = compare_brain(open_recording(today), "cyan1", brain)
     assert comparison.until == "" and comparison.compared > 500
 
 
-@pytest.mark.usefixtures("later_books")
+@pytest.mark.usefixtures("later_numbers")
 def test_a_recording_without_its_match_file_is_judged_by_the_rule_book_in_its_setup(today: Path, edited: Any) -> None:
     def without_config(name: str, fields: dict[str, str]) -> dict[str, str]:
         return {key: value for key, value in fields.items() if (name, key) != ("manifest", "config")}
 
     is_verified_with_its_referee(edited(today, "", lambda fields: fields, without_config))
+
+
+def test_lost_numbers_are_those_that_the_program_ships_in_the_same_version(today: Path) -> None:
+    recording = open_recording(today)
+    recording.attachments.clear()
+    config = config_of(recording)
+    assert config is not None
+    assert config.load_rule_book() == load_rule_book("friendly") and config.load_profile() == load_profile("msl")
 
 
 def test_the_embedded_rule_book_is_whole(today: Path) -> None:
@@ -130,11 +137,14 @@ def test_an_embedded_rule_book_that_cannot_be_read_is_named_in_one_line(today: P
         verify(copy)
 
 
-@pytest.mark.usefixtures("later_books")
-def test_a_lost_rule_book_is_not_replaced_by_one_of_another_version(today: Path) -> None:
+@pytest.mark.usefixtures("later_numbers")
+@pytest.mark.parametrize(
+    ("attachment", "what"), [("rules.json", "rule book friendly"), ("profile.json", "profile msl")]
+)
+def test_lost_numbers_are_not_replaced_by_those_of_another_version(today: Path, attachment: str, what: str) -> None:
     recording = open_recording(today)
-    del recording.attachments["rules.json"]
-    with pytest.raises(TouchlineError, match="rule book friendly has version 91 in this program, 1 in the recording"):
+    del recording.attachments[attachment]
+    with pytest.raises(TouchlineError, match=f"{what} has version 91 in this program, 1 in the recording; use another"):
         config_of(recording)
 
 
