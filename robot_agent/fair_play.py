@@ -41,6 +41,8 @@ class RuleLimits(NamedTuple):
     """A ball won in the own half has to be passed in the other half before a goal counts."""
     roll: float
     """m of free roll that count as a pass."""
+    spares_opponents: bool = False
+    """A robot without the ball must not drive into an opponent at speed."""
 
     @property
     def counts_ways(self) -> bool:
@@ -61,6 +63,7 @@ class RuleLimits(NamedTuple):
             at_once=setup.areas is not None and setup.areas.penalty_area_duration < SHORT_STAY,
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
+            spares_opponents=fouls.charging != "off",
         )
 
 

@@ -8,6 +8,7 @@ from robot_agent.bodies import Ball, DriveLimits
 from robot_agent.contract import Briefing
 from robot_agent.fair_play import Carry, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.skills.avoid import circles, go_around
+from robot_agent.skills.brake_before import brake_before
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.keep_out import Area, keep_out
 from robot_agent.skills.let_go import let_go
@@ -45,6 +46,8 @@ TURN_BEFORE = 0.3
 """m before the longest repeatable distance backward, where a robot turns instead."""
 TURN_RATE = 2.5
 """rad/s of that turn."""
+PLAYS_BALL = 0.3
+"""m of air between its hull and the ball up to which a robot plays the ball."""
 _PARKING_SPEED = 1.5
 """m/s."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
@@ -198,7 +201,16 @@ class Player(ABC):
             outside = keep_out(belief.me, drive, self._penalty_area, self.limits)
             if outside is not drive and self._is_second_in_area(belief):
                 drive = outside
+        if self._rule_limits.spares_opponents and not self._plays_ball(belief):
+            drive = brake_before(belief.me, drive, belief.opponents, self.setup.robot.reach, self.limits)
         return action if drive is action.drive else action._replace(drive=drive)
+
+    def _plays_ball(self, belief: WorldBelief) -> bool:
+        """Whether this robot has the ball, or the ball is so near that it may run into an opponent for it."""
+        if belief.holding or belief.ball is None:
+            return belief.holding
+        reach = self.setup.robot.reach + self.setup.ball.radius + PLAYS_BALL
+        return math.dist(belief.me[:2], belief.ball.now[:2]) < reach
 
     def _is_second_in_area(self, belief: WorldBelief) -> bool:
         """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.

@@ -95,6 +95,9 @@ class OfficiatingConfig(Part):
     """Mixed officiating: simulated time after which a proposal becomes a decision, in s."""
     winner: bool | None = None
     """A level match continues with extra time and penalties; None for the rule book's setting."""
+    advantage: Annotated[float, Field(ge=0, le=30)] | None = None
+    """Simulated time for which play goes on after a foul if the side that suffered it keeps the ball, in s; 0 for no
+    advantage; None for the rule book's."""
 
 
 class RecordingConfig(RecordOptions):

@@ -67,6 +67,17 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
+    encroach_margin: Annotated[
+        float,
+        Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),
+    ] = 0.2
+    encroach_retreat: Annotated[
+        float, Quantity("s", "time to retreat for a robot that was too near at START or was pushed there", 0, 60)
+    ] = 2.0
+    advantage: Annotated[
+        float,
+        Quantity("s", "time that play goes on for a side that keeps the ball after a foul; 0: no advantage", 0, 30),
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +102,13 @@ class Discipline:
     reds_to_removal: Annotated[
         int, Quantity("1", "with each such number of red cards of a side, the robot is out for the match", 0, 20)
     ]
-    reset_each_half: Annotated[int, Quantity("1", "1: yellow cards are cleared at half time", 0, 1)]
+    reset_each_half: Annotated[int, Quantity("1", "1: yellow cards and repeated fouls are cleared at half time", 0, 1)]
+    repeated_encroachment: Annotated[
+        int, Quantity("1", "encroachments of one robot from which on each is a yellow card; 0: none", 0, 20)
+    ] = 0
+    repeated_fouls: Annotated[
+        int, Quantity("1", "fouls of one kind by one robot from which on each is a yellow card; 0: none", 0, 20)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from schemas.config.quantity import Quantity, meanings
 from schemas.config.rule_book import SECTIONS, SHIPPED, RuleBook, load_rule_book
 from sim_host.referee import authority, refbox
 from sim_host.referee.placement import positions
-from sim_host.referee.procedures import discipline, penalties, periods, restart
+from sim_host.referee.procedures import advantage, discipline, offences, penalties, periods, restart
 from sim_host.referee.rules import RULES, SHOOT_OUT, Rule
 from sim_host.referee.ruling_table import Row, not_judged, parts_of_module, parts_of_rule, rows
 
@@ -45,11 +45,10 @@ NOT_JUDGED = """
 What rule books have and this referee leaves to people, and what each rule leaves open.
 """
 
-PROCEDURES = (periods, penalties, restart, positions, discipline, authority, refbox)
+PROCEDURES = (periods, penalties, restart, positions, advantage, offences, discipline, authority, refbox)
 """The procedures around the rules; the docstrings of these modules have the same labels as a rule's."""
 
 DECIDED_BY_PEOPLE = (
-    ("Advantage", "The referee stops the game at every foul. People may undo decisions, the newest first."),
     ("Intent", "Intent is not judged: a robot that moves an opponent has pushed it, a kick from afar is a shot."),
     (
         "Goal crash",

@@ -39,9 +39,9 @@ def after(*scenes, before=NOBODYS):
     return before
 
 
-def test_a_friendly_asks_nothing_but_to_keep_out_of_areas(setup, league):
-    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, True, False, False, 1.0)
-    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, True, False, True, 1.0)
+def test_a_friendly_asks_only_to_keep_out_of_areas_and_to_spare_opponents(setup, league):
+    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, True, False, False, 1.0, True)
+    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, True, False, True, 1.0, True)
 
 
 def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():

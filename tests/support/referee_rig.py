@@ -13,7 +13,7 @@ from schemas.messages.game import GameEvent, RefereeAction
 from schemas.side import Side
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.match_constants import MatchConstants
-from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.snapshot import BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 
 class RefereeRig:
@@ -74,6 +74,10 @@ class RefereeRig:
             return name
         return f"{self.roster.side_of(name).opponent}{name[-1]}"
 
+    def side_sign(self, name: str) -> int:
+        """Sign of the x direction that the side of a robot attacks in the first half."""
+        return self.roster.side_of(name).attack(1)
+
     def _turned(self, x: float, y: float) -> tuple[float, float]:
         return (-x, -y) if self.mirrored else (x, y)
 
@@ -85,10 +89,12 @@ class RefereeRig:
         silent: Sequence[str] = (),
         motions: Mapping[str, tuple[float, float, float]] = {},
         contacts: Sequence[tuple[str, str]] = (),
+        impacts: Sequence[tuple[str, str]] = (),
         spin: tuple[float, float] | None = None,
     ) -> Snapshot:
         """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots.
 
+        `impacts`: pairs that hit each other along the line between their centres, with their motions of this tick.
         A ball without another `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
@@ -102,7 +108,10 @@ class RefereeRig:
         kicker, holder = (None if name is None else self.robot(name) for name in (kicked, possession))
         gone = tuple(self.robot(name) for name in silent)
         names = self.roster.names
-        pairs = [sorted(names.index(self.robot(name)) for name in pair) for pair in contacts]
+        pairs, hits = (
+            sorted(sorted(names.index(self.robot(name)) for name in pair) for pair in some)
+            for some in (contacts, impacts)
+        )
         return Snapshot(
             self.at,
             self.at * self.dt,
@@ -114,7 +123,8 @@ class RefereeRig:
             kicked=kicker,
             silent=gone,
             refbox=self.refbox,
-            contacts=tuple((first, second) for first, second in sorted(pairs)),
+            contacts=tuple((first, second) for first, second in pairs),
+            impacts=tuple(_impact(robots, first, second) for first, second in hits),
             ball_spin=self._turned(*turning),
             obstacles=self.obstacles,
         )
@@ -185,3 +195,10 @@ class RefereeRig:
 
     def kinds(self) -> list[EventKind]:
         return [event.kind for event in self.events]
+
+
+def _impact(robots: RobotStates, first: int, second: int) -> Impact:
+    one, other = robots[first], robots[second]
+    away = max(1e-9, math.dist((one.x, one.y), (other.x, other.y)))
+    direction = ((other.x - one.x) / away, (other.y - one.y) / away)
+    return Impact(first, second, direction, (one.vx, one.vy), (other.vx, other.vy))

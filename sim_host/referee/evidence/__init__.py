@@ -12,6 +12,7 @@ from sim_host.referee.evidence.flight import Flight, flight_after
 from sim_host.referee.evidence.outside import outside_after
 from sim_host.referee.evidence.play import NO_TOUCHES, Play, play_after
 from sim_host.referee.evidence.pushes import Push, pushes_after
+from sim_host.referee.evidence.shoves import NO_SHOVES, Shove, shoves_after
 from sim_host.referee.evidence.stays import NO_STAYS, Stays, stays_after
 from sim_host.referee.evidence.zones import find_zones
 from sim_host.referee.match_constants import MatchConstants
@@ -35,6 +36,8 @@ class Evidence(NamedTuple):
     """The contest while both sides are at the ball."""
     outside: tuple[tuple[int, float], ...] = ()
     """Robots that are wholly outside the lines, by their index in the roster, each with its duration in s."""
+    shoves: tuple[Shove, ...] = NO_SHOVES
+    """Robots that another robot has hit within the last second, the oldest first."""
 
 
 NO_EVIDENCE = Evidence()
@@ -73,6 +76,9 @@ def evidence_after(
     outside = before.outside
     if outside or zones.outside:
         outside = outside_after(outside, zones, dt)
+    shoves = before.shoves
+    if (shoves or snapshot.impacts) and match.book.fouls.charging != "off":
+        shoves = shoves_after(shoves, snapshot, dt)
     if (
         play is before.play
         and dribble is before.dribble
@@ -81,6 +87,7 @@ def evidence_after(
         and pushes is before.pushes
         and contest is before.contest
         and outside is before.outside
+        and shoves is before.shoves
     ):
         return before
-    return Evidence(play, dribble, flight, stays, pushes, contest, outside)
+    return Evidence(play, dribble, flight, stays, pushes, contest, outside, shoves)

@@ -17,6 +17,21 @@ KICK_DURATION = 0.1
 """s."""
 
 
+class Intrusion(NamedTuple):
+    """A robot that is nearer to a restart than it may be, or in the other half at a kick-off."""
+
+    robot: int
+    """Index in the roster."""
+    depth: float
+    """m by which it is too near, or in the other half."""
+    least: float
+    """m; the smallest depth so far, from which it retreats."""
+    lasted: float = 0.0
+    """s, without the time in which an opponent pushes it."""
+    excused: bool = False
+    """It was there at START, or an opponent pushed it there: it has time to retreat."""
+
+
 class SetPiece(NamedTuple):
     """One started restart; the phase of the game shows whether the ball is in play."""
 
@@ -35,6 +50,8 @@ class SetPiece(NamedTuple):
     """The robot of the taker's side that has kicked the ball."""
     since_kick: float = 0.0
     """s."""
+    intrusions: tuple[Intrusion, ...] | None = None
+    """Robots that are too near until the ball is in play, in the order of the roster; None before the first look."""
 
     @property
     def taker(self) -> str | None:

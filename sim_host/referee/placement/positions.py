@@ -6,7 +6,7 @@ ignored.
 
 Section: restarts.
 Measures: the distance between the ball's spot and the robot's hull, taken as the smallest circle around it.
-Not judged: robots that move between START and the kick, as long as they do not touch the ball.
+Not judged: robots that move between START and the kick; they may encroach.
 """
 
 import dataclasses
@@ -51,6 +51,11 @@ class Violation(NamedTuple):
     phrase: str
     measured: float | None = None
     limit: float | None = None
+
+    @property
+    def depth(self) -> float:
+        """m between the measured and the required value."""
+        return 0.0 if self.measured is None or self.limit is None else abs(self.limit - self.measured)
 
 
 class LineUp(NamedTuple):
@@ -97,6 +102,42 @@ def position_faults(
                 )
                 break
     return tuple(faults)
+
+
+def distance_violations(
+    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot
+) -> dict[int, Violation]:
+    """Robots nearer to the ball's spot than they may be, and at a kick-off those in the other half; not the taker.
+
+    By their indices in the roster, in its order. Not for penalties, which have places of their own.
+    """
+    if not _may_be_too_near(match, restart, snapshot):
+        return {}
+    line_up = _line_up(match, state, restart, snapshot)
+    checks = (_in_other_half, _near_ball) if restart.phase is Phase.KICK_OFF else (_near_ball,)
+    found = {}
+    for index in line_up.on_field:
+        if index == line_up.kicker:
+            continue
+        violations = [violation for check in checks if (violation := check(line_up, index)) is not None]
+        if violations:
+            found[index] = max(violations, key=lambda violation: violation.depth)
+    return found
+
+
+def _may_be_too_near(match: MatchConstants, restart: Restart, snapshot: Snapshot) -> bool:
+    """Whether any robot but one may be too near; cheap, because it is asked in every tick until the ball is in play."""
+    numbers, (x, y) = match.book.restarts, restart.spot
+    sides, reaches, takers = match.roster.sides, match.reaches, 0
+    for index, robot in enumerate(snapshot.robots):
+        mine = sides[index] is restart.side
+        room = (numbers.teammate_distance if mine else numbers.opponent_distance) + reaches[index]
+        dx, dy = robot[0] - x, robot[1] - y
+        if dx * dx + dy * dy < room * room:
+            takers += mine
+            if not mine or takers > 1:
+                return True
+    return restart.phase is Phase.KICK_OFF
 
 
 def is_spot_covered(match: MatchConstants, state: RefereeState, spot: Spot, snapshot: Snapshot) -> bool:

@@ -22,7 +22,7 @@ from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.placement.clear_ground import clear_restart
 from sim_host.referee.placement.positions import PositionFault, is_spot_covered, legal_pose, position_faults
-from sim_host.referee.procedures import discipline
+from sim_host.referee.procedures import advantage, discipline, offences
 from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.wording import restart_text
 
@@ -34,6 +34,8 @@ def stop(draft: RulingDraft, rule: str, restart: Restart | None) -> None:
     """Stop the game at once; without a restart, people have to decide how it goes on."""
     follows = f"{restart_text(restart)} follows" if restart is not None else "the referee decides how it goes on"
     draft.add_event(EventKind.STOP, rule, f"STOP; {follows}")
+    advantage.end(draft)
+    discipline.show_owed_cards(draft)
     state = draft.state
     draft.state = state._replace(
         phase=Phase.STOPPED,
@@ -161,7 +163,9 @@ def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[Positi
         draft.state = draft.state._replace(offender=fault.robot)
         if numbers.moves_offenders:
             draft.place_robot(fault.robot, legal_pose(draft.match, draft.state, restart, draft.snapshot, fault))
-        if numbers.position_card and draft.match.mode is OfficiatingMode.AUTOMATIC:
+        is_card = bool(numbers.position_card) or offences.is_next_a_card(draft, POSITIONS, fault.robot)
+        offences.count(draft, POSITIONS, fault.robot)
+        if is_card and draft.match.mode is OfficiatingMode.AUTOMATIC:
             discipline.show_card(draft, POSITIONS, fault.robot, Card.YELLOW)
     start(draft, restart, f", although {wrong[0].text}" if wrong else "")
 

@@ -10,10 +10,12 @@ from sim_host.referee.evidence.stays import NO_STAYS
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules import (
     backward,
+    charging,
     double_touch,
     dragged,
     dribble_circle,
     early_touch,
+    encroachment,
     goal,
     goal_area,
     goal_line,
@@ -55,6 +57,19 @@ RULES: tuple[Rule, ...] = (
     Rule("early_touch", early_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("double_touch", double_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance"), occasion="set piece"),
+    Rule(
+        "encroachment",
+        encroachment.judge,
+        (
+            "fouls.encroachment",
+            *RESTART_FOUL,
+            "restarts.opponent_distance",
+            "restarts.teammate_distance",
+            "restarts.encroach_margin",
+            "restarts.encroach_retreat",
+        ),
+        occasion="set piece",
+    ),
     Rule(
         "own_goal_kick", own_goal_kick.judge, ("scoring.robots_touched", "restarts.corner_inset"), occasion="crossing"
     ),
@@ -99,6 +114,18 @@ RULES: tuple[Rule, ...] = (
         occasion="dribble",
     ),
     Rule("long_hold", long_hold.judge, ("fouls.long_hold", "handling.hold_duration"), occasion="dribble"),
+    Rule(
+        "charging",
+        charging.judge,
+        (
+            "fouls.charging",
+            "contact.charge_speed",
+            "contact.charge_margin",
+            "contact.charge_ball",
+            "contact.charge_card_speed",
+        ),
+        occasion="impacts",
+    ),
     Rule("pushing", pushing.judge, ("fouls.pushing", "contact.push_distance"), occasion="pushes"),
     Rule("goal_area", goal_area.judge, ("fouls.goal_area", "areas.goal_area_duration"), occasion="stays"),
     Rule(
@@ -128,9 +155,15 @@ def first_decision(situation: Situation, *, clocks_alone: bool = False) -> tuple
     """The first rule that decides in this tick, with its decision."""
     for rule in rules_to_ask(situation, clocks_alone=clocks_alone):
         decision = rule.judge(situation)
-        if decision is not None:
+        if decision is not None and not _is_noted(situation, rule, decision):
             return rule, decision
     return None
+
+
+def _is_noted(situation: Situation, rule: Rule, decision: Decision) -> bool:
+    """Whether a foul goes on that an advantage is played for."""
+    noted = situation.state.advantage
+    return noted is not None and noted.rule == rule.name and noted.decision.robot == decision.robot
 
 
 def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, ...]:
@@ -138,7 +171,18 @@ def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[R
     return _rules_for(_time(situation, clocks_alone), _occasions(situation))
 
 
-OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
+OCCASIONS = (
+    "set piece",
+    "crossing",
+    "kick",
+    "dribble",
+    "impacts",
+    "pushes",
+    "stays",
+    "outside",
+    "contest",
+    "still ball",
+)
 """The occasions that rules depend on, in the order of `_occasions`."""
 
 
@@ -151,6 +195,7 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
         situation.crossing is not None,
         seen.flight is not None,
         seen.dribble is not None,
+        bool(situation.snapshot.impacts),
         bool(seen.pushes),
         seen.stays is not NO_STAYS,
         bool(seen.outside),

@@ -142,6 +142,7 @@ def test_an_origin_of_the_leagues_rule_books_names_its_source_or_is_ours(name: s
         "ours",
         "simatch",
         "China simulation league 2020",
+        "Small Size League",
     )
     for number, origin in load_rule_book(name).origins.items():
         assert origin.startswith(sources), number
