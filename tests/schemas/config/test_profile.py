@@ -143,6 +143,7 @@ def test_an_origin_of_the_leagues_rule_books_names_its_source_or_is_ours(name: s
         "simatch",
         "China simulation league 2020",
         "Small Size League",
+        "Laws of the Game",
     )
     for number, origin in load_rule_book(name).origins.items():
         assert origin.startswith(sources), number
