@@ -30,7 +30,7 @@ SECONDS = 8
 def ours() -> float:
     """Median latency over all robots and reports of the host's health, in ms."""
     with (
-        running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _),
+        running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, *_),
         open_client(config.name, WallClock(), endpoint) as bus,
     ):
         healths = bus.subscribe(HEALTH)

@@ -40,7 +40,7 @@ def main() -> None:
         running_match("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (
             config,
             endpoint,
-            _,
+            *_,
         ),
         tempfile.TemporaryDirectory() as folder,
         open_client(config.name, WallClock(), endpoint, patience=60.0) as bus,

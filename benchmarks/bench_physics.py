@@ -6,6 +6,8 @@ the rest of a match: referee, sensing, radio, and one encoded sight for each rob
 area of its own, so that the number of robots changes and not the number of collisions; one robot holds the ball.
 
 The growth exponent p fits cost ~ n^p over all sizes (least squares of log cost over log n).
+
+A tick of 100 robots should cost at most three times the raw physics of its steps with the profile `msl`.
 """
 
 import math
@@ -38,6 +40,10 @@ SIZES = (2, 6, 10, 22, 100)
 PROFILES = ("msl", "omni")
 ROUNDS = 5
 SECONDS_A_ROUND = 0.12
+TICKS_A_ROUND = 256
+"""Random numbers are drawn for as many ticks at once."""
+MOST_TICK_COST = 3.0
+"""Times raw, at the greatest size."""
 
 
 @dataclass(frozen=True)
@@ -75,10 +81,10 @@ class TickRig:
         self.world.place(self._spread())
         self.world.make_checkpoint()
         streams = RandomStreams(1)
-        radio = RadioAir(profile.radio, self.roster, profile.time.tick, streams)
-        perception = Perception(profile.sensing, self.roster, streams, profile.time.tick)
-        self.sights = Sights(self.roster, perception, radio)
-        self.perception, self.seen = Perception(profile.sensing, self.roster, streams, profile.time.tick), 0
+        self.radio = RadioAir(profile.radio, self.roster, profile.time.tick, streams)
+        self.perception = Perception(profile.sensing, self.roster, streams, profile.time.tick)
+        self.sights = Sights(self.roster, self.perception, self.radio)
+        self.alone, self.seen = Perception(profile.sensing, self.roster, streams, profile.time.tick), 0
         book = load_rule_book("friendly")
         starts = {at.body: Pose(at.x, at.y) for at in self._spread() if at.body != "ball"}
         self.referee = Referee(
@@ -131,7 +137,7 @@ class TickRig:
     def sense(self) -> None:
         """Perception of all robots in successive ticks, without encoding."""
         self.seen += 1
-        self.perception.at(replace(self.snapshot, tick=self.seen), 1)
+        self.alone.at(replace(self.snapshot, tick=self.seen), 1)
 
     def tick(self) -> None:
         """Everything of one tick."""
@@ -150,12 +156,13 @@ def discard(_robot: str, _sight: bytes) -> None:
     """A publisher without readers."""
 
 
-def timed(body: Callable[[], None]) -> float:
-    """CPU time of one call in s, averaged over the calls that fill a round."""
+def timed(body: Callable[[], None], least_calls: int = 1) -> float:
+    """CPU time of one call in s, averaged over the calls that fill a round, which are multiples of `least_calls`."""
     calls, began = 0, time.process_time()
     while True:
-        body()
-        calls += 1
+        for _ in range(least_calls):
+            body()
+        calls += least_calls
         spent = time.process_time() - began
         if spent > SECONDS_A_ROUND:
             return spent / calls
@@ -169,8 +176,8 @@ def measure(profile_name: str, count: int) -> Cost:
     rows = []
     for _ in range(ROUNDS):
         rig.ready()
-        tick = timed(rig.tick)
-        rows.append((timed(rig.step_raw), timed(rig.step_world) / steps, timed(rig.sense), tick))
+        tick = timed(rig.tick, TICKS_A_ROUND)
+        rows.append((timed(rig.step_raw), timed(rig.step_world) / steps, timed(rig.sense, TICKS_A_ROUND), tick))
     rig.close()
     raw, world, sensing, tick = (statistics.median(column) for column in zip(*rows, strict=True))
     return Cost(raw, world, sensing, tick, steps)
@@ -199,6 +206,8 @@ def main() -> None:
         columns = zip(*[costs[name, count].per_step for count in SIZES], strict=True)
         table.add_row(model, "n^p", *[f"p = {exponent(list(column)):.2f}" for column in columns])
     console.print(table)
+    raw, _, tick = costs["msl", SIZES[-1]].per_step
+    console.print(f"a tick of {SIZES[-1]} robots: {tick / raw:.2f} x raw (at most {MOST_TICK_COST})")
     for name in PROFILES:
         cost = costs[name, 10]
         physics = cost.world * cost.steps_per_tick

@@ -57,7 +57,7 @@ def recorder_share(folder: Path) -> float:
     with running_match("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (
         config,
         endpoint,
-        _,
+        *_,
     ):
         out = folder / "realtime.mcap"
         recorder = launch("recordings", RecorderSettings(connect=endpoint, match=config.name, out=out))

@@ -5,7 +5,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from robot_agent.settings import AgentSettings
 from schemas.bus.endpoint import with_free_port
@@ -15,6 +15,8 @@ from schemas.side import Side
 from sim_host.server.settings import HostSettings
 
 HERE = Path(__file__).parent
+PATIENCE_S = 90.0
+"""Wall time for the start of all processes, s."""
 
 
 def launch(module: str, settings: Settings, stdout: int = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
@@ -32,19 +34,31 @@ def launch(module: str, settings: Settings, stdout: int = subprocess.DEVNULL) ->
     return process
 
 
+class RunningMatch(NamedTuple):
+    """A match and its processes."""
+
+    config: MatchConfig
+    endpoint: str
+    host: subprocess.Popen[bytes]
+    agents: list[subprocess.Popen[bytes]]
+
+
 @contextlib.contextmanager
-def running_match(brain: str, overrides: dict[str, Any]) -> Iterator[tuple[MatchConfig, str, subprocess.Popen[bytes]]]:
-    """Run a host with an agent process for every robot: yields the match, its endpoint, and the host's process."""
+def running_match(brain: str, overrides: dict[str, Any]) -> Iterator[RunningMatch]:
+    """Run a host with an agent process for every robot."""
     config = load_match(None, overrides)
     endpoint = with_free_port("tcp/127.0.0.1:0")
     host = launch("sim_host", HostSettings(config=config, listen=endpoint))
     names = [name for side in Side for name in config.robots(side)]
     agents = [
-        launch("robot_agent", AgentSettings(connect=endpoint, match=config.name, robot=name, brain=brain))
+        launch(
+            "robot_agent",
+            AgentSettings(connect=endpoint, match=config.name, robot=name, brain=brain, patience=PATIENCE_S),
+        )
         for name in names
     ]
     try:
-        yield config, endpoint, host
+        yield RunningMatch(config, endpoint, host, agents)
     finally:
         for process in (host, *agents):
             process.terminate()

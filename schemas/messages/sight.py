@@ -31,7 +31,7 @@ class BallSight(Struct, frozen=True, kw_only=True):
     those of the last picture that it was in."""
 
 
-class Obstacle(Struct, frozen=True, kw_only=True):
+class Obstacle(Struct, frozen=True):
     """A round body in the camera's picture; the picture does not identify it."""
 
     x: Metres

@@ -1,6 +1,7 @@
 """The cameras of all robots: one picture shows the ball and the obstacles that each robot sees at one tick."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -9,15 +10,8 @@ from schemas.config.sections import Sensing
 from schemas.messages.sight import Obstacle
 from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.hulls import Hulls
-from sim_host.sensing.random_streams import (
-    SMALL_BATCH,
-    BatchedDraws,
-    Floats,
-    RandomStreams,
-    StreamId,
-    Vectors,
-    normal_pairs,
-)
+from sim_host.sensing.pair_draws import pair_draws
+from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId, Vectors
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.team_frames import TeamFrames
@@ -26,10 +20,6 @@ from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Rost
 
 _NO_DISTANCE = np.array(1e-9)
 """m; avoids a division by zero for the distance of a robot from itself, which is not used."""
-_NOWHERE = np.array(np.inf)
-"""m; distance of a body that was not found, to sort it last."""
-_PER_OBSTACLE = 3
-"""x, y, radius."""
 
 
 class Picture(NamedTuple):
@@ -79,7 +69,6 @@ class Camera:
         self._streams = streams
         self._shutter = shutter
         self._roster = roster
-        self._rows = np.arange(len(roster.names))[:, None]
         self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None] ** 2
         self._ball_growth = np.array(sensing.ball_velocity_growth)
         self._ball_velocity = np.array(sensing.ball_velocity**2)
@@ -91,45 +80,40 @@ class Camera:
         s, roster = self._sensing, self._roster
         self._obstacles = obstacles
         self._hulls = Hulls(roster.models, obstacles)
-        self._names = (BALL, *roster.names, *(one.name for one in obstacles))
-        bodies = len(self._names) - 1
+        names = (BALL, *roster.names, *(one.name for one in obstacles))
+        robots, bodies = len(roster.names), len(names) - 1
         self._near = np.array([s.ball_position] + [s.obstacle_position] * bodies) ** 2
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
-        self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * bodies)
-        self._is_other = np.arange(-1, bodies) != self._rows
-        self._draws = BatchedDraws(self._draw, SMALL_BATCH)
+        self._is_other = np.arange(-1, bodies) != np.arange(robots)[:, None]
+        self._draws = pair_draws(s, self._streams, self._shutter, roster.names, names)
         self._view = View.of([model.camera for model in roster.models])
-        robots = len(roster.names)
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
-        self._bodies = np.empty((robots, bodies, _PER_OBSTACLE))
-        self._bodies[..., 2] = self._hulls.reach
-        self._first_body = bodies * self._rows
+        self._ends = np.arange(1, robots + 1)
+        self._radius = self._hulls.reach.round(DIGITS)
 
     def take_picture(self, snapshot: Snapshot, robots: RobotMotions, frames: TeamFrames) -> Picture:
         """Take a picture, in a tick in which one is due."""
         if snapshot.obstacles != self._obstacles:
             self._prepare(snapshot.obstacles)
         number, ball = self._shutter.number(snapshot.tick), snapshot.ball
-        draws, is_detected = self._draws.at(number)
         places = self._hulls.places(complex(ball.x, ball.y), robots.position) - robots.position[:, None]
         distance = np.abs(places)
         found: Flags = distance <= self._range
-        found &= is_detected
+        found &= self._is_other
         if self._view is not None:
             found &= self._view.has(places, distance, robots.heading)
         if self._sensing.occlusion == "hulls":
-            found &= ~self._hulls.hidden(places, distance, robots.heading, ball.z)
-        self._blur_by(distance, draws)
+            self._hulls.hide(found, places, distance, robots.heading, ball.z)
+        self._blur_by(distance, self._draws.detect(number, found))
         blurred = places + places * self._blur
         seen = frames.turn[:, None] * blurred
         seen += (frames.sign * robots.position + frames.shift)[:, None]
-        away = np.where(found, np.abs(blurred), _NOWHERE)
         return Picture(
             tick=snapshot.tick,
             ball=self._ball(ball, seen[:, 0], distance[:, 0], frames.turn, self._ball_draws.at(number)),
             found=found[:, 0].tolist(),
-            obstacles=self._nearest_first(away[:, 1:], seen[:, 1:], found[:, 1:]),
+            obstacles=self._nearest_first(np.abs(blurred[:, 1:]), seen[:, 1:], found[:, 1:]),
         )
 
     def _blur_by(self, distance: Floats, draws: Floats) -> None:
@@ -161,25 +145,16 @@ class Camera:
 
     def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
         """The bodies that were found, in the order of their distance, which does not reveal their names."""
-        order = away.argsort(axis=1, kind="stable")
-        order += self._first_body
-        numbers = self._bodies
-        numbers[..., 0], numbers[..., 1] = places.real, places.imag
-        rows = numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0).round(DIGITS).tolist()
-        return [
-            [Obstacle(x=x, y=y, radius=radius) for x, y, radius in row[:count]]
-            for row, count in zip(rows, found.sum(axis=1).tolist(), strict=True)
-        ]
+        robot, body = found.nonzero()
+        order = np.lexsort((away[found], robot))
+        place = places[found].take(order)
+        x, y = place.real.round(DIGITS).tolist(), place.imag.round(DIGITS).tolist()
+        bodies = list(map(Obstacle, x, y, self._radius.take(body.take(order)).tolist()))
+        ends = robot.searchsorted(self._ends).tolist()
+        return [bodies[start:end] for start, end in pairwise((0, *ends))]
 
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]
-
-    def _draw(self, numbers: range) -> list[tuple[Floats, Flags]]:
-        """Per picture: noise along and across the line of sight, (2, robots, things), and which things are detected."""
-        drawn = self._streams.pairwise_uniforms(StreamId.SEEN, self._roster.names, self._names, self._ticks(numbers))
-        noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
-        is_detected = (drawn[..., 2] >= self._dropout) & self._is_other
-        return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_detected, strict=True))
 
     def _draw_ball(self, numbers: range) -> list[Floats]:
         """Per picture, (3, robots): noise of the ball's height in m, and of vx and vy in units of their deviation.

@@ -110,18 +110,28 @@ class RandomStreams:
         self, stream: StreamId, robots: Sequence[str], others: Sequence[str], ticks: Sequence[int]
     ) -> Floats:
         """Four uniform numbers in (0, 1) for each robot and each other by name, shape (ticks, robots, others, 4)."""
-        return self._uniforms(stream, robots, ticks, _crc_of(others))
+        return self._uniforms(stream, robots, ticks, name_words(others))
+
+    def uniforms_of_pairs(self, stream: StreamId, robots: Words, others: Words, tick: int) -> Floats:
+        """Those of `pairwise_uniforms` for single pairs, whose names are given as `name_words`; shape (pairs, 4)."""
+        now, kind = np.array([tick & 0xFFFFFFFF], dtype=np.uint64), np.array([int(stream)], dtype=np.uint64)
+        return _as_uniforms(philox((others, robots, now, kind), self._key))
 
     def _uniforms(self, stream: StreamId, robots: Sequence[str], ticks: Sequence[int], index: Words) -> Floats:
         """Shape (ticks, robots, index, 4)."""
         tick = np.array(ticks, dtype=np.uint64)[:, None, None] & _LOW
-        robot, kind = _crc_of(robots)[:, None], np.array(int(stream), dtype=np.uint64)
-        uniform = np.empty((len(ticks), len(robots), len(index), 4))
-        for place, word in enumerate(philox((index, robot, tick, kind), self._key)):
-            uniform[..., place] = word
-        uniform += 0.5
-        uniform *= 2.0**-32
-        return uniform
+        robot, kind = name_words(robots)[:, None], np.array(int(stream), dtype=np.uint64)
+        return _as_uniforms(philox((index, robot, tick, kind), self._key))
+
+
+def _as_uniforms(words: tuple[Words, Words, Words, Words]) -> Floats:
+    """Four random words for each counter as uniform numbers in (0, 1), on a last axis."""
+    uniform = np.empty((*words[0].shape, len(words)))
+    for place, word in enumerate(words):
+        uniform[..., place] = word
+    uniform += 0.5
+    uniform *= 2.0**-32
+    return uniform
 
 
 def normal_pairs(uniform: Floats) -> Floats:
@@ -134,5 +144,6 @@ def normal_pairs(uniform: Floats) -> Floats:
     return pairs
 
 
-def _crc_of(names: Sequence[str]) -> Words:
+def name_words(names: Sequence[str]) -> Words:
+    """The words that stand for these names in the counters of streams."""
     return np.array([crc32(name.encode()) for name in names], dtype=np.uint64)

@@ -1,6 +1,6 @@
-"""Intersections of lines of sight, from every eye to every thing, with hulls seen from above.
+"""Lines of sight from an eye to a thing, and the hulls, seen from above, that they pass through.
 
-Arrays are (hulls, eyes, things). All places are relative to the eye, x + iy in m.
+All places are relative to the eye, x + iy in m. The arrays of a function are broadcast against each other.
 """
 
 import numpy as np
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from sim_host.sensing.random_streams import Floats, Vectors
 
 Flags = NDArray[np.bool_]
+Indices = NDArray[np.intp]
 
 _EYE = np.array(0.0)
 """m; along a line."""
@@ -16,36 +17,30 @@ _LEAST = 1e-9
 """m; the smallest component of a line along a side of a box, to avoid a division by zero."""
 
 
-def through_circles(places: Vectors, distance: Floats, centres: Vectors, radius: Floats) -> Flags:
-    """Which lines pass through which circles between the eye and the thing.
+def through_circles(turned: Vectors, distance: Floats, radius: Floats) -> Flags:
+    """Whether the line to a thing passes through a circle between the eye and the thing.
 
-    `places` of the things, shape (eyes, things), with their `distance`; `centres`, shape (eyes, hulls).
+    `turned` is the place of the thing times the conjugate of the circle's centre; `distance` that of the thing.
     """
-    hulls, eyes, things = len(radius), *distance.shape
-    line = centres.T.repeat(things, axis=1)
-    np.conjugate(line, out=line)
-    line *= places.reshape(-1)
-    along, beside = line.real, line.imag  # of the circle's centre, times the length of the line
-    flat = distance.reshape(-1)
+    along, beside = turned.real, turned.imag  # of the circle's centre, times the length of the line
     hides: Flags = along > _EYE
-    hides &= along < flat * flat
-    hides &= np.abs(beside) < flat * radius[:, None]
-    return hides.reshape(hulls, eyes, things)
+    hides &= along < distance * distance
+    hides &= np.abs(beside) < distance * radius
+    return hides
 
 
-def through_boxes(places: Vectors, centres: Vectors, turned: Vectors, halves: Floats) -> Flags:
-    """Which lines enter which boxes before they reach the thing.
+def through_boxes(places: Vectors, centres: Vectors, headings: Vectors, halves: Floats) -> Flags:
+    """Whether the line to a thing enters a box before it reaches the thing.
 
-    `centres`, shape (boxes, eyes); `turned`, of unit length, the headings of the boxes; `halves` of the sides, shape
-    (2, boxes).
+    `places` of the things; `centres` of the boxes; `headings` of the boxes, of unit length; `halves` of their sides, in
+    pairs on the first axis.
     """
-    back = turned.conj()[:, None]
-    eye, way = -back * centres, back[..., None] * places
-    eye_parts = np.stack((eye.real, eye.imag))[..., None]
+    back = headings.conj()
+    eye, way = -back * centres, back * places
+    eye_parts = np.stack((eye.real, eye.imag))
     way_parts = np.stack((way.real, way.imag))
     way_parts = np.where(np.abs(way_parts) < _LEAST, _LEAST, way_parts)
-    half = halves[:, :, None, None]
-    one, other = (-half - eye_parts) / way_parts, (half - eye_parts) / way_parts
+    one, other = (-halves - eye_parts) / way_parts, (halves - eye_parts) / way_parts
     enters, leaves = np.minimum(one, other).max(axis=0), np.maximum(one, other).min(axis=0)
     found: Flags = (enters < leaves) & (leaves > 0.0) & (enters < 1.0)
     return found

@@ -38,7 +38,7 @@ def roster_of(cyan: int, magenta: int) -> Roster:
     names = [
         f"{side.value}{number + 1}" for side, size in zip(Side, (cyan, magenta), strict=True) for number in range(size)
     ]
-    sides = tuple(Side(name.rstrip("123456789")) for name in names)
+    sides = tuple(Side(name.rstrip("0123456789")) for name in names)
     return Roster(tuple(names), sides, {}, (RobotModel.standard(load_profile("msl")),) * len(names))
 
 
