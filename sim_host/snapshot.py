@@ -157,7 +157,11 @@ class Snapshot:
     possession: str | None
     """The robot that holds the ball."""
     touches: tuple[str, ...]
-    """Robots that touched, held or kicked the ball since the tick before, each once, in order of their last touch."""
+    """Robots that touched, held or kicked the ball since the tick before, each once, in order of their last touch.
+
+    A later physics step is later; within a step the robot that presses harder is."""
+    level: tuple[str, ...] = ()
+    """The last robots of `touches`, if several were equally late and pressed equally hard: none of them was the last."""
     kicked: str | None = None
     """The robot whose kick was carried out in this tick."""
     silent: tuple[str, ...] = ()
