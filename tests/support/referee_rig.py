@@ -86,8 +86,10 @@ class RefereeRig:
         motions: Mapping[str, tuple[float, float, float]] = {},
         contacts: Sequence[tuple[str, str]] = (),
         spin: tuple[float, float] | None = None,
+        level: Sequence[str] = (),
     ) -> Snapshot:
-        """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots.
+        """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots; `level`:
+        the last robots of `touches`, if they touched the ball at the same time.
 
         A ball without another `spin`, in rad/s, rolls.
         """
@@ -116,6 +118,7 @@ class RefereeRig:
             refbox=self.refbox,
             contacts=tuple((first, second) for first, second in sorted(pairs)),
             ball_spin=self._turned(*turning),
+            level=tuple(self.robot(name) for name in level),
             obstacles=self.obstacles,
         )
 
