@@ -1,11 +1,11 @@
-"""Plays mirrored pairs of matches, and reports how balls out, fouls, goals and possession are shared between the colours.
+"""Plays mirrored pairs of matches, and reports how balls out, fouls and possession are shared between the colours.
 
     python benchmarks/check_sides.py --pairs 20 --processes 2
     python benchmarks/check_sides.py --pairs 20 --teams simple simple --touch-order roster
 
-The two matches of a pair have the same seed; teams and kick-off are exchanged, so that each team plays as either colour.
-Whatever a colour has in excess is therefore the host's and not a team's. Each share is given with an interval of 95 %
-from the scatter between the pairs. Exit status 1 if a share of balls out, fouls or possession is significantly uneven.
+The two matches of a pair have the same seed; teams and kick-off are exchanged, so that each team plays as either
+colour. Whatever a colour has in excess is therefore the host's and not a team's. Each share is given with an interval
+of 95 % from the scatter between the pairs. Exit status 1 if a share of balls out, fouls or possession is significantly uneven.
 It is a check rather than a measurement of speed, and too long for the tests.
 """
 

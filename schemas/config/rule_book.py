@@ -7,7 +7,7 @@ from importlib import resources
 from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
-from schemas.config.quantity import Quantity, merge_tables, read_section
+from schemas.config.quantity import Choice, Quantity, merge_tables, read_section
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
@@ -60,6 +60,13 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
+    offence_order: Annotated[
+        str,
+        Choice(
+            "which of several offences of one kind in the same tick is decided: the worst, or the first of the roster",
+            ("worst", "roster"),
+        ),
+    ] = "roster"
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +108,10 @@ class People:
         float, Quantity("s", "time after which a robot without a program is taken off the field; 0: never", 0, 600)
     ]
     returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that return in one stoppage", 1, 5)]
+    returns_per_tick: Annotated[
+        str,
+        Choice("robots that return in the same tick: one of each side, or one of both sides together", ("side", "one")),
+    ] = "one"
 
 
 SECTIONS: dict[str, type] = {

@@ -1,8 +1,8 @@
 """Touches of the ball in one physics step: which robots touch it, in which order, and which touch counts as the last.
 
-The order of the roster decides nothing here. A later step is a later touch. Within a step the hardest press is the last
-touch, since it determines the motion of the ball. Robots that press equally hard have touched the ball at the same time:
-they are level, and neither is the last.
+A later step is a later touch. Within a step the hardest press is the last touch, since it determines the motion of the
+ball. Robots that press equally hard have touched the ball at the same time: they are level, and none is the last. The
+order of the roster decides nothing, except in older recordings.
 """
 
 from collections.abc import Callable, Mapping
@@ -37,7 +37,7 @@ def by_force(forces: Mapping[int, float], holder: int | None, tie: float) -> Ste
     return StepTouches(order, level if len(level) > 1 else ())
 
 
-def by_roster(forces: Mapping[int, float], holder: int | None, tie: float) -> StepTouches:
+def by_roster(forces: Mapping[int, float], holder: int | None, _tie: float) -> StepTouches:
     """The touches as older recordings have them: the holder, then all robots with a contact, in roster order."""
     return StepTouches([*([] if holder is None else [holder]), *forces])
 

@@ -88,10 +88,9 @@ class RefereeRig:
         spin: tuple[float, float] | None = None,
         level: Sequence[str] = (),
     ) -> Snapshot:
-        """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots; `level`:
-        the last robots of `touches`, if they touched the ball at the same time.
+        """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots.
 
-        A ball without another `spin`, in rad/s, rolls.
+        `level` are the last robots of `touches`, if they touched the ball at the same time. A ball without another `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
         robots = RobotStates(

@@ -1,7 +1,8 @@
 """The play since START: touches of the ball, the side in control, and received passes.
 
-A touch is a contact, a hold or a kick, as the world reports it, in the order of time and force. A side gains control when one of its robots holds or
-kicks the ball, or touches it while no side has control. A ball that bounces off an opponent does not change control.
+A touch is a contact, a hold or a kick, as the world reports it, in the order of time and force. A side gains control
+when one of its robots holds or kicks the ball, or touches it while no side has control. A ball that bounces off an
+opponent does not change control.
 """
 
 import math

@@ -139,14 +139,15 @@ def advance(draft: RulingDraft) -> None:
                 take_out(draft, RULE, name, Absence(OffField.SILENT))
     if not draft.state.participation.absences or draft.state.running:
         return
-    arrived = False
-    for name in draft.match.roster.names:
+    one_a_side = draft.book.people.returns_per_tick == "side"
+    arrived: set[Side] = set()  # one in a tick: the next snapshot shows where it is, and where there is room
+    for name, side in zip(draft.match.roster.names, draft.match.roster.sides, strict=True):
         absence = draft.state.participation.absences.get(name)
-        if absence is None or absence.why in WAITS_FOR_PEOPLE or arrived:
+        if absence is None or absence.why in WAITS_FOR_PEOPLE or side in arrived:
             continue
         if why_stays_out(draft, name) is None:
             bring_back(draft, RULE, name)
-            arrived = True  # one in a tick: the next snapshot shows where it is, and where there is room
+            arrived |= {side} if one_a_side else {*Side}
 
 
 def for_next_half(participation: Participation, book: Discipline) -> Participation:

@@ -1,4 +1,4 @@
-"""Touches of the ball in one physics step: by force, level where the forces are, and never by the order of the roster."""
+"""Touches of the ball in one physics step: by force, level where forces are equal, never by the order of the roster."""
 
 import pytest
 from hypothesis import given
