@@ -5,7 +5,9 @@
 
 The two matches of a pair have the same seed; teams and kick-off are exchanged, so that each team plays as either
 colour. Whatever a colour has in excess is therefore the host's and not a team's. Each share is given with an interval
-of 95 % from the scatter between the pairs. Exit status 1 if a share of balls out, fouls or possession is significantly uneven.
+of 95 % from the scatter between the pairs.
+
+Exit status 1 if a share of balls out, fouls or possession is significantly uneven.
 It is a check rather than a measurement of speed, and too long for the tests.
 """
 

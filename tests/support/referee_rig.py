@@ -90,7 +90,8 @@ class RefereeRig:
     ) -> Snapshot:
         """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots.
 
-        `level` are the last robots of `touches`, if they touched the ball at the same time. A ball without another `spin`, in rad/s, rolls.
+        `level` are the last robots of `touches`, if they touched the ball at the same time. A ball without another
+        `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
         robots = RobotStates(
