@@ -89,7 +89,7 @@ def play_pair(options: argparse.Namespace, seed: int) -> Counts:
             counts[POSSESSION, side_of(world["possession"])] += 1
         touches = world.get("touches", ())
         if len({side_of(name) for name in touches}) > 1:
-            counts[CONTESTED, side_of(touches[-1])] += 1
+            counts[CONTESTED, None if "level" in world else side_of(touches[-1])] += 1
 
     for teams, kick_off in ((options.teams, Side.CYAN), (options.teams[::-1], Side.MAGENTA)):
         play_match(match_of(seed, teams, kick_off, options), watch=count)

@@ -60,11 +60,12 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
-    offence_order: Annotated[
+    ties: Annotated[
         str,
         Choice(
-            "which of several offences of one kind in the same tick is decided: the worst, or the first of the roster",
-            ("worst", "roster"),
+            "what decides between offences of one tick, returning robots, and equally near spots: fair, the same for "
+            "both sides in a mirrored match; roster, the order of the roster and of the field's axes",
+            ("fair", "roster"),
         ),
     ] = "roster"
 
@@ -108,10 +109,6 @@ class People:
         float, Quantity("s", "time after which a robot without a program is taken off the field; 0: never", 0, 600)
     ]
     returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that return in one stoppage", 1, 5)]
-    returns_per_tick: Annotated[
-        str,
-        Choice("robots that return in the same tick: one of each side, or one of both sides together", ("side", "one")),
-    ] = "one"
 
 
 SECTIONS: dict[str, type] = {

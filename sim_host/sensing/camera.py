@@ -7,7 +7,7 @@ import numpy as np
 
 from schemas.config.sections import Sensing
 from schemas.messages.sight import Obstacle
-from sim_host.sensing.digits import DIGITS
+from sim_host.sensing.digits import rounded
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.random_streams import (
     SMALL_BATCH,
@@ -27,6 +27,8 @@ _NO_DISTANCE = np.array(1e-9)
 """m; avoids a division by zero for the distance of a robot from itself, which is not used."""
 _NOWHERE = np.array(np.inf)
 """m; distance of a body that was not found, to sort it last."""
+_LATER = 1e-9
+"""m by which an opponent seems farther than a teammate; without it, equally far bodies would be in roster order."""
 _PER_OBSTACLE = 3
 """x, y, radius."""
 
@@ -96,6 +98,9 @@ class Camera:
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
         self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * bodies)
         self._is_other = np.arange(-1, bodies) != self._rows
+        sides = [*roster.sides, *[None] * len(obstacles)]
+        self._later = np.array([[_LATER * (its is not side) for its in sides] for side in roster.sides])
+        """Per robot and body: m added to the distance, so that of two equally far bodies a teammate is first."""
         self._draws = BatchedDraws(self._draw, SMALL_BATCH)
         robots = len(roster.names)
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
@@ -152,16 +157,15 @@ class Camera:
         np.multiply(draws[1:], sigma, out=seen[3:])
         seen[3] += velocity.real
         seen[4] += velocity.imag
-        numbers: list[list[float]] = seen.T.round(DIGITS).tolist()
-        return numbers
+        return rounded(seen.T)
 
     def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
         """The bodies that were found, in the order of their distance, which does not reveal their names."""
-        order = away.argsort(axis=1, kind="stable")
+        order = (away + self._later).argsort(axis=1, kind="stable")
         order += self._first_body
         numbers = self._bodies
         numbers[..., 0], numbers[..., 1] = places.real, places.imag
-        rows = numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0).round(DIGITS).tolist()
+        rows = rounded(numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0))
         return [
             [Obstacle(x=x, y=y, radius=radius) for x, y, radius in row[:count]]
             for row, count in zip(rows, found.sum(axis=1).tolist(), strict=True)
