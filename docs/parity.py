@@ -16,8 +16,8 @@ INTRODUCTION = """\
 
 <!-- Written by `python docs/parity.py > docs/parity.md`; edit docs/parity.toml. -->
 
-Touchline began as a replacement for the simulation of the NuBot team, which runs on ROS and Gazebo. This page lists what
-that simulation, its successor and the tools of its league offer, feature by feature, and whether Touchline offers it:
+Touchline began as a replacement for the simulation of the NuBot team, which runs on ROS and Gazebo. This page lists
+what that simulation, its successor and the tools of its league offer, and whether Touchline offers it:
 
 * **The paper**: W. Yao, W. Dai, J. Xiao, H. Lu, Z. Zheng, *A Simulation System Based on ROS and Gazebo for RoboCup
   Middle Size League* (2015), and its code, nubot-nudt/single_nubot_gazebo.

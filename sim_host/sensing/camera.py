@@ -157,7 +157,8 @@ class Camera:
         np.multiply(draws[1:], sigma, out=seen[3:])
         seen[3] += velocity.real
         seen[4] += velocity.imag
-        return rounded(seen.T)
+        numbers: list[list[float]] = rounded(seen.T).tolist()
+        return numbers
 
     def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
         """The bodies that were found, in the order of their distance, which does not reveal their names."""
@@ -165,7 +166,7 @@ class Camera:
         order += self._first_body
         numbers = self._bodies
         numbers[..., 0], numbers[..., 1] = places.real, places.imag
-        rows = rounded(numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0))
+        rows = rounded(numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0)).tolist()
         return [
             [Obstacle(x=x, y=y, radius=radius) for x, y, radius in row[:count]]
             for row, count in zip(rows, found.sum(axis=1).tolist(), strict=True)

@@ -6,9 +6,8 @@ DIGITS = 4
 """Decimal places of all perceived numbers: 0.1 mm is below any sensor's noise, and halves the bytes of a sight."""
 
 
-def rounded(numbers: Floats) -> list[list[float]]:
+def rounded(numbers: Floats) -> Floats:
     """Perceived numbers with these digits; zero has no sign, which would reveal the half of the field."""
-    digits = numbers.round(DIGITS)
+    digits: Floats = numbers.round(DIGITS)
     digits += 0.0
-    rows: list[list[float]] = digits.tolist()
-    return rows
+    return digits

@@ -36,7 +36,8 @@ class OwnMotion:
         self._heading[...], self._omega[...] = robots.heading, robots.omega
         seen += self._noise.at(tick)
         _rotate(self._heading, frames.angle)
-        return rounded(seen)
+        numbers: list[list[float]] = rounded(seen).tolist()
+        return numbers
 
     def _draw(self, ticks: range) -> list[Floats]:
         """The noise of each of these ticks, shape (robots, 6); all 0 for a reading without noise."""

@@ -21,10 +21,10 @@ from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.referee.game import set_piece
 from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.clear_ground import clear_restart
 from sim_host.referee.placement.positions import PositionFault, is_spot_covered, legal_pose, position_faults
 from sim_host.referee.procedures import discipline
-from sim_host.referee.rules.simultaneous import worst_first
 from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.situation import Situation
 from sim_host.referee.wording import restart_text

@@ -11,8 +11,8 @@ Not judged: whether it was pushed there; a hull that reaches over the line.
 """
 
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.rules.simultaneous import worst_first
 from sim_host.referee.situation import Situation
 
 

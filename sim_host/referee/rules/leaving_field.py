@@ -6,8 +6,8 @@ Not judged: why it left, and whether it was pushed out; robots that are off the 
 """
 
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.rules.simultaneous import worst_first
 from sim_host.referee.situation import Situation
 
 

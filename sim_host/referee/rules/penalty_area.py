@@ -12,8 +12,8 @@ Not judged: which of them came last, and whether one was pushed there.
 import math
 
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.rules.simultaneous import worst_first
 from sim_host.referee.situation import Situation
 
 

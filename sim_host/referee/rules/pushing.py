@@ -12,8 +12,8 @@ from schemas.game import Phase
 from sim_host.referee.areas import in_penalty_area
 from sim_host.referee.evidence.pushes import Push
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.rules.simultaneous import worst_first
 from sim_host.referee.situation import Situation
 
 

@@ -8,8 +8,8 @@ Not judged: which of them began.
 from schemas.game import EventKind, Phase
 from sim_host.referee.evidence.pushes import Push
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.spots import restart_at
-from sim_host.referee.rules.simultaneous import worst_first
 from sim_host.referee.situation import Situation
 
 

@@ -1,7 +1,7 @@
 """A mirrored match is the mirrored match: brains, kick-off and start poses exchanged, noise off.
 
 Until a robot touches the ball or another robot, both are equal to rounding. From then on they differ by what the
-engine leaves in its search for contact points, which depends on the direction in the field; every contact multiplies it.
+engine leaves in its search for contact points, which depends on the direction in the field; contacts multiply it.
 """
 
 import json

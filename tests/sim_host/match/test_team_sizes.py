@@ -1,4 +1,4 @@
-"""Matches of several robots, the same number on both sides or not: each robot is seen, commanded and moved by itself."""
+"""Matches of several robots, as many on both sides or not: each robot is seen, commanded and moved by itself."""
 
 import json
 
