@@ -2,7 +2,7 @@
 # into .venv. Its packages are pinned by hash in requirements.lock.
 
 .DEFAULT_GOAL := help
-.PHONY: help match test check bench clean
+.PHONY: help match test check bench lowest mutants clean
 READY := .venv/.ready
 # Compiled once: where Python writes no bytecode, as in many containers, each process would compile them at its start.
 PACKAGES := schemas sim_host robot_agent coach_gateway recordings touchline
@@ -26,8 +26,21 @@ check: $(READY) ## format, lint, types, and the contracts on imports
 bench: $(READY) ## run every benchmark
 	@for bench in benchmarks/bench_*.py; do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done
 
+LOWEST_TESTS := tests/schemas tests/robot_agent tests/recordings tests/coach_gateway/access tests/touchline/cli \
+	tests/touchline/commands
+
+lowest: $(READY) ## run tests with the lowest supported versions of all dependencies, in .venv-lowest
+	@test -x .venv-lowest/bin/python || .venv/bin/python -m venv --without-pip .venv-lowest
+	.venv/bin/python .ci/lowest_versions.py > .venv-lowest/constraints.txt
+	.venv/bin/python -m pip --python .venv-lowest/bin/python install --quiet -c .venv-lowest/constraints.txt -e '.[dev]'
+	.venv-lowest/bin/pytest -n 2 --dist loadfile -m "not processes" $(LOWEST_TESTS)
+
+mutants: $(READY) ## change the program at random and count what the tests notice, for example: make mutants ARGS="--sample 60"
+	@.venv/bin/python -m pip install --quiet 'mutmut>=3.8,<4'
+	.venv/bin/python benchmarks/check_mutants.py $(ARGS)
+
 clean: ## remove .venv and all caches; recordings in runs/ stay
-	rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	rm -rf .venv .venv-lowest mutants .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(READY): requirements.lock pyproject.toml

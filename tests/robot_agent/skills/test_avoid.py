@@ -22,6 +22,13 @@ def test_the_way_bends_to_the_nearer_side_and_clears_the_circle():
     assert 1.5 * math.sin(-direction) + 0.2 * math.cos(direction) >= 0.5
 
 
+@pytest.mark.parametrize(("speed", "side"), [(0.0, -1.0), (0.29, -1.0), (0.31, 1.0), (2.0, 1.0)])
+def test_a_robot_in_motion_passes_on_the_side_to_which_it_moves_already(speed, side):
+    me = Body(0.0, 0.0, 0.0, speed * math.cos(0.8), speed * math.sin(0.8))
+    direction = free_direction(me, 0.0, 3.0, [Circle(1.5, 0.05, 0.5)])
+    assert math.copysign(1.0, direction) == side
+
+
 def test_two_obstacles_without_a_gap_are_passed_as_one():
     direction = free_direction(ME, 0.0, 3.0, [Circle(1.5, 0.3, 0.5), Circle(1.5, -0.4, 0.5)])
     for circle in ((1.5, 0.3), (1.5, -0.4)):

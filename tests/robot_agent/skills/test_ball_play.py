@@ -107,6 +107,14 @@ def test_a_kick_waits_until_the_axis_points_at_the_target(plant, limits):
     assert kick.speed == 8.0
 
 
+def test_a_kick_is_aimed_with_the_heading_of_the_next_tick(limits):
+    """The command acts one tick after the sight that it answers."""
+    turning, still = Body(0.0, 0.0, -0.05, omega=0.05 / limits.tick), Body(0.0, 0.0, -0.05)
+    assert kick_at(turning, (6.0, 0.0), 8.0, 0.15, limits)[1] is not None
+    assert kick_at(still, (6.0, 0.0), 8.0, 0.15, limits)[1] is None
+    assert kick_at(turning._replace(heading=0.0), (6.0, 0.0), 8.0, 0.15, limits)[1] is None
+
+
 def test_a_pass_arrives_with_the_speed_it_is_meant_to(setup):
     start = Ball(0.0, 0.0, pass_speed(5.0, setup), 0.0)
     time = 0.0
@@ -155,6 +163,22 @@ def test_a_keeper_stands_between_the_posts_on_the_ball_side(setup):
         assert abs(gy) <= pitch.goal_width / 2
         assert gy == pytest.approx(-guard_place(Ball(-5.0, -y), pitch, radius)[1])
         assert gy * y >= 0.0
+
+
+def test_a_keeper_leaves_no_more_than_its_radius_to_the_post(setup):
+    """A ball beside it, near the post: its hull touches the line through the post and goes no farther."""
+    pitch, radius = setup.pitch, setup.robot.radius
+    assert guard_place(Ball(-10.5, 1.2), pitch, radius)[1] == pitch.goal_width / 2 - radius
+    assert guard_place(Ball(-10.5, -1.2), pitch, radius)[1] == radius - pitch.goal_width / 2
+
+
+def test_a_shot_just_beside_the_post_is_awaited_at_the_post(setup):
+    pitch, radius = setup.pitch, setup.robot.radius
+    line, post = -pitch.goal_line + 0.4, pitch.goal_width / 2
+    for side in (1.0, -1.0):
+        beside = side * (post + 2.0 * radius)
+        assert shot_place(Ball(-5.0, beside - side * 0.01, -8.0), line, pitch, radius) == side * post
+        assert shot_place(Ball(-5.0, beside + side * 0.01, -8.0), line, pitch, radius) is None
 
 
 def test_a_shot_is_awaited_where_it_crosses_the_keepers_line(setup):

@@ -169,6 +169,30 @@ def test_a_parked_robot_waits_for_the_action_enter(rig):
     assert "on the field" in refused(rig.ask("enter", robot="magenta5"))
 
 
+def test_nobody_is_taken_out_for_silence_before_the_game_begins(new_rig):
+    """Programs may join for as long as people have not called the kick-off."""
+    rig = new_rig(automatic=False)
+    assert rig.state.phase is Phase.PRE_GAME
+    for _ in range(round((rig.book.people.silent_limit + 1.0) / rig.dt)):
+        rig.tick(silent=["cyan4"])
+    assert "cyan4" not in rig.state.participation.absences
+    rig.tick(actions=[RefereeAction(action="kick_off", side=CYAN)], silent=["cyan4"])
+    rig.tick(silent=["cyan4"])
+    assert away(rig, "cyan4").why is OffField.SILENT
+
+
+def test_robots_that_may_return_at_once_come_back_one_in_a_tick(rig):
+    """The next snapshot shows where one is, and where there is room for another."""
+    halted(rig)
+    for name in ("cyan2", "cyan3"):
+        rig.ask("repair", robot=name)
+    back = [
+        [event.robot for event in ruling.events if event.kind is EventKind.ON_FIELD]
+        for ruling in rig.run(rig.book.people.repair + 1.0)
+    ]
+    assert [robots for robots in back if robots] == [["cyan2"], ["cyan3"]]
+
+
 def test_robots_come_back_each_in_a_place_of_its_own_in_their_own_half(rig):
     halted(rig)
     names = ("cyan2", "cyan3", "cyan4")

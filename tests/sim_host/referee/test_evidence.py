@@ -125,6 +125,19 @@ def test_a_ball_is_contested_by_robots_of_both_sides_within_reach(played, air, c
     assert (played.state.evidence.contest is not None) is contested
 
 
+@pytest.mark.parametrize(("gap", "goes_on"), [(0.46, True), (0.54, False)])
+def test_a_contest_goes_on_when_one_side_was_away_for_up_to_half_a_second(played, gap, goes_on):
+    away = played.hull + played.radius
+    played.robots |= {"cyan3": (-away, 1.0), "magenta2": (away, 1.0)}
+    played.ball = (0.0, 1.0, played.radius)
+    played.run(1.0)
+    played.robots["magenta2"] = (away + 1.0, 1.0)
+    played.run(gap)
+    played.robots["magenta2"] = (away, 1.0)
+    played.run(0.1)
+    assert (played.state.evidence.contest.lasted > 1.0) is goes_on
+
+
 def test_teammates_alone_do_not_contest_the_ball(played):
     played.robots |= {"cyan3": (-0.36, 1.0), "cyan4": (0.36, 1.0)}
     played.tick((0.0, 1.0))

@@ -22,20 +22,38 @@ def touchline(*words: str | Path) -> Result:
     return CliRunner().invoke(app, [str(word) for word in words], prog_name="touchline")
 
 
-def write(path: Path, *, changed_at: int = -1, count: int = 50, missing: int = 0, removed: int = -1) -> Path:
-    """Game states, one in each tick; one of them differs, and some numbers are missing at the end."""
+def write(
+    path: Path,
+    *,
+    changed_at: int = -1,
+    changed: float = 9.5,
+    usual: float = 1.0,
+    count: int = 50,
+    missing: int = 0,
+    removed: int = -1,
+) -> Path:
+    """Game states, one in each tick; one of them differs in its clock, and some numbers are missing at the end."""
     clock = SteppedClock()
     writer = RecordingWriter(path, clock, "friendly")
     writer.begin(make_manifest("friendly", "test", clock, None, load_match(None), sights=False), {})
     batch = []
     for tick in range(count):
-        state = GameState(tick=tick, time=tick * 0.02, phase=Phase.PLAY, clock=9.5 if tick == changed_at else 1.0)
+        state = GameState(tick=tick, time=tick * 0.02, phase=Phase.PLAY, clock=changed if tick == changed_at else usual)
         stamp = Stamp(tick + (missing if tick == count - 1 else 0), tick, tick * 20_000_000)
         if tick != removed:
             batch.append((stamp.sim_ns, ReceivedMessage(STATE, STATE.key, state.encode(), stamp)))
     writer.write(batch)
     writer.finish(Ending(ended=EndReason.STOPPED, finished=""))
     return path
+
+
+def test_the_sign_of_a_zero_is_a_difference(tmp_path):
+    """Equal chains need equal bytes, and −0.0 has others than 0.0."""
+    one = write(tmp_path / "one.mcap", usual=0.0)
+    other = write(tmp_path / "other.mcap", usual=0.0, changed_at=7, changed=-0.0)
+    differs = touchline("diff", one, other)
+    assert differs.exit_code == 1
+    assert "clock" in differs.output and "-0.0" in differs.output
 
 
 def test_recordings_that_say_the_same_are_identical(tmp_path: Path) -> None:

@@ -99,6 +99,12 @@ def test_a_bouncing_ball_comes_to_rest_on_the_ground(rig):
     assert after.z == approx(rig.profile.ball.radius, abs=1e-3)
 
 
+@pytest.mark.parametrize(("height", "bounces"), [(0.0101, True), (0.0104, False), (0.02, False)])
+def test_a_ball_bounces_in_the_step_in_which_it_reaches_the_ground_and_not_earlier(build, height, bounces):
+    """At 2 m/s it falls 10.2 mm in a step of 5 ms."""
+    assert (bounce(build().profile.ball, height, (0, 0, -2.0), (0, 0, 0), 0.005) is not None) is bounces
+
+
 def test_a_slide_becomes_spin_at_the_bounce_as_far_as_friction_reaches(build):
     """Textbook: Δv = min(μ·(1 + e)·v_n, slide / (1 + m·r²/I)) against the slide."""
     ball = build().profile.ball
