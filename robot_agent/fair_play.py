@@ -37,10 +37,14 @@ class RuleLimits(NamedTuple):
     """Only one field robot of a side at a time may be in a penalty area."""
     at_once: bool
     """A second robot there is a foul at once, or nearly so."""
+    stay: float
+    """s; how long one robot may be there."""
     passes_first: bool
     """A ball won in the own half has to be passed in the other half before a goal counts."""
     roll: float
     """m of free roll that count as a pass."""
+    spares_opponents: bool = False
+    """A robot without the ball must not drive into an opponent at speed."""
 
     @property
     def counts_ways(self) -> bool:
@@ -50,17 +54,19 @@ class RuleLimits(NamedTuple):
     @classmethod
     def of(cls, setup: Setup) -> "RuleLimits":
         """The limits of a match."""
-        fouls, handling, scoring = setup.fouls, setup.handling, setup.scoring
+        fouls, handling, scoring, areas = setup.fouls, setup.handling, setup.scoring, setup.areas
         if fouls is None or handling is None or scoring is None:
-            return cls(math.inf, math.inf, False, False, False, False, 0.0)
+            return cls(math.inf, math.inf, False, False, False, math.inf, False, 0.0)
         return cls(
             circle=handling.circle if fouls.dribble_circle != "off" else math.inf,
             backward=handling.backward_once if fouls.backward != "off" else math.inf,
             keeps_out=fouls.goal_area != "off",
             takes_turns=fouls.penalty_area != "off",
-            at_once=setup.areas is not None and setup.areas.penalty_area_duration < SHORT_STAY,
+            at_once=areas is not None and areas.penalty_area_duration < SHORT_STAY,
+            stay=areas.penalty_area_stay if areas is not None and areas.penalty_area_stay else math.inf,
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
+            spares_opponents=fouls.charging != "off",
         )
 
 

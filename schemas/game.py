@@ -148,6 +148,7 @@ class EventKind(StrEnum):
     NO_GOAL = "no_goal"
     SHOT = "shot"
     FOUL = "foul"
+    ADVANTAGE = "advantage"
     CARD = "card"
     OFF_FIELD = "off_field"
     ON_FIELD = "on_field"

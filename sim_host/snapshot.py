@@ -68,6 +68,34 @@ class RobotStates(tuple[RobotState, ...]):
         return self
 
 
+class Impact(NamedTuple):
+    """Two robots that have hit each other, by their indices in the roster, the smaller index first."""
+
+    first: int
+    second: int
+    direction: tuple[float, float]
+    """Unit vector from the first to the second, across the place where they touch."""
+    first_velocity: tuple[float, float]
+    """m/s before the impact."""
+    second_velocity: tuple[float, float]
+    """m/s before the impact."""
+
+    @property
+    def first_speed(self) -> float:
+        """m/s at which the first drove toward the second; negative if it drove away."""
+        return self.first_velocity[0] * self.direction[0] + self.first_velocity[1] * self.direction[1]
+
+    @property
+    def second_speed(self) -> float:
+        """m/s at which the second drove toward the first; negative if it drove away."""
+        return -self.second_velocity[0] * self.direction[0] - self.second_velocity[1] * self.direction[1]
+
+    @property
+    def closing_speed(self) -> float:
+        """m/s at which they approached each other."""
+        return self.first_speed + self.second_speed
+
+
 class BallState(NamedTuple):
     """The ball: centre in m, velocity in m/s."""
 
@@ -170,6 +198,8 @@ class Snapshot:
     """A league's referee box is connected."""
     contacts: tuple[tuple[int, int], ...] = ()
     """Pairs of robots that touch each other, by their indices in the roster, sorted, the smaller index first."""
+    impacts: tuple[Impact, ...] = ()
+    """Robots that have hit each other since the tick before, in the order of the roster."""
     ball_spin: tuple[float, float] = (0.0, 0.0)
     """rad/s; the ball's spin about the field's x and y. A rolling ball has the spin (−vy, vx) / radius."""
     obstacles: tuple[ObstacleState, ...] = ()

@@ -19,6 +19,7 @@ _LARGE, _SMALL = 1.1, 0.7
 
 _LEVELS = {
     EventKind.FOUL: Log.WARNING,
+    EventKind.ADVANTAGE: Log.WARNING,
     EventKind.CARD: Log.WARNING,
     EventKind.NO_GOAL: Log.WARNING,
     EventKind.AGENT: Log.WARNING,

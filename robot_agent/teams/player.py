@@ -8,12 +8,14 @@ from robot_agent.bodies import Ball, DriveLimits
 from robot_agent.contract import Briefing
 from robot_agent.fair_play import Carry, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.skills.avoid import circles, go_around
+from robot_agent.skills.brake_before import brake_before
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.keep_out import Area, keep_out
 from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
 from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
+from robot_agent.teams.area_turn import AreaTurn
 from robot_agent.teams.reports import radio_message, why_refused
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
@@ -45,6 +47,8 @@ TURN_BEFORE = 0.3
 """m before the longest repeatable distance backward, where a robot turns instead."""
 TURN_RATE = 2.5
 """rad/s of that turn."""
+PLAYS_BALL = 0.3
+"""m of air between its hull and the ball up to which a robot plays the ball."""
 _PARKING_SPEED = 1.5
 """m/s."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
@@ -82,6 +86,7 @@ class Player(ABC):
         self._rolling = Rolling.of(self.setup.ball)
         self._goal_area = Area.goal(self.setup.pitch)
         self._penalty_area = Area.penalty(self.setup.pitch)
+        self._area_turn = AreaTurn(self._rule_limits, self._penalty_area)
         self._carry: Carry | None = None
         self.possession = Possession()
         """Which side has the ball, and whether a goal would count; updated only where the rules require a pass."""
@@ -195,25 +200,20 @@ class Player(ABC):
         if self._rule_limits.keeps_out:
             drive = keep_out(belief.me, drive, self._goal_area, self.limits)
         if self._rule_limits.takes_turns:
+            must_be_out = self._area_turn.has_to_be_out(belief, self.keeper)
             outside = keep_out(belief.me, drive, self._penalty_area, self.limits)
-            if outside is not drive and self._is_second_in_area(belief):
+            if must_be_out and outside is not drive:
                 drive = outside
+        if self._rule_limits.spares_opponents and not self._plays_ball(belief):
+            drive = brake_before(belief.me, drive, belief.opponents, self.setup.robot.reach, self.limits)
         return action if drive is action.drive else action._replace(drive=drive)
 
-    def _is_second_in_area(self, belief: WorldBelief) -> bool:
-        """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
-
-        Where a second robot there is a foul at once, the teammate may be anywhere, since it may be about to enter.
-        """
-        end = math.copysign(1.0, belief.me.x)
-        ball = belief.ball.now[:2] if belief.ball is not None else (end * self.setup.pitch.goal_line, 0.0)
-        mine = math.dist(ball, belief.me[:2])
-        return not belief.holding and any(
-            math.dist(ball, mate.body[:2]) < mine
-            and (self._rule_limits.at_once or self._penalty_area.has(end, *mate.body[:2]))
-            for name, mate in belief.mates.items()
-            if name != self.keeper
-        )
+    def _plays_ball(self, belief: WorldBelief) -> bool:
+        """Whether this robot has the ball, or the ball is so near that it may run into an opponent for it."""
+        if belief.holding or belief.ball is None:
+            return belief.holding
+        reach = self.setup.robot.reach + self.setup.ball.radius + PLAYS_BALL
+        return math.dist(belief.me[:2], belief.ball.now[:2]) < reach
 
     def _carry_on(self, belief: WorldBelief, action: Action, carry: Carry) -> Action:
         """Release the ball or stop before the dribbling circle ends; turn before the way backward is too long."""

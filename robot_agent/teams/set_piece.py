@@ -79,7 +79,9 @@ def stand(
         limits = limits.capped(bend_speed(away, forbidden, limits))
     else:
         out = (forbidden + MARGIN) / away
-        x, y = inside(spot[0] + (me.x - spot[0]) * out, spot[1] + (me.y - spot[1]) * out, setup.pitch, radius)
+        straight = inside(spot[0] + (me.x - spot[0]) * out, spot[1] + (me.y - spot[1]) * out, setup.pitch, radius)
+        if math.dist(straight, spot) > forbidden:  # otherwise the way out leads beyond the lines
+            x, y = straight
     return go_around(me, x, y, facing, blocked, limits)
 
 

@@ -40,6 +40,12 @@ class Areas:
     penalty_area_duration: Annotated[
         float, Quantity("s", "longest time of more robots than that in a penalty area", 0, 600)
     ]
+    penalty_area_stay: Annotated[
+        float, Quantity("s", "longest time of one robot in a penalty area, alone or not; 0: no limit", 0, 600)
+    ] = 0.0
+    recovery: Annotated[
+        float, Quantity("1", "s by which these times shrink for each s outside the area; 0: they end at once", 0, 10)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +55,22 @@ class Contact:
     push_distance: Annotated[float, Quantity("m", "longest way that a robot pushes an opponent", 0.05, 10)]
     stand_off_duration: Annotated[float, Quantity("s", "longest time that two opponents push each other", 1, 120)]
     outside_duration: Annotated[float, Quantity("s", "longest time of a robot wholly outside the lines", 0, 600)]
+    charge_speed: Annotated[
+        float, Quantity("m/s", "a robot that hits an opponent at a higher closing speed charges it", 0.5, 20)
+    ] = 1.5
+    charge_margin: Annotated[
+        float,
+        Quantity("m/s", "robots whose speeds toward each other differ by less are both or neither at fault", 0, 5),
+    ] = 0.3
+    charge_ball: Annotated[
+        float, Quantity("m", "gap between hull and ball up to which a robot that hits an opponent plays the ball", 0, 2)
+    ] = 0.3
+    charge_card_speed: Annotated[
+        float, Quantity("m/s", "a robot that drives faster into the opponent is shown a yellow card; 0: none", 0, 20)
+    ] = 0.0
+    outside_recovery: Annotated[
+        float, Quantity("1", "s by which this time shrinks for each s inside the lines; 0: it ends at once", 0, 10)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,3 +112,6 @@ class Fouls:
     pushing: Annotated[str, Choice("pushing an opponent away", CALLS)]
     lob: Annotated[str, Choice("a lob from the team's own half that is not a pass", CALLS)]
     leaving_field: Annotated[str, Choice("leaving the field", CALLS)]
+    charging: Annotated[str, Choice("driving into an opponent at speed", CALLS)] = "off"
+    encroachment: Annotated[str, Choice("coming too near to a restart between START and the kick", CALLS)] = "off"
+    penalty_kick: Annotated[str, Choice("leaving the places at a penalty before the kick", CALLS)] = "off"

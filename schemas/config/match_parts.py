@@ -1,6 +1,6 @@
 """The tables of a match file: teams, noise, radio, referee, recording and patience."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -80,6 +80,14 @@ class RadioOverride(Part):
     """Share of deliveries that are lost, from 0 to 1; None for the profile's."""
     budget: Annotated[float, Field(ge=0)] | None = None
     """Most bits that a team may send, in bit/s averaged over one second; None for the profile's."""
+    model: Literal["separate", "shared", "ticks"] | None = None
+    """Whether each side has its own channel, both share one, or times are whole ticks; None for the profile's."""
+    bit_rate: Annotated[float, Field(ge=1e4, le=1e9)] | None = None
+    """Shared channel: bits of a message per second on the air; None for the profile's."""
+    frame_time: Annotated[float, Field(ge=0, le=0.1)] | None = None
+    """Shared channel: further time on the air that each message takes, in s; None for the profile's."""
+    queue: Annotated[float, Field(ge=0, le=5)] | None = None
+    """Shared channel: longest wait of a message in s, beyond which it is refused; None for the profile's."""
 
 
 class OfficiatingConfig(Part):
@@ -95,6 +103,9 @@ class OfficiatingConfig(Part):
     """Mixed officiating: simulated time after which a proposal becomes a decision, in s."""
     winner: bool | None = None
     """A level match continues with extra time and penalties; None for the rule book's setting."""
+    advantage: Annotated[float, Field(ge=0, le=30)] | None = None
+    """Simulated time for which play goes on after a foul if the side that suffered it keeps the ball, in s; 0 for no
+    advantage; None for the rule book's."""
 
 
 class RecordingConfig(RecordOptions):

@@ -18,6 +18,7 @@ from schemas.config.sections import (
     SECTIONS,
     TYPE_SECTIONS,
     Ball,
+    CameraView,
     Dribble,
     DriveLimits,
     Kicker,
@@ -64,6 +65,8 @@ class Profile(Described):
     """Dribbler of the standard robot."""
     kicker: Kicker
     """Kicker of the standard robot."""
+    camera: CameraView
+    """Camera of the standard robot."""
     sensing: Sensing
     """What robots perceive, and with which noise."""
     radio: RadioChannel

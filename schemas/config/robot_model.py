@@ -1,10 +1,10 @@
 """The model of one robot: its body, drive, wheels, dribbler and kicker."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
-from schemas.config.sections import Dribble, DriveLimits, Kicker, RobotBody, Wheels
+from schemas.config.sections import CameraView, Dribble, DriveLimits, Kicker, RobotBody, Wheels
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
 from schemas.wire.field_docstrings import Described
@@ -26,6 +26,8 @@ class RobotModel(Described):
     """Dribbler."""
     kicker: Kicker
     """Kicker."""
+    camera: CameraView = field(default_factory=CameraView)
+    """Camera."""
 
     @classmethod
     def standard(cls, profile: Profile) -> "RobotModel":

@@ -38,7 +38,9 @@ class Restarts:
 
     stop_to_signal: Annotated[float, Quantity("s", "pause from STOP to the restart signal", 0, 60)]
     signal_to_start: Annotated[float, Quantity("s", "time to take positions, from the signal to START", 0, 60)]
-    positions_limit: Annotated[float, Quantity("s", "longest wait of START for robots in illegal positions", 0, 60)]
+    positions_limit: Annotated[
+        float, Quantity("s", "longest wait of START for robots in illegal positions, see `positions_from`", 0, 60)
+    ]
     time_limit: Annotated[float, Quantity("s", "latest time after START for the ball to be in play", 1, 60)]
     penalty_limit: Annotated[float, Quantity("s", "the same at a penalty: time to reach the ball", 1, 60)]
     in_play_distance: Annotated[float, Quantity("m", "the ball is in play after rolling freely this far", 0, 5)]
@@ -68,14 +70,36 @@ class Restarts:
             ("fair", "roster"),
         ),
     ] = "roster"
+    encroach_margin: Annotated[
+        float,
+        Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),
+    ] = 0.2
+    encroach_retreat: Annotated[
+        float, Quantity("s", "time to retreat for a robot that was too near at START or was pushed there", 0, 60)
+    ] = 2.0
+    advantage: Annotated[
+        float,
+        Quantity("s", "time that play goes on for a side that keeps the ball after a foul; 0: no advantage", 0, 30),
+    ] = 0.0
+    positions_from: Annotated[
+        str,
+        Choice("`positions_limit` counts from the signal, or from the earliest START", ("signal", "earliest start")),
+    ] = "earliest start"
+    penalty_behind: Annotated[
+        int, Quantity("1", "1: at a penalty all but kicker and goalkeeper stay behind the ball; 0: not", 0, 1)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Stall:
-    """When a ball that no robot moves is dropped."""
+    """When a ball that lies still or makes no progress is dropped."""
 
     still_speed: Annotated[float, Quantity("m/s", "a slower ball counts as still", 0, 2)]
     still_duration: Annotated[float, Quantity("s", "a ball still for this long is dropped", 1, 120)]
+    progress_distance: Annotated[
+        float, Quantity("m", "a ball that leaves a circle of this radius makes progress; 0: none is required", 0, 20)
+    ] = 0.0
+    progress_duration: Annotated[float, Quantity("s", "longest time of a ball in play without progress", 1, 120)] = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +116,13 @@ class Discipline:
     reds_to_removal: Annotated[
         int, Quantity("1", "with each such number of red cards of a side, the robot is out for the match", 0, 20)
     ]
-    reset_each_half: Annotated[int, Quantity("1", "1: yellow cards are cleared at half time", 0, 1)]
+    reset_each_half: Annotated[int, Quantity("1", "1: yellow cards and repeated fouls are cleared at half time", 0, 1)]
+    repeated_encroachment: Annotated[
+        int, Quantity("1", "encroachments of one robot from which on each is a yellow card; 0: none", 0, 20)
+    ] = 0
+    repeated_fouls: Annotated[
+        int, Quantity("1", "fouls of one kind by one robot from which on each is a yellow card; 0: none", 0, 20)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +172,7 @@ class RuleBook(Described):
     people: People
     """Repairs, substitutions and forfeits."""
     stall: Stall
-    """When a ball that no robot moves is dropped."""
+    """When a ball that lies still or makes no progress is dropped."""
     scrum: Scrum
     """When a ball that both sides contest is dropped."""
     scoring: Scoring

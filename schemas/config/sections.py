@@ -146,6 +146,10 @@ class DriveLimits:
             ("velocity", "traction", "omni"),
         ),
     ] = "velocity"
+    stuck_window: Annotated[
+        float,
+        Quantity("s", "time over which progress is compared with demand; 0: stuck after 0.2 s below half speed", 0, 5),
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,8 +209,17 @@ class Kicker:
 
 
 @dataclass(frozen=True, slots=True)
+class CameraView:
+    """What a robot's camera has in view. Old recordings have no such section: their cameras see all round."""
+
+    field_of_view: Annotated[
+        float, Quantity("rad", "total angle about the kick axis in which ball and obstacles are seen", 0.01, math.tau)
+    ] = math.tau
+
+
+@dataclass(frozen=True, slots=True)
 class Sensing:
-    """What robots perceive: sensors of their own motion, and an omnidirectional camera.
+    """What robots perceive: sensors of their own motion, and a camera.
 
     Noise is Gaussian and given as standard deviations. That of the camera grows with the distance d: along the line of
     sight it is √(near² + (range_noise·d)²), across it √(near² + (bearing_noise·d)²).
@@ -247,12 +260,30 @@ class Sensing:
 
 @dataclass(frozen=True, slots=True)
 class RadioChannel:
-    """The radio channel between teammates, which the host simulates."""
+    """The radio between teammates, which the host simulates.
 
-    delay: Annotated[float, Quantity("s", "least simulated time from sending to delivery", 0, 5)]
-    jitter: Annotated[float, Quantity("s", "longest further time until delivery, uniformly distributed", 0, 5)]
+    Numbers with a default are missing in old recordings, which were played with the default.
+    """
+
+    delay: Annotated[float, Quantity("s", "least simulated time from sending to arrival", 0, 5)]
+    jitter: Annotated[float, Quantity("s", "longest further time until arrival, uniformly distributed", 0, 5)]
     loss: Annotated[float, Quantity("1", "share of deliveries that never arrive", 0, 1)]
     budget: Annotated[float, Quantity("bit/s", "most that a team may send, averaged over one second", 0, 1e9)]
+    model: Annotated[
+        str,
+        Choice(
+            "separate gives each side its own channel, with exact times; shared makes messages of both sides wait for "
+            "each other; ticks counts whole ticks from the end of the tick",
+            ("separate", "shared", "ticks"),
+        ),
+    ] = "ticks"
+    bit_rate: Annotated[float, Quantity("bit/s", "bits of a message per second on the shared channel", 1e4, 1e9)] = 3e6
+    frame_time: Annotated[
+        float, Quantity("s", "further time on the shared channel that each message takes", 0, 0.1)
+    ] = 4e-4
+    queue: Annotated[
+        float, Quantity("s", "longest wait for the shared channel; beyond it a message is refused", 0, 5)
+    ] = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,10 +302,13 @@ SECTIONS: dict[str, type] = {
     "wheels": Wheels,
     "dribble": Dribble,
     "kicker": Kicker,
+    "camera": CameraView,
     "sensing": Sensing,
     "radio": RadioChannel,
     "safety": Safety,
 }
 """Section name in the file → the dataclass that holds it."""
-TYPE_SECTIONS: dict[str, type] = {name: SECTIONS[name] for name in ("robot", "drive", "wheels", "dribble", "kicker")}
+TYPE_SECTIONS: dict[str, type] = {
+    name: SECTIONS[name] for name in ("robot", "drive", "wheels", "dribble", "kicker", "camera")
+}
 """The sections whose numbers a type of robot may change."""

@@ -11,7 +11,7 @@ from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
 from schemas.config.rule_book import Periods, Restarts, RuleBook
-from schemas.config.sections import Ball, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
+from schemas.config.sections import Ball, CameraView, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
 from schemas.game import OfficiatingMode
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
@@ -62,6 +62,8 @@ class Setup(Message):
     """Dribbler of the standard robot."""
     kicker: Kicker
     """Kicker of the standard robot."""
+    camera: CameraView = Field(default_factory=CameraView)
+    """Camera of the standard robot; one that sees all round in recordings that are older than this field."""
     periods: Periods
     """Halves, breaks, extra time and penalty shoot-out."""
     restarts: Restarts
@@ -116,6 +118,7 @@ class Setup(Message):
             drive=profile.drive,
             dribble=profile.dribble,
             kicker=profile.kicker,
+            camera=profile.camera,
             periods=book.periods,
             restarts=book.restarts,
             handling=book.handling,
@@ -132,7 +135,7 @@ class Setup(Message):
         )
 
     def for_robot(self, robot: str) -> Self:
-        """The same setup with this robot's own body, drive, dribbler and kicker in place of the standard robot's.
+        """The same setup with this robot's own parts in place of the standard robot's.
 
         Recordings that are older than types of robots have no models: all robots are standard ones.
         """
@@ -140,7 +143,13 @@ class Setup(Message):
         model = self.models.get(types.get(robot, STANDARD))
         if model is None:
             return self
-        own = {"robot": model.body, "drive": model.drive, "dribble": model.dribble, "kicker": model.kicker}
+        own = {
+            "robot": model.body,
+            "drive": model.drive,
+            "dribble": model.dribble,
+            "kicker": model.kicker,
+            "camera": model.camera,
+        }
         return self.model_copy(update=own)
 
 

@@ -46,7 +46,10 @@ class ReceivedRadio(RadioContent, frozen=True, kw_only=True):
     """A teammate's radio message as it was delivered."""
 
     age: Seconds
-    """Simulated time since it was sent, in s."""
+    """Simulated time from the moment at which it left the sender to this sight, in s, to 0.1 ms.
+
+    Its content answers the sender's sight of up to one tick before it left.
+    """
 
     @classmethod
     def of(cls, content: RadioContent, age: float = 0.0) -> "ReceivedRadio":

@@ -5,7 +5,8 @@ export const LEAD_S = 2;
 
 /** Kind of event → its symbol. */
 export const SYMBOLS = {
-  goal: "★", shot: "◆", save: "◇", foul: "✕", card: "▮", ball_out: "↗", restart: "↻", half_time: "◐", full_time: "■",
+  goal: "★", shot: "◆", save: "◇", foul: "✕", advantage: "▷", card: "▮", ball_out: "↗", restart: "↻",
+  half_time: "◐", full_time: "■",
 };
 
 const ROUTINE = new Set(["stop", "start", "in_play", "restart", "ball_out", "agent", "parameters", "action"]);

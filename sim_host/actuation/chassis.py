@@ -35,7 +35,7 @@ class Chassis:
         """Drives that plan a whole tick at once: the indices of their robots, and the drive."""
         self._omni_driven = driven["omni"]
         self._omni = OmniDrive(time, [models[index] for index in self._omni_driven])
-        self._detector = StuckDetector(len(models), time.tick)
+        self._detector = StuckDetector(models, time.tick)
 
     def reset(self) -> None:
         """Clear the memory: the next tick begins from the measured velocities."""
@@ -45,7 +45,7 @@ class Chassis:
         self._detector.reset()
 
     def stuck(self) -> list[bool]:
-        """Per robot: it has moved much slower than demanded for some time."""
+        """Per robot: it has made little of the progress that it demanded."""
         return self._detector.stuck()
 
     def plan(self, robots: RobotStates, inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldTwist]]:
@@ -54,15 +54,17 @@ class Chassis:
         if len(self._direct) == 1 and not self._omni_driven:
             indices, drive = self._direct[0]
             planned = drive.plan(robots, demands)
-            self._detector.update(indices, drive.held_back)
+            self._detector.update(indices, drive.held_back, robots, demands)
             return planned
         plans = []
         for indices, drive in self._direct:
-            its_robots = RobotStates([robots[index] for index in indices])
-            plans.append((indices, drive.plan(its_robots, [demands[index] for index in indices])))
-            self._detector.update(indices, drive.held_back)
-        self._omni.plan([robots[index] for index in self._omni_driven], [demands[index] for index in self._omni_driven])
-        self._detector.update(self._omni_driven, self._omni.held_back)
+            its_robots, its_demands = RobotStates([robots[i] for i in indices]), [demands[i] for i in indices]
+            plans.append((indices, drive.plan(its_robots, its_demands)))
+            self._detector.update(indices, drive.held_back, its_robots, its_demands)
+        on_wheels = [robots[index] for index in self._omni_driven]
+        their_demands = [demands[index] for index in self._omni_driven]
+        self._omni.plan(on_wheels, their_demands)
+        self._detector.update(self._omni_driven, self._omni.held_back, on_wheels, their_demands)
         return self._step_by_step(len(robots), plans)
 
     def _step_by_step(self, count: int, plans: Sequence[Plan]) -> Iterator[Sequence[FieldTwist]]:

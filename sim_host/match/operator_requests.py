@@ -11,7 +11,6 @@ from schemas.messages.scene import SceneReply, SceneRequest
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.subsystems import Subsystems
-from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import BALL, Snapshot
 from sim_host.staging.layout import Layout, LayoutChange, Specs
@@ -106,9 +105,7 @@ class OperatorRequests:
             self.episode += 1
             return self._subsystems.referee.begin_at(change.game, change.ball)
         if change.placements or self.layout.robots != before.robots:
-            participation = state.participation.of_robots(self._subsystems.roster.names)
-            # A body that was set down did not run or dribble to its place: what was seen before proves nothing.
-            return state._replace(participation=participation, evidence=NO_EVIDENCE)
+            return state.after_layout_change(self._subsystems.roster.names)
         return state
 
     @property

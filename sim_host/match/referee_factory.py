@@ -27,6 +27,7 @@ def make_referee(
         mode=options.mode,
         proposal=options.proposal,
         winner=options.winner,
+        advantage=options.advantage,
     )
 
 

@@ -26,6 +26,9 @@ from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.state_json import state_from_json
 from sim_host.snapshot import Roster, Snapshot
 
+CHANGED_BY_LAYOUT = ("participation", "evidence", "set_piece", "proposal", "advantage")
+"""Fields of the state that `RefereeState.after_layout_change` changes."""
+
 
 class OfficiatingSettings(NamedTuple):
     """The constants of a match that the referee needs beside profile and roster."""
@@ -113,7 +116,7 @@ class RefereeResimulation:
                 conflicts += _conflicts(recorded, self._state)
             elif applied.episode == self._episode:
                 # an operator who moves bodies or robots changes what has been seen, and who takes part; nothing else
-                expected = self._state._replace(participation=recorded.participation, evidence=recorded.evidence)
+                expected = self._state._replace(**{name: getattr(recorded, name) for name in CHANGED_BY_LAYOUT})
                 conflicts += _conflicts(recorded, expected)
             self._state = recorded
         if applied.episode != self._episode and (not by_scene or applied.episode < self._episode):

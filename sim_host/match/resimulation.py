@@ -109,6 +109,7 @@ def parameters_of(setup: Setup) -> LiveParameters:
         wheels=standard.wheels if standard is not None else shipped.wheels,
         dribble=setup.dribble,
         kicker=setup.kicker,
+        camera=setup.camera,
         types={},
     )
     own = RobotModel.standard(profile)

@@ -233,15 +233,16 @@ class Simulation:
         self, snapshot: Snapshot, commands: Mapping[str, Command], refusals: dict[str, list[str]]
     ) -> list[tuple[Side, str, bytes]]:
         """Send the radio messages of this tick; the beliefs to publish."""
+        messages = {
+            name: command.radio
+            for name in self.roster.names  # the order of arrival differs between runs
+            if (command := commands.get(name)) is not None and command.radio is not None
+        }
+        refused = self._subsystems.radio.send(snapshot.tick, messages)
         beliefs = []
-        for name in self.roster.names:  # the order of arrival differs between runs
-            command = commands.get(name)
-            if command is None or command.radio is None:
-                continue
-            message = command.radio
-            refusal = self._subsystems.radio.send(snapshot.tick, name, message)
-            if refusal is not None:
-                refusals.setdefault(name, []).append(refusal)
+        for name, message in messages.items():
+            if name in refused:
+                refusals.setdefault(name, []).append(refused[name])
                 continue
             belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": message}
             beliefs.append((self.roster.side_of(name), name, encode(belief)))

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from schemas.config.match_config import MatchConfig
+from schemas.config.profile import Profile
 from schemas.config.roster import RosterEntry
 from schemas.config.rule_book import RuleBook
 from sim_host.actuation.latest_commands import LatestCommands
@@ -43,9 +44,12 @@ class Subsystems:
             self.radio.change(new.radio)
         if live_parameters.sensing != before.sensing:
             self._perception.change(live_parameters.sensing)
-        concerns_world = replace(new, radio=old.radio, safety=old.safety, sensing=old.sensing) != old
-        if concerns_world:
+        same_senses = replace(new, radio=old.radio, safety=old.safety, sensing=old.sensing, camera=old.camera)
+        concerns_world = _of_world(same_senses) != _of_world(old)
+        if live_parameters.types != before.types:
             self.roster = Roster.of_entries(self._robots, live_parameters.types)
+            self._perception = self._perception.with_roster(live_parameters.sensing, self.roster)
+            self.sights = Sights(self.roster, self._perception, self.radio)
         self.commands = self.commands.with_roster(self.roster.names, self._watchdog, self.roster.still)
         return concerns_world
 
@@ -84,3 +88,12 @@ class Subsystems:
         """A referee; it has no memory of its own, since its state is passed to every step."""
         config = self._config
         return make_referee(self._book, self._live_parameters.profile, self.roster, config.duration, config.referee)
+
+
+def _of_world(profile: Profile) -> Profile:
+    """The profile with types of robots that have the standard camera."""
+    types = {
+        name: {section: numbers for section, numbers in changes.items() if section != "camera"}
+        for name, changes in profile.types.items()
+    }
+    return replace(profile, types=types)

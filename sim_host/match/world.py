@@ -13,7 +13,8 @@ from sim_host.actuation.chassis import Chassis
 from sim_host.physics.collision_candidates import CollisionCandidates
 from sim_host.physics.continuous_collision import ContinuousCollision
 from sim_host.physics.engine import Engine
-from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.physics.impacts import ImpactDetector
+from sim_host.snapshot import BALL, BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 _NOTHING = BallReport()
 
@@ -123,7 +124,8 @@ class World:
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
         report = ball.decide_possession_and_kick(self.tick, self._robots, self._ball_state, ordered)
-        pairs, fixed = self._candidates.find(self._robots)
+        pairs, fixed, hits = self._candidates.find(self._robots)
+        impacts = ImpactDetector(engine, self._robots, hits) if hits else None
         for drives in self._chassis.plan(self._robots, ordered):
             free_ball = ball.before_step(drives)
             if pairs or fixed:
@@ -133,6 +135,8 @@ class World:
                 self._collision.advance_ball(free_ball)
             engine.step()
             ball.after_step(report)
+            if impacts is not None:
+                impacts.after_step()
         engine.read()
         self._read_states()
         if ball.release_lost_ball(self._robots, self._ball_state):
@@ -140,12 +144,12 @@ class World:
         self.tick += 1
         names = self._roster.names
         return WorldTick(
-            snapshot=self.snapshot(report),
+            snapshot=self.snapshot(report, () if impacts is None else impacts.found()),
             refused={names[place]: reason for place, reason in report.refused.items()},
             stuck=self._chassis.stuck(),
         )
 
-    def snapshot(self, report: BallReport = _NOTHING) -> Snapshot:
+    def snapshot(self, report: BallReport = _NOTHING, impacts: tuple[Impact, ...] = ()) -> Snapshot:
         """The present state of all bodies; `touches`, `level` and `kicked` come from the report of the tick."""
         names, holding = self._roster.names, self._ball.holder
         last_touches = dict.fromkeys(reversed(report.touches))  # each robot once, where it touched last
@@ -160,6 +164,7 @@ class World:
             level=tuple([names[place] for place in report.level]),
             kicked=None if report.kicked is None else names[report.kicked],
             contacts=self._engine.robot_contacts,
+            impacts=impacts,
             ball_spin=self._engine.ball_spin(),
             obstacles=self._obstacles,
             kickers_ready=self._ball.kickers_ready(self.tick),

@@ -10,6 +10,8 @@ from sim_host.snapshot import ObstacleState, RobotState
 
 MAX_DEPTH = 0.01
 """m that a body may sink into another in one step: the engine's contacts undo this depth in a few steps."""
+MIN_IMPACT = 0.5
+"""m/s; robots that meet more slowly lean on each other, rather than hit each other."""
 
 IndexPairs = list[tuple[int, int]]
 _Moving = tuple[float, float, float, float, float, float, int]
@@ -35,10 +37,11 @@ class CollisionCandidates:
         """Set the obstacles on the pitch."""
         self._obstacles = [(obstacle.x, obstacle.y, obstacle.radius) for obstacle in obstacles]
 
-    def find(self, robots: Sequence[RobotState]) -> tuple[IndexPairs, IndexPairs]:
-        """Pairs of robots, and pairs of a robot and a fixed body, that may meet too fast within the tick.
+    def find(self, robots: Sequence[RobotState]) -> tuple[IndexPairs, IndexPairs, IndexPairs]:
+        """Pairs that may meet within the tick: of robots, too fast; of a robot and a fixed body, too fast; of robots.
 
-        Fixed bodies are numbered: first the boxes of the pitch, then the obstacles.
+        Fixed bodies are numbered: first the boxes of the pitch, then the obstacles. The last are all pairs of robots
+        that may hit each other, those that are too fast among them.
         """
         fast, tick = self._fast, self._tick
         moving, fixed = [], []
@@ -49,10 +52,13 @@ class CollisionCandidates:
             moving.append((x, y, vx, vy, extra, travel, place))
             if speed > fast:
                 fixed += self._fixed(place, x, y, travel)
-        return self._robots(moving), fixed
+        fast_pairs, hits = self._robots(moving)
+        return fast_pairs, fixed, hits
 
-    def _robots(self, moving: list[_Moving]) -> IndexPairs:
-        widest, pairs = max([travel for *_, travel, _ in moving]), []
+    def _robots(self, moving: list[_Moving]) -> tuple[IndexPairs, IndexPairs]:
+        widest = max([travel for *_, travel, _ in moving])
+        pairs: IndexPairs = []
+        hits: IndexPairs = []
         moving.sort()
         for number, (x, y, vx, vy, extra, travel, one) in enumerate(moving, 1):
             for other_x, other_y, other_vx, other_vy, other_extra, other_way, other in moving[number:]:
@@ -64,9 +70,13 @@ class CollisionCandidates:
                 if apart > travel + other_way:
                     continue
                 approach = ((vx - other_vx) * dx + (vy - other_vy) * dy) / max(apart, 1e-9)
-                if approach + extra + other_extra > self._fast:
-                    pairs.append((min(one, other), max(one, other)))
-        return sorted(pairs)
+                approach += extra + other_extra
+                if approach > MIN_IMPACT:
+                    pair = (min(one, other), max(one, other))
+                    hits.append(pair)
+                    if approach > self._fast:
+                        pairs.append(pair)
+        return sorted(pairs), sorted(hits)
 
     def _fixed(self, place: int, x: float, y: float, travel: float) -> IndexPairs:
         found = []

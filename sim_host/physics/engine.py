@@ -27,6 +27,8 @@ _UPRIGHT = 1e-3
 """A robot is put upright again from this half sine of its tilt, or from this lift in m."""
 _TOUCHING = 0.001
 """m; two robots count as touching up to this gap: the solver leaves a smaller one between bodies in contact."""
+_HORIZONTAL = 0.5
+"""Share of a contact's normal that lies on the ground, at least, if two upright hulls touch with their sides."""
 _STATE_SIZE = 13
 """Numbers in the state of a body."""
 _OBSTACLE = struct.Struct("<7d")
@@ -262,6 +264,19 @@ class Engine:
         if holder is not None:
             depth.pop(self.robots[holder], None)
         return BallContacts(forces, max(depth.values(), default=0.0))
+
+    def contact_direction(self, one: int, other: int) -> tuple[float, float] | None:
+        """The unit vector on the ground from one robot to another at their contact in the last step; None without one.
+
+        For two round hulls it is the direction from centre to centre.
+        """
+        body = self.robots[one]
+        for contact in pybullet.getContactPoints(body, self.robots[other], physicsClientId=self.client):
+            (x, y, _), sign = contact[7], -1.0 if contact[1] == body else 1.0
+            length = math.hypot(x, y)
+            if contact[8] <= _TOUCHING and length > _HORIZONTAL:
+                return sign * x / length, sign * y / length
+        return None
 
     def _robot_contacts(self) -> tuple[tuple[int, int], ...]:
         """Pairs of robots that touched each other in the last step, in roster order."""

@@ -20,7 +20,7 @@ from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.placement.bench import bench_pose, entry_pose
 from sim_host.referee.placement.spots import restart_at
-from sim_host.referee.procedures import penalties, restart
+from sim_host.referee.procedures import advantage, offences, penalties, restart
 from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.rules import Rule
 from sim_host.referee.ruling_draft import RulingDraft
@@ -30,16 +30,25 @@ _UNDO_DEPTH = 20
 
 
 def judge(draft: RulingDraft, found: tuple[Rule, Decision] | None) -> None:
-    """Carry out or propose a decision of a rule; carry out a proposal that was not overruled in time."""
+    """Carry out, propose or note a decision of a rule; carry out a proposal that was not overruled in time."""
     proposal = draft.state.proposal
     if proposal is not None and is_due(proposal):
         decide(draft, proposal.rule, proposal.decision)
-    elif found is not None:
-        rule, decision = found
-        if draft.match.mode is not OfficiatingMode.MIXED or not rule.while_running:
-            decide(draft, rule.name, decision)
-        elif proposal is None:
-            propose(draft, rule.name, decision)
+        return
+    judged = None if found is None else (found[0].name, offences.with_card(draft, found[0].name, found[1]))
+    at_once = found is not None and not found[0].while_running
+    called = judged
+    if draft.state.advantage is not None:
+        called = advantage.resolve(draft, judged)
+    elif called is not None and proposal is None and advantage.is_played(draft, called[1]):
+        advantage.note(draft, *called)
+        return
+    if called is None:
+        return
+    if draft.match.mode is not OfficiatingMode.MIXED or (at_once and called is judged):
+        decide(draft, *called)
+    elif proposal is None:
+        propose(draft, *called)
 
 
 def decide(draft: RulingDraft, rule: str, decision: Decision) -> None:
@@ -76,7 +85,7 @@ def is_due(proposal: Proposal | None) -> bool:
 def save_for_undo(draft: RulingDraft) -> None:
     """Keep the present state for `undo`, in place of the oldest one where there are many."""
     state = draft.state
-    kept = (*state.history, state._replace(history=(), proposal=None))
+    kept = (*state.history, state._replace(history=(), proposal=None, advantage=None))
     draft.state = state._replace(history=kept[-_UNDO_DEPTH:])
 
 

@@ -57,6 +57,7 @@ class Referee:
         mode: OfficiatingMode = OfficiatingMode.AUTOMATIC,
         proposal: float = 0.0,
         winner: bool | None = None,
+        advantage: float | None = None,
     ) -> None:
         """The constants of a match.
 
@@ -68,6 +69,7 @@ class Referee:
             mode: whether the referee, people, or both decide.
             proposal: s that people have to overrule a decision, in mixed officiating.
             winner: whether a level match goes on until a side wins; the rule book's choice if None.
+            advantage: s for which play goes on after a foul for a side that keeps the ball; the rule book's if None.
 
         Raises:
             TouchlineError: a robot of the roster has no start pose.
@@ -76,7 +78,18 @@ class Referee:
         half = periods.half_duration if duration is None else duration / periods.halves
         goes_on = bool(periods.needs_winner) if winner is None else winner
         self._match = MatchConstants(
-            book, pitch, ball, roster, half, kick_off, automatic, starts, mode, proposal, goes_on
+            book,
+            pitch,
+            ball,
+            roster,
+            half,
+            kick_off,
+            automatic,
+            starts,
+            mode,
+            proposal,
+            goes_on,
+            book.restarts.advantage if advantage is None else advantage,
         )
 
     def begin(self) -> RefereeState:
@@ -134,5 +147,6 @@ def is_quiet(state: RefereeState) -> bool:
         and state.set_piece is None
         and not state.participation.silent
         and not state.questions
+        and state.advantage is None
         and not is_due(state.proposal)
     )

@@ -14,7 +14,7 @@ from schemas.config.quantity import Quantity, meanings
 from schemas.config.rule_book import SECTIONS, SHIPPED, RuleBook, load_rule_book
 from sim_host.referee import authority, refbox
 from sim_host.referee.placement import positions
-from sim_host.referee.procedures import discipline, penalties, periods, restart
+from sim_host.referee.procedures import advantage, discipline, offences, penalties, periods, restart
 from sim_host.referee.rules import RULES, SHOOT_OUT, Rule
 
 NOTE = (
@@ -36,17 +36,16 @@ and is defined in `schemas/rule_books/`. A foul that is `off` is not called; wit
 card.
 """
 
-PROCEDURES = (periods, penalties, restart, positions, discipline, authority, refbox)
+PROCEDURES = (periods, penalties, restart, positions, advantage, offences, discipline, authority, refbox)
 """The procedures around the rules; the docstrings of these modules have the same labels as a rule's."""
 
 DECIDED_BY_PEOPLE = (
-    ("Advantage", "The referee stops the game at every foul. People may undo decisions, the newest first."),
     ("Intent", "Intent is not judged: a robot that moves an opponent has pushed it, a kick from afar is a shot."),
     (
         "Goal crash",
         "A robot that runs into a goal frame is not called (a yellow card in the simulation league of 2020).",
     ),
-    ("Delay", "A team that stalls the game on purpose is not called; stalled balls, scrums and time limits are."),
+    ("Delay", "A team that delays the game on purpose is not called; a ball without progress is dropped."),
     ("Handling", "The depth of the ball in a hull is fixed by the robot's model, and not judged."),
     ("Size, weight, markers, radio", "The profile defines the robots, and the host enforces the radio's budget."),
     ("Protests and abandoned matches", "People end a match by `end_game`."),

@@ -35,6 +35,8 @@ class MatchConstants:
     """s that people have to overrule a decision, in mixed officiating."""
     needs_winner: bool = False
     """A level match goes on with extra time and a shoot-out."""
+    advantage: float = 0.0
+    """s for which play goes on after a foul for a side that keeps the ball; 0: no advantage."""
     reaches: tuple[float, ...] = field(init=False)
     """m; distance from the centre of each robot of the roster to the farthest point of its hull."""
     out_x: float = field(init=False)

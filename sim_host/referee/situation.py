@@ -4,13 +4,15 @@ import dataclasses
 from enum import Enum
 from typing import NamedTuple
 
-from schemas.game import Phase
+from schemas.game import SIDED, Phase
 from sim_host.referee.evidence import NO_EVIDENCE, evidence_after
 from sim_host.referee.game.refbox_presence import refbox_gone_after
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.set_piece import set_piece_after
 from sim_host.referee.game.shoot_out import ShootOut
 from sim_host.referee.match_constants import MatchConstants
+from sim_host.referee.placement.intrusions import intrusions_after
+from sim_host.referee.placement.penalty_strays import with_strays
 from sim_host.snapshot import BallState, Snapshot
 
 
@@ -48,7 +50,13 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
     seen = NO_EVIDENCE
     if state.running:
         seen = evidence_after(
-            match, state.evidence, match.keepers(state.participation.absences), state.cyan_attacks, snapshot, dt
+            match,
+            state.evidence,
+            match.keepers(state.participation.absences),
+            state.cyan_attacks,
+            snapshot,
+            dt,
+            in_play=in_play,
         )
     refbox_gone = state.refbox_gone
     if snapshot.refbox or refbox_gone is not None:
@@ -58,17 +66,28 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
         set_piece=set_piece_after(state.set_piece, snapshot, in_play, dt),
         participation=state.participation.after(snapshot.silent, dt, state.timing.runs),
         proposal=None if state.proposal is None else state.proposal.after(dt),
+        advantage=None if state.advantage is None else state.advantage.after(dt),
         still=state.still + dt if slow else 0.0,
         ball=now,
         evidence=seen,
         refbox_gone=refbox_gone,
         questions=tuple([question.after(dt) for question in state.questions]) if state.questions else (),
     )
+    if state.phase is Phase.PENALTY and state.running:
+        now_state = with_strays(match, now_state, snapshot)
     if state.shoot_out is not None and state.running:
         now_state = now_state._replace(shoot_out=_with_nearest_ball(match, now_state, snapshot, state.shoot_out))
+    piece = now_state.set_piece
+    if piece is not None and state.running and not in_play and is_encroachment_judged(match, now_state):
+        now_state = now_state._replace(set_piece=intrusions_after(match, now_state, piece, snapshot, dt))
     inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y
     crossing = None if inside or state.ball is None else crossed(match, state.ball, now)
     return Situation(match, now_state, snapshot, crossing)
+
+
+def is_encroachment_judged(match: MatchConstants, state: RefereeState) -> bool:
+    """Whether robots may encroach on this restart: penalties and dropped balls have rules of their own."""
+    return match.book.fouls.encroachment != "off" and state.phase in SIDED and state.phase is not Phase.PENALTY
 
 
 def crossed(

@@ -21,6 +21,7 @@ from sim_host.sensing.random_streams import (
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.team_frames import TeamFrames
+from sim_host.sensing.view import View
 from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Roster, Snapshot
 
 _NO_DISTANCE = np.array(1e-9)
@@ -102,6 +103,7 @@ class Camera:
         self._later = np.array([[_LATER * (its is not side) for its in sides] for side in roster.sides])
         """Per robot and body: m added to the distance, so that of two equally far bodies a teammate is first."""
         self._draws = BatchedDraws(self._draw, SMALL_BATCH)
+        self._view = View.of([model.camera for model in roster.models])
         robots = len(roster.names)
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
@@ -119,6 +121,8 @@ class Camera:
         distance = np.abs(places)
         found: Flags = distance <= self._range
         found &= is_detected
+        if self._view is not None:
+            found &= self._view.has(places, distance, robots.heading)
         if self._sensing.occlusion == "hulls":
             found &= ~self._hulls.hidden(places, distance, robots.heading, ball.z)
         self._blur_by(distance, draws)

@@ -35,6 +35,7 @@ class StreamId(IntEnum):
     BALL = 7
     AIR = 8
     OWN_LUCK = 9
+    LEAVES = 10
 
 
 def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:

@@ -7,6 +7,8 @@ import pytest
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
 from robot_agent.fair_play import HALFWAY, Possession, RuleLimits, carry_after, possession_after
+from robot_agent.skills.keep_out import Area
+from robot_agent.teams.area_turn import AreaTurn
 from robot_agent.teams.simple import Simple
 from robot_agent.world_model import SeenBall, Teammate, WorldBelief
 from schemas.config.match_config import MatchConfig
@@ -39,9 +41,9 @@ def after(*scenes, before=NOBODYS):
     return before
 
 
-def test_a_friendly_asks_nothing_but_to_keep_out_of_areas(setup, league):
-    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, True, False, False, 1.0)
-    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, True, False, True, 1.0)
+def test_a_friendly_asks_only_to_keep_out_of_areas_and_to_spare_opponents(setup, league):
+    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, True, False, math.inf, False, 1.0, True)
+    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, True, True, 10.0, True, 1.0, True)
 
 
 def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
@@ -51,7 +53,7 @@ def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
 
 def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
     old = league.model_copy(update={"handling": None, "scoring": None, "fouls": None})
-    assert RuleLimits.of(old) == RuleLimits(math.inf, math.inf, False, False, False, False, 0.0)
+    assert RuleLimits.of(old) == RuleLimits(math.inf, math.inf, False, False, False, math.inf, False, 0.0)
 
 
 def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():
@@ -118,6 +120,46 @@ def test_in_a_friendly_no_robot_releases_the_ball(setup, sight_of):
     robot = Simple(Briefing.of("cyan2", setup))
     command = play(robot, sight_of, 2.5)
     assert command.kick is None and command.drive.vx > 0.5
+
+
+def turn(league, scenes):
+    """Whether the robot has to be outside the penalty area after these scenes."""
+    limits = RuleLimits.of(league)
+    area_turn = AreaTurn(limits, Area.penalty(league.pitch))
+    return [area_turn.has_to_be_out(one, "cyan1") for one in scenes][-1]
+
+
+IN, OUT = Body(9.5, 0.0, 0.0), Body(7.5, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("me", "mate", "ball", "has_to"),
+    [
+        (OUT, (3, 9.5, 1.0), (9.0, 0.0), True),
+        (OUT, (3, 9.5, 1.0), (7.6, 0.0), True),
+        (IN, (3, 8.0, 0.0), (9.4, 0.0), False),
+        (IN, (3, 8.0, 0.0), (8.1, 0.0), True),
+        (IN, (3, 9.5, 1.0), (9.5, 0.2), False),
+        (OUT, (1, 9.5, 1.0), (9.0, 0.0), False),
+    ],
+)
+def test_where_a_second_robot_is_a_foul_at_once_a_robot_waits_until_the_other_has_left(league, me, mate, ball, has_to):
+    assert turn(league, [scene(ball, me, mates=[mate])]) is has_to
+
+
+def test_a_robot_with_the_ball_waits_before_the_area_until_its_teammate_has_left(league):
+    assert turn(league, [scene((7.8, 0.0), OUT, holding=True, mates=[(3, 9.5, 1.0)])])
+
+
+@pytest.mark.parametrize(("seconds", "has_to"), [(7.9, False), (8.1, True)])
+def test_a_robot_leaves_the_penalty_area_before_its_time_is_up(league, seconds, has_to):
+    assert turn(league, [scene((9.4, 0.0), IN)] * round(seconds / 0.02)) is has_to
+
+
+@pytest.mark.parametrize(("away", "has_to"), [(2.0, True), (3.2, False)])
+def test_it_comes_back_when_half_of_its_time_is_left(league, away, has_to):
+    stay = [scene((9.4, 0.0), IN)] * round(8.1 / 0.02)
+    assert turn(league, stay + [scene((9.4, 0.0), OUT)] * round(away / 0.02)) is has_to
 
 
 def test_the_second_of_two_stays_out_of_the_penalty_area_while_the_nearer_one_is_in_it(league, sight_of):

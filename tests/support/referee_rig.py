@@ -1,19 +1,20 @@
 """A rig for the referee: a world of points that does what the referee asks and nothing else."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.rule_book import RuleBook, load_rule_book
 from schemas.frames import Pose
 from schemas.game import ActionName, EventKind, Phase, Point
 from schemas.messages.game import GameEvent, RefereeAction
 from schemas.side import Side
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.match_constants import MatchConstants
-from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.snapshot import BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 
 class RefereeRig:
@@ -74,6 +75,10 @@ class RefereeRig:
             return name
         return f"{self.roster.side_of(name).opponent}{name[-1]}"
 
+    def side_sign(self, name: str) -> int:
+        """Sign of the x direction that the side of a robot attacks in the first half."""
+        return self.roster.side_of(name).attack(1)
+
     def _turned(self, x: float, y: float) -> tuple[float, float]:
         return (-x, -y) if self.mirrored else (x, y)
 
@@ -85,13 +90,15 @@ class RefereeRig:
         silent: Sequence[str] = (),
         motions: Mapping[str, tuple[float, float, float]] = {},
         contacts: Sequence[tuple[str, str]] = (),
+        impacts: Sequence[tuple[str, str]] = (),
         spin: tuple[float, float] | None = None,
         level: Sequence[str] = (),
     ) -> Snapshot:
         """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots.
 
-        `level` are the last robots of `touches`, if they touched the ball at the same time. A ball without another
-        `spin`, in rad/s, rolls.
+        `impacts`: pairs that hit each other along the line between their centres, with their motions of this tick.
+        `level`: the last robots of `touches`, if they touched the ball at the same time.
+        A ball without another `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
         robots = RobotStates(
@@ -104,7 +111,10 @@ class RefereeRig:
         kicker, holder = (None if name is None else self.robot(name) for name in (kicked, possession))
         gone = tuple(self.robot(name) for name in silent)
         names = self.roster.names
-        pairs = [sorted(names.index(self.robot(name)) for name in pair) for pair in contacts]
+        pairs, hits = (
+            sorted(sorted(names.index(self.robot(name)) for name in pair) for pair in some)
+            for some in (contacts, impacts)
+        )
         return Snapshot(
             self.at,
             self.at * self.dt,
@@ -116,7 +126,8 @@ class RefereeRig:
             kicked=kicker,
             silent=gone,
             refbox=self.refbox,
-            contacts=tuple((first, second) for first, second in sorted(pairs)),
+            contacts=tuple((first, second) for first, second in pairs),
+            impacts=tuple(_impact(robots, first, second) for first, second in hits),
             ball_spin=self._turned(*turning),
             level=tuple(self.robot(name) for name in level),
             obstacles=self.obstacles,
@@ -150,6 +161,13 @@ class RefereeRig:
 
     def run(self, seconds: float) -> list[Ruling]:
         return [self.tick() for _ in range(round(seconds / self.dt))]
+
+    def play_on(self, seconds: float, **seen: Any) -> list[Ruling]:
+        """Tick while the ball makes progress: every 2 s it is 4 m away from where it was; `seen` as in `tick`."""
+        return [
+            self.tick((1.0 + self.at * self.dt // 2.0 % 2.0 * 4.0, 0.0), **seen)
+            for _ in range(round(seconds / self.dt))
+        ]
 
     def until(self, done: Callable[[Any], bool], limit: float = 60.0) -> "RefereeRig":
         """Tick until the state is as wanted."""
@@ -188,3 +206,28 @@ class RefereeRig:
 
     def kinds(self) -> list[EventKind]:
         return [event.kind for event in self.events]
+
+
+def _impact(robots: RobotStates, first: int, second: int) -> Impact:
+    one, other = robots[first], robots[second]
+    away = max(1e-9, math.dist((one.x, one.y), (other.x, other.y)))
+    direction = ((other.x - one.x) / away, (other.y - one.y) / away)
+    return Impact(first, second, direction, (one.vx, one.vy), (other.vx, other.vy))
+
+
+def with_book(rig: RefereeRig, book: RuleBook) -> RefereeRig:
+    """The rig with a referee that applies another rule book, before the first tick."""
+    match = rig.constants
+    rig.book = book
+    rig.constants = dataclasses.replace(match, book=book)
+    rig.referee = Referee(
+        book,
+        match.pitch,
+        match.ball,
+        match.roster,
+        duration=None,
+        kick_off=match.kick_off,
+        automatic=match.automatic,
+        starts=match.starts,
+    )
+    return rig

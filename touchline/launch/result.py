@@ -21,6 +21,7 @@ NOTABLE = frozenset(
         EventKind.GOAL,
         EventKind.NO_GOAL,
         EventKind.SHOT,
+        EventKind.ADVANTAGE,
         EventKind.CARD,
         EventKind.OFF_FIELD,
         EventKind.ON_FIELD,

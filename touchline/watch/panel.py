@@ -27,6 +27,7 @@ LOUD = {
     EventKind.GOAL: Style(bold=True),
     EventKind.CARD: TROUBLE,
     EventKind.FOUL: Style(color="yellow"),
+    EventKind.ADVANTAGE: Style(color="yellow"),
 }
 """Highlighted events."""
 WIDTH = 64

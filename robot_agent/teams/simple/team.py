@@ -83,7 +83,11 @@ class Simple(Player):
                 candidates[name] = Candidate(mate.body, mate.role, receiver == name)
         if belief.game.phase is not TeamPhase.PLAY:
             ball = Ball(*spot)
-        striker = striker_of(candidates, ball, self._rolling, self._gap, self.limits)
+        takers = [name for name, candidate in candidates.items() if candidate.role == Role.STRIKER]
+        if takers and belief.game.running and belief.game.phase is TeamPhase.OUR_PENALTY:
+            striker = min(takers)  # a teammate that takes its place leaves its own before the kick, which is a foul
+        else:
+            striker = striker_of(candidates, ball, self._rolling, self._gap, self.limits)
         if striker == me:
             return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]

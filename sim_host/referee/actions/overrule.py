@@ -1,4 +1,7 @@
-"""Overrule: the referee's proposal is dropped, and the game goes on."""
+"""Overrule: the referee's proposal is dropped, and the game goes on.
+
+Robots that left their places at a penalty are forgotten: the same proposal would be made again.
+"""
 
 from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import no_proposal
@@ -12,4 +15,7 @@ def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
 
 def apply(draft: RulingDraft, _action: RefereeAction) -> None:
     """Drop the proposal."""
-    draft.state = draft.state._replace(proposal=None)
+    piece = draft.state.set_piece
+    if piece is not None and piece.strays:
+        piece = piece._replace(strays=())
+    draft.state = draft.state._replace(proposal=None, set_piece=piece)

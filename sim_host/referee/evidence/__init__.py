@@ -11,7 +11,9 @@ from sim_host.referee.evidence.dribble import Dribble, dribble_after
 from sim_host.referee.evidence.flight import Flight, flight_after
 from sim_host.referee.evidence.outside import outside_after
 from sim_host.referee.evidence.play import NO_TOUCHES, Play, play_after
+from sim_host.referee.evidence.progress import Progress, progress_after
 from sim_host.referee.evidence.pushes import Push, pushes_after
+from sim_host.referee.evidence.shoves import NO_SHOVES, Shove, shoves_after
 from sim_host.referee.evidence.stays import NO_STAYS, Stays, stays_after
 from sim_host.referee.evidence.zones import find_zones
 from sim_host.referee.match_constants import MatchConstants
@@ -28,13 +30,17 @@ class Evidence(NamedTuple):
     flight: Flight | None = None
     """The last kick, until the ball is touched or a lob has landed."""
     stays: Stays = NO_STAYS
-    """Robots in areas where they may not stay, with their durations."""
+    """Clocks of robots in goal areas and penalty areas."""
     pushes: tuple[Push, ...] = ()
     """Pairs of robots of different sides that lean on each other."""
     contest: Contest | None = None
     """The contest while both sides are at the ball."""
     outside: tuple[tuple[int, float], ...] = ()
-    """Robots that are wholly outside the lines, by their index in the roster, each with its duration in s."""
+    """Clocks in s of robots that are or were wholly outside the lines, by their index in the roster."""
+    shoves: tuple[Shove, ...] = NO_SHOVES
+    """Robots that another robot has hit within the last second, the oldest first."""
+    progress: Progress | None = None
+    """The circle that the ball in play has to leave."""
 
 
 NO_EVIDENCE = Evidence()
@@ -48,10 +54,13 @@ def evidence_after(
     cyan_attacks: int,
     snapshot: Snapshot,
     dt: float,
+    *,
+    in_play: bool,
 ) -> Evidence:
     """The evidence after one more tick of `dt` in s.
 
-    `is_keeper` is per robot of the roster; `cyan_attacks` is the sign of the x direction that cyan attacks.
+    `is_keeper` is per robot of the roster; `cyan_attacks` is the sign of the x direction that cyan attacks; `in_play`
+    is whether the ball was in play before this tick.
     """
     zones = find_zones(match, is_keeper, cyan_attacks, snapshot)
     play = play_after(match, before.play, cyan_attacks, snapshot) if snapshot.touches else before.play
@@ -65,14 +74,20 @@ def evidence_after(
     if flight is not None or snapshot.kicked is not None:
         flight = flight_after(match, flight, snapshot)
     stays = before.stays
-    if zones.deep or stays.robots or stays.crowds:
+    if zones.deep or stays is not NO_STAYS:
         stays = stays_after(match, stays, zones, snapshot, dt)
     pushes = before.pushes
     if pushes or snapshot.contacts:
         pushes = pushes_after(match, pushes, snapshot, dt)
     outside = before.outside
     if outside or zones.outside:
-        outside = outside_after(outside, zones, dt)
+        outside = outside_after(match, outside, zones, dt)
+    shoves = before.shoves
+    if (shoves or snapshot.impacts) and match.book.fouls.charging != "off":
+        shoves = shoves_after(shoves, snapshot, dt)
+    progress = before.progress
+    if in_play:
+        progress = progress_after(match, progress, dribble, snapshot)
     if (
         play is before.play
         and dribble is before.dribble
@@ -81,6 +96,8 @@ def evidence_after(
         and pushes is before.pushes
         and contest is before.contest
         and outside is before.outside
+        and shoves is before.shoves
+        and progress is before.progress
     ):
         return before
-    return Evidence(play, dribble, flight, stays, pushes, contest, outside)
+    return Evidence(play, dribble, flight, stays, pushes, contest, outside, shoves, progress)

@@ -1,9 +1,22 @@
-"""Durations for which robots have been wholly outside the lines."""
+"""Clocks of robots that have been wholly outside the lines.
+
+A clock runs while the robot is outside. Inside it runs down at the rate of the rule book; with a rate of 0 it ends at
+once.
+"""
 
 from sim_host.referee.evidence.zones import Zones
+from sim_host.referee.match_constants import MatchConstants
 
 
-def outside_after(before: tuple[tuple[int, float], ...], zones: Zones, dt: float) -> tuple[tuple[int, float], ...]:
-    """Robots outside, by index, each with its duration in s, after one more tick of `dt` in s."""
-    known = dict(before)
-    return tuple([(index, known.get(index, 0.0) + dt) for index in zones.outside])
+def outside_after(
+    match: MatchConstants, before: tuple[tuple[int, float], ...], zones: Zones, dt: float
+) -> tuple[tuple[int, float], ...]:
+    """Robots by index, each with its clock in s, after one more tick of `dt` in s; those outside come first."""
+    contact, known = match.book.contact, dict(before)
+    running = [(index, known.pop(index, 0.0) + dt) for index in zones.outside]
+    lost = contact.outside_recovery * dt
+    if not lost:
+        return tuple(running)
+    limit = contact.outside_duration
+    rest = [(index, left) for index, lasted in known.items() if (left := min(lasted, limit) - lost) > 0.0]
+    return (*running, *rest)

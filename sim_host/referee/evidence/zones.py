@@ -35,12 +35,12 @@ def find_zones(match: MatchConstants, is_keeper: tuple[bool, ...], cyan_attacks:
         is_deep = not -deep_x <= x <= deep_x
         if is_deep and not (is_keeper[index] and x * match.roster.sides[index].attack(cyan_attacks) < 0):
             deep = (*deep, index)
-        if _is_outside(match, index, x, y):
+        if is_outside(match, index, x, y):
             outside = (*outside, index)
     return Zones(near, deep, outside)
 
 
-def _is_outside(match: MatchConstants, index: int, x: float, y: float) -> bool:
-    """Whether the whole hull is outside the lines."""
+def is_outside(match: MatchConstants, index: int, x: float, y: float) -> bool:
+    """Whether the whole hull of a robot with its centre at `x`, `y` is outside the lines."""
     reach = match.reaches[index]
     return abs(x) > match.pitch.goal_line + reach or abs(y) > match.pitch.touch_line + reach

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from schemas.game import OffField
+from schemas.game import Card, OffField
 from schemas.messages.game import DisciplinaryRecord
 from schemas.side import Side
 
@@ -19,6 +19,15 @@ class CardCount(NamedTuple):
     yellow: int = 0
     """Yellow cards that count toward the next suspension or red card."""
     red: int = 0
+
+
+class OwedCard(NamedTuple):
+    """A card for a foul after which play went on; it is shown at the next stop."""
+
+    robot: str
+    rule: str
+    """The rule that called the foul."""
+    card: Card
 
 
 class Absence(NamedTuple):
@@ -46,6 +55,10 @@ class Participation:
     substitutions: Mapping[Side, int] = field(default_factory=dict)
     returned: Mapping[Side, int] = field(default_factory=dict)
     """Robots that have come back in this stoppage."""
+    offences: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    """Robot → kind of foul → number of its fouls of that kind, where the rule book punishes repeated ones."""
+    owed: tuple[OwedCard, ...] = ()
+    """Cards that are shown at the next stop, in the order of the fouls."""
 
     def after(self, silent: Collection[str], dt: float, playing: bool) -> "Participation":
         """The participation `dt` s later, with these robots silent; `playing` while the game clock runs."""
@@ -54,6 +67,10 @@ class Participation:
         absences = {name: _after(one, dt, playing) for name, one in self.absences.items()}
         lost = {name: self.silent.get(name, 0.0) + dt for name in silent}
         return dataclasses.replace(self, absences=absences, silent=lost)
+
+    def with_owed_card(self, robot: str, rule: str, card: Card) -> "Participation":
+        """The participation with one more card that is shown at the next stop."""
+        return dataclasses.replace(self, owed=(*self.owed, OwedCard(robot, rule, card)))
 
     @property
     def change_key(self) -> tuple[object, ...]:
@@ -65,7 +82,9 @@ class Participation:
         cards = {name: record for name, record in self.cards.items() if name in names}
         absences = {name: one for name, one in self.absences.items() if name in names}
         silent = {name: time for name, time in self.silent.items() if name in names}
-        return dataclasses.replace(self, cards=cards, absences=absences, silent=silent)
+        offences = {name: kinds for name, kinds in self.offences.items() if name in names}
+        owed = tuple([card for card in self.owed if card.robot in names])
+        return dataclasses.replace(self, cards=cards, absences=absences, silent=silent, offences=offences, owed=owed)
 
     def disciplinary_records(self, names: Collection[str]) -> dict[str, DisciplinaryRecord]:
         """The published records of those of these robots that have a card or are off the field."""

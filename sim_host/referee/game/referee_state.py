@@ -1,11 +1,13 @@
 """The state of the referee between two ticks, which is its whole memory."""
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 from schemas.game import GameStage, Phase, Point, Score
 from schemas.messages.game import GameState
 from schemas.side import Side
 from sim_host.referee.evidence import NO_EVIDENCE, Evidence
+from sim_host.referee.game.advantage import Advantage
 from sim_host.referee.game.decision import Proposal
 from sim_host.referee.game.participation import Participation
 from sim_host.referee.game.question import Question
@@ -57,6 +59,8 @@ class RefereeState(NamedTuple):
     """Actions that wait for a side to name its robot."""
     offender: str | None = None
     """The robot that committed the last foul that the referee saw."""
+    advantage: Advantage | None = None
+    """The foul after which play goes on."""
 
     @property
     def refbox_decides(self) -> bool:
@@ -83,6 +87,24 @@ class RefereeState(NamedTuple):
     def restart(self) -> Restart | None:
         """The restart that is signalled and not yet in play, or None."""
         return Restart(self.phase, self.side, self.spot) if self.spot is not None else None
+
+    def after_layout_change(self, names: Collection[str]) -> "RefereeState":
+        """The state after an operator has moved bodies, or left these robots on the field.
+
+        A body that was placed did not run or dribble there: what was seen before proves nothing. An advantage ends,
+        and decisions on robots that are gone are dropped.
+        """
+        participation, noted, proposal = self.participation, self.advantage, self.proposal
+        if noted is not None and noted.decision.card is not None and noted.decision.robot is not None:
+            participation = participation.with_owed_card(noted.decision.robot, noted.rule, noted.decision.card)
+        is_void = proposal is not None and proposal.decision.robot not in (None, *names)
+        return self._replace(
+            participation=participation.of_robots(names),
+            evidence=NO_EVIDENCE,
+            set_piece=None if self.set_piece is None else self.set_piece._replace(intrusions=None),
+            advantage=None,
+            proposal=None if is_void else proposal,
+        )
 
     def attack(self, side: Side) -> int:
         """Sign of the x direction that a side attacks."""

@@ -17,6 +17,33 @@ KICK_DURATION = 0.1
 """s."""
 
 
+class Intrusion(NamedTuple):
+    """A robot that is nearer to a restart than it may be, or in the other half at a kick-off."""
+
+    robot: int
+    """Index in the roster."""
+    depth: float
+    """m by which it is too near, or in the other half."""
+    least: float
+    """m; the smallest depth so far, from which it retreats."""
+    lasted: float = 0.0
+    """s, without the time in which an opponent pushes it."""
+    excused: bool = False
+    """It was there at START, or an opponent pushed it there: it has time to retreat."""
+
+
+class Stray(NamedTuple):
+    """A robot that was in a wrong place at a penalty before the kick: its first fault."""
+
+    robot: str
+    text: str
+    """The robot and its fault, as one clause."""
+    measured: float | None = None
+    """m."""
+    limit: float | None = None
+    """m; the required value."""
+
+
 class SetPiece(NamedTuple):
     """One started restart; the phase of the game shows whether the ball is in play."""
 
@@ -35,6 +62,12 @@ class SetPiece(NamedTuple):
     """The robot of the taker's side that has kicked the ball."""
     since_kick: float = 0.0
     """s."""
+    intrusions: tuple[Intrusion, ...] | None = None
+    """Robots that are too near until the ball is in play, in the order of the roster; None before the first look."""
+    appointed: str | None = None
+    """At a penalty, the robot that was nearest to the ball at START, and takes it."""
+    strays: tuple[Stray, ...] = ()
+    """At a penalty, robots that were in wrong places before the kick, each once, in order."""
 
     @property
     def taker(self) -> str | None:
@@ -78,13 +111,13 @@ def is_settled(piece: SetPiece, book: RuleBook, snapshot: Snapshot) -> bool:
     """Whether, with the ball in play, the rules of the restart no longer restrict any robot.
 
     Enough robots have touched the ball for a goal, or the other side has won the ball. A mere touch by the other side,
-    such as a shot that grazes a defender, is not enough.
+    such as a shot that grazes a defender, is not enough. A penalty at which robots strayed is settled by its outcome.
     """
     side, roster = piece.restart.side, snapshot.roster
     if side is None:
         return len(piece.touched) >= book.restarts.drop_robots_to_score
     if piece.restart.phase is Phase.PENALTY:
-        return True
+        return not piece.strays
     holder = snapshot.possession
     won = holder is not None and roster.side_of(holder) is not side
     return won or piece.touchers(roster, side) >= _asked(book)

@@ -6,31 +6,23 @@ ignored.
 
 Section: restarts.
 Measures: the distance between the ball's spot and the robot's hull, taken as the smallest circle around it.
-Not judged: robots that move between START and the kick, as long as they do not touch the ball.
+Not judged: robots that move between START and the kick; they may encroach.
 """
 
-import dataclasses
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from schemas.frames import Pose
 from schemas.game import GameStage, Phase
 from sim_host.referee.areas import in_goal_area, in_penalty_area
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.restart import Restart, Spot
+from sim_host.referee.game.set_piece import SetPiece
 from sim_host.referee.match_constants import MatchConstants
-from sim_host.referee.placement.clear_ground import clearance
-from sim_host.snapshot import RobotStates, Snapshot
+from sim_host.snapshot import Snapshot
 
 MAX_OVERLAP = 0.02
 """m that a hull may overlap the ball on its spot, since a taker may touch it."""
-_ROOM = 0.2
-"""m; distance that a moved robot gets beyond the required one, and from other robots."""
-_BEARINGS = 24
-"""Number of directions from the ball that are tried for a moved robot."""
-_RINGS = 8
-"""Number of distances that are tried, 1 m apart."""
 
 
 class PositionFault(NamedTuple):
@@ -51,6 +43,11 @@ class Violation(NamedTuple):
     phrase: str
     measured: float | None = None
     limit: float | None = None
+
+    @property
+    def depth(self) -> float:
+        """m between the measured and the required value."""
+        return 0.0 if self.measured is None or self.limit is None else abs(self.limit - self.measured)
 
 
 class LineUp(NamedTuple):
@@ -84,8 +81,8 @@ def position_faults(
     match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot
 ) -> tuple[PositionFault, ...]:
     """The robots in wrong positions for the restart, each with its first fault, in the order of the roster."""
-    line_up = _line_up(match, state, restart, snapshot)
-    checks = _checks(state, restart)
+    line_up = line_up_of(match, state, restart, snapshot)
+    checks = checks_of(state, restart)
     faults = []
     for index in line_up.on_field:
         for check in checks:
@@ -99,63 +96,78 @@ def position_faults(
     return tuple(faults)
 
 
+def distance_violations(
+    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot
+) -> dict[int, Violation]:
+    """Robots nearer to the ball's spot than they may be, and at a kick-off those in the other half; not the taker.
+
+    By their indices in the roster, in its order. Not for penalties, which have places of their own.
+    """
+    if not _may_be_too_near(match, restart, snapshot):
+        return {}
+    line_up = line_up_of(match, state, restart, snapshot)
+    checks = (_in_other_half, _near_ball) if restart.phase is Phase.KICK_OFF else (_near_ball,)
+    found = {}
+    for index in line_up.on_field:
+        if index == line_up.kicker:
+            continue
+        violations = [violation for check in checks if (violation := check(line_up, index)) is not None]
+        if violations:
+            found[index] = max(violations, key=lambda violation: violation.depth)
+    return found
+
+
+def _may_be_too_near(match: MatchConstants, restart: Restart, snapshot: Snapshot) -> bool:
+    """Whether any robot but one may be too near; cheap, because it is asked in every tick until the ball is in play."""
+    numbers, (x, y) = match.book.restarts, restart.spot
+    sides, reaches, takers = match.roster.sides, match.reaches, 0
+    for index, robot in enumerate(snapshot.robots):
+        mine = sides[index] is restart.side
+        room = (numbers.teammate_distance if mine else numbers.opponent_distance) + reaches[index]
+        dx, dy = robot[0] - x, robot[1] - y
+        if dx * dx + dy * dy < room * room:
+            takers += mine
+            if not mine or takers > 1:
+                return True
+    return restart.phase is Phase.KICK_OFF
+
+
+def kicker_of(match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot) -> str | None:
+    """The robot that takes a restart: of its side, the nearest to the ball."""
+    index = line_up_of(match, state, restart, snapshot).kicker
+    return None if index is None else match.roster.names[index]
+
+
+def penalty_faults(
+    match: MatchConstants, state: RefereeState, piece: SetPiece, snapshot: Snapshot
+) -> tuple[PositionFault, ...]:
+    """The robots other than the kicker in wrong places for a started penalty, in the order of the roster."""
+    line_up = line_up_of(match, state, piece.restart, snapshot)
+    if piece.appointed in match.roster.names:
+        line_up = line_up._replace(kicker=match.roster.names.index(piece.appointed))
+    check = _wrong_at_shoot_out if state.stage is GameStage.SHOOT_OUT else _wrong_at_penalty
+    faults = []
+    for index in line_up.on_field:
+        violation = None if index == line_up.kicker else check(line_up, index)
+        if violation is not None:
+            name = match.roster.names[index]
+            text = f"{name} was {violation.phrase} before the kick"
+            faults.append(PositionFault(name, text, violation.measured, violation.limit))
+    return tuple(faults)
+
+
 def is_spot_covered(match: MatchConstants, state: RefereeState, spot: Spot, snapshot: Snapshot) -> bool:
     """Whether a robot stands on a spot, so that the ball cannot be placed there."""
-    line_up = _line_up(match, state, Restart(state.phase, state.side, spot), snapshot)
+    line_up = line_up_of(match, state, Restart(state.phase, state.side, spot), snapshot)
     return any(_on_spot(line_up, index) for index in line_up.on_field)
 
 
-def legal_pose(
-    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot, fault: PositionFault
-) -> Pose:
-    """A legal pose for a robot in a wrong position: on the field, near its bearing from the ball, clear of others.
-
-    The present pose if there is no such place.
-    """
-    line_up = _line_up(match, state, restart, snapshot)
-    index = match.roster.names.index(fault.robot)
-    robot = snapshot.robots[index]
-    for x, y in _around(line_up, index):
-        moved = RobotStates((*snapshot.robots[:index], robot._replace(x=x, y=y), *snapshot.robots[index + 1 :]))
-        tried = line_up._replace(snapshot=dataclasses.replace(snapshot, robots=moved))
-        if all(check(tried, index) is None for check in _checks(state, restart)) and _has_room(tried, index):
-            return Pose(x, y, math.atan2(restart.spot[1] - y, restart.spot[0] - x))
-    return Pose(robot.x, robot.y, robot.heading)
-
-
-def _line_up(match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot) -> LineUp:
+def line_up_of(match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot) -> LineUp:
+    """The line-up before a restart."""
     away = state.participation.absences
     on_field = tuple([index for index, name in enumerate(match.roster.names) if name not in away])
     line_up = LineUp(match, state, restart, snapshot, on_field, None, ())
     return line_up._replace(kicker=_kicker(line_up), free=_free_defenders(line_up))
-
-
-def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
-    """Places on the field around the ball: nearest ring first, from the robot's bearing alternately to both sides."""
-    pitch, robot, (x, y) = line_up.match.pitch, line_up.snapshot.robots[index], line_up.restart.spot
-    if line_up.is_keeper(index):
-        yield line_up.own_end(index) * (pitch.goal_line - line_up.match.reaches[index] - _ROOM), 0.0
-    bearing = math.atan2(robot.y - y, robot.x - x)
-    nearest = _min_distance(line_up, index) + line_up.match.reaches[index] + _ROOM
-    for ring in range(_RINGS):
-        for step in range(_BEARINGS):
-            turn = (step + 1) // 2 * (1 if step % 2 else -1) * math.tau / _BEARINGS
-            away = nearest + ring
-            place = x + away * math.cos(bearing + turn), y + away * math.sin(bearing + turn)
-            if abs(place[0]) <= pitch.goal_line and abs(place[1]) <= pitch.touch_line:
-                yield place
-
-
-def _has_room(line_up: LineUp, index: int) -> bool:
-    robots, reaches = line_up.snapshot.robots, line_up.match.reaches
-    here = robots[index].x, robots[index].y
-    if clearance(line_up.snapshot, here) <= reaches[index] + _ROOM:
-        return False
-    return all(
-        math.dist(here, (robots[other].x, robots[other].y)) > reaches[index] + reaches[other] + _ROOM
-        for other in line_up.on_field
-        if other != index
-    )
 
 
 def _kicker(line_up: LineUp) -> int | None:
@@ -189,7 +201,7 @@ def _from_ball(line_up: LineUp, index: int) -> float:
     return math.dist(line_up.restart.spot, (robot.x, robot.y)) - line_up.match.reaches[index]
 
 
-def _min_distance(line_up: LineUp, index: int) -> float:
+def min_distance(line_up: LineUp, index: int) -> float:
     """m; required distance from the ball for a robot other than the kicker."""
     numbers = line_up.match.book.restarts
     if line_up.restart.phase is Phase.DROP_BALL:
@@ -202,7 +214,7 @@ def _near_ball(line_up: LineUp, index: int) -> Violation | None:
     is_dropped = line_up.restart.phase is Phase.DROP_BALL
     if not is_dropped and (index == line_up.kicker or index in line_up.free):
         return None
-    distance, required = _from_ball(line_up, index), _min_distance(line_up, index)
+    distance, required = _from_ball(line_up, index), min_distance(line_up, index)
     if distance >= required:
         return None
     return Violation(f"{distance:.2f} m from the ball, {required:.2f} m required", distance, required)
@@ -223,7 +235,8 @@ def _in_other_half(line_up: LineUp, index: int) -> Violation | None:
 
 
 def _wrong_at_penalty(line_up: LineUp, index: int) -> Violation | None:
-    """The defending goalkeeper has to be in its goal area, all others but the kicker outside the penalty area."""
+    """The defending goalkeeper has to be in its goal area, others outside the penalty area, away from the ball and
+    behind it; the kicker anywhere."""
     if index == line_up.kicker:
         return None
     pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
@@ -232,6 +245,9 @@ def _wrong_at_penalty(line_up: LineUp, index: int) -> Violation | None:
         return None if in_goal_area(pitch, end, robot.x, robot.y) else Violation("outside its goal area")
     if in_penalty_area(pitch, end, robot.x, robot.y, line_up.match.reaches[index]):
         return Violation("in the penalty area")
+    ahead = robot.x * end + line_up.match.reaches[index] - line_up.restart.spot[0] * end
+    if line_up.match.book.restarts.penalty_behind and ahead > 0.0:
+        return Violation(f"{ahead:.2f} m ahead of the ball", ahead, 0.0)
     return _near_ball(line_up, index)
 
 
@@ -254,7 +270,8 @@ def _wrong_at_shoot_out(line_up: LineUp, index: int) -> Violation | None:
     return None
 
 
-def _checks(state: RefereeState, restart: Restart) -> "tuple[Check, ...]":
+def checks_of(state: RefereeState, restart: Restart) -> "tuple[Check, ...]":
+    """The checks of every robot before a restart."""
     return SHOOT_OUT if state.stage is GameStage.SHOOT_OUT else CHECKS[restart.phase]
 
 

@@ -3,7 +3,7 @@
 from schemas.game import EventKind, Score
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.referee_state import RefereeState
-from sim_host.referee.procedures import discipline, penalties, periods, restart
+from sim_host.referee.procedures import discipline, offences, penalties, periods, restart
 from sim_host.referee.ruling_draft import RulingDraft
 
 
@@ -32,12 +32,15 @@ def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
     )
     if decision.kind is EventKind.FOUL and decision.robot is not None:
         draft.state = draft.state._replace(offender=decision.robot)
+        offences.count(draft, rule, decision.robot)
     if decision.card is not None and decision.robot is not None:
         discipline.show_card(draft, rule, decision.robot, decision.card)
     if decision.shot_scored is not None:
         penalties.next_penalty(draft, rule)
-    else:
-        restart.stop(draft, rule, decision.restart)
+        return
+    if draft.state.shoot_out is not None:
+        penalties.retake(draft)
+    restart.stop(draft, rule, decision.restart)
 
 
 def _published_score(state: RefereeState, decision: Decision) -> Score | None:

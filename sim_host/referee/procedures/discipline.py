@@ -66,6 +66,20 @@ def show_card(draft: RulingDraft, rule: str, name: str, card: Card, *, second: b
         take_out(draft, rule, name, absence)
 
 
+def owe_card(draft: RulingDraft, rule: str, name: str, card: Card) -> None:
+    """Keep a card that is shown at the next stop."""
+    draft.state = draft.state._replace(participation=draft.state.participation.with_owed_card(name, rule, card))
+
+
+def show_owed_cards(draft: RulingDraft) -> None:
+    """Show the cards for fouls after which play went on."""
+    owed = draft.state.participation.owed
+    if owed:
+        draft.state = draft.state._replace(participation=dataclasses.replace(draft.state.participation, owed=()))
+    for name, rule, card in owed:
+        show_card(draft, rule, name, card)
+
+
 def take_out(draft: RulingDraft, rule: str, name: str, absence: Absence) -> None:
     """Take a robot off the field; for one that is off already, the new reason replaces the old one."""
     participation, was_there = draft.state.participation, name not in draft.state.participation.absences
@@ -151,11 +165,11 @@ def advance(draft: RulingDraft) -> None:
 
 
 def for_next_half(participation: Participation, book: Discipline) -> Participation:
-    """The participation at the start of the next half: yellow cards are reset if the rule book says so."""
+    """The participation at the start of the next half: cards and repeated fouls are reset if the rule book says so."""
     if not book.reset_each_half:
         return participation
     cards = {name: record._replace(yellow=0) for name, record in participation.cards.items()}
-    return dataclasses.replace(participation, cards=cards)
+    return dataclasses.replace(participation, cards=cards, offences={})
 
 
 def for_new_stoppage(participation: Participation) -> Participation:

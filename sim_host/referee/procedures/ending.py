@@ -2,7 +2,7 @@
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.procedures import discipline
+from sim_host.referee.procedures import advantage, discipline
 from sim_host.referee.ruling_draft import RulingDraft
 
 RULE = "periods"
@@ -11,6 +11,8 @@ RULE = "periods"
 
 def suspend_play(draft: RulingDraft, phase: Phase, until: float | None) -> None:
     """Enter a phase without play; it lasts until the timer reaches `until` s, or for good."""
+    advantage.end(draft)
+    discipline.show_owed_cards(draft)
     state = draft.state
     draft.state = state._replace(
         phase=phase,

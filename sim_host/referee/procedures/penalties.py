@@ -8,6 +8,8 @@ Measures: penalties taken and goals of each side; the clock is stopped.
 Not judged: which side wins an undecided match.
 """
 
+import dataclasses
+
 from schemas.game import GameStage, Phase
 from schemas.side import Side
 from sim_host.referee.game.restart import CENTRE, Restart
@@ -31,6 +33,13 @@ def count(draft: RulingDraft, scored: bool) -> None:
     state = draft.state
     if state.shoot_out is not None and state.side is not None:
         draft.state = state._replace(shoot_out=state.shoot_out.after_attempt(state.side, scored))
+
+
+def retake(draft: RulingDraft) -> None:
+    """Prepare the same penalty once more: the attempt that was stopped leaves nothing."""
+    out = draft.state.shoot_out
+    if out is not None:
+        draft.state = draft.state._replace(shoot_out=dataclasses.replace(out, nearest=None))
 
 
 def next_penalty(draft: RulingDraft, rule: str) -> None:

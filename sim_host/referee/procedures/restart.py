@@ -1,11 +1,11 @@
 """The restart sequence: STOP, ball placed and restart signalled, START, ball in play.
 
 Robots take positions after the signal. START is given after the rule book's pause, as soon as all positions are legal
-and the ball is on its spot, and at the latest when the positions limit is over. A robot that is in a wrong position
-then is named, and moved or shown a card if the rule book says so. The ball is in play once it has rolled freely far
-enough, or when the taker's time is over, after which any robot may play it; a dropped ball is in play at once. If an
-obstacle stands on the spot, the restart is taken from the nearest free place: a kick-off on the halfway line, a penalty
-at the same distance from the goal.
+and the ball is on its spot, and at the latest when the positions limit is over, which counts from the signal in the
+league. A robot that is in a wrong position then is named, and moved or shown a card if the rule book says so. The ball
+is in play once it has rolled freely far enough, or when the taker's time is over, after which any robot may play it; a
+dropped ball is in play at once. If an obstacle stands on the spot, the restart is taken from the nearest free place: a
+kick-off on the halfway line, a penalty at the same distance from the goal.
 
 Section: restarts.
 Measures: the time since STOP, signal and START; the distance of the ball from its spot, and its longest way between two
@@ -16,6 +16,7 @@ Not judged: which side wasted the time.
 import math
 from collections.abc import Sequence
 
+from schemas.config.rule_book import Restarts
 from schemas.game import Card, EventKind, GameStage, OfficiatingMode, Phase
 from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.referee.game import set_piece
@@ -23,8 +24,9 @@ from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.clear_ground import clear_restart
-from sim_host.referee.placement.positions import PositionFault, is_spot_covered, legal_pose, position_faults
-from sim_host.referee.procedures import discipline
+from sim_host.referee.placement.legal_pose import legal_pose
+from sim_host.referee.placement.positions import PositionFault, is_spot_covered, position_faults
+from sim_host.referee.procedures import advantage, discipline, offences
 from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.situation import Situation
 from sim_host.referee.wording import restart_text
@@ -37,6 +39,8 @@ def stop(draft: RulingDraft, rule: str, restart: Restart | None) -> None:
     """Stop the game at once; without a restart, people have to decide how it goes on."""
     follows = f"{restart_text(restart)} follows" if restart is not None else "the referee decides how it goes on"
     draft.add_event(EventKind.STOP, rule, f"STOP; {follows}")
+    advantage.end(draft)
+    discipline.show_owed_cards(draft)
     state = draft.state
     draft.state = state._replace(
         phase=Phase.STOPPED,
@@ -139,10 +143,16 @@ def _before_start(draft: RulingDraft, restart: Restart) -> None:
     wrong = position_faults(draft.match, draft.state, restart, draft.snapshot)
     if on_spot and not wrong:
         start(draft, restart)
-    elif reached(timer, numbers.signal_to_start + numbers.positions_limit):
+    elif reached(timer, _latest_start(numbers)):
         _start_with_faults(draft, restart, wrong)
         if not has_room and numbers.moves_offenders:
             draft.place_ball(restart.spot)
+
+
+def _latest_start(numbers: Restarts) -> float:
+    """s after the signal at which START no longer waits for robots in wrong positions."""
+    earliest = numbers.signal_to_start if numbers.positions_from == "earliest start" else 0.0
+    return earliest + numbers.positions_limit
 
 
 def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: Sequence[PositionFault]) -> None:
@@ -164,7 +174,9 @@ def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: Sequence[Pos
         draft.state = draft.state._replace(offender=fault.robot)
         if numbers.moves_offenders:
             draft.place_robot(fault.robot, legal_pose(draft.match, draft.state, restart, draft.snapshot, fault))
-        if numbers.position_card and draft.match.mode is OfficiatingMode.AUTOMATIC:
+        is_card = bool(numbers.position_card) or offences.is_next_a_card(draft, POSITIONS, fault.robot)
+        offences.count(draft, POSITIONS, fault.robot)
+        if is_card and draft.match.mode is OfficiatingMode.AUTOMATIC:
             discipline.show_card(draft, POSITIONS, fault.robot, Card.YELLOW)
     start(draft, restart, f", although {wrong[0].text}" if wrong else "")
 

@@ -10,10 +10,12 @@ from sim_host.referee.evidence.stays import NO_STAYS
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules import (
     backward,
+    charging,
     double_touch,
     dragged,
     dribble_circle,
     early_touch,
+    encroachment,
     goal,
     goal_area,
     goal_line,
@@ -22,10 +24,12 @@ from sim_host.referee.rules import (
     lob,
     long_hold,
     lost_ball,
+    no_progress,
     not_rolling,
     own_goal_kick,
     own_half_goal,
     penalty_area,
+    penalty_kick,
     pushing,
     scrum,
     shoot_out,
@@ -51,10 +55,26 @@ class Rule:
 
 
 RESTART_FOUL = ("restarts.restart_fouls", "restarts.in_play_distance")
+PENALTY = ("fouls.penalty_kick", "restarts.penalty_behind", "restarts.opponent_distance", "stall.still_speed")
 RULES: tuple[Rule, ...] = (
     Rule("early_touch", early_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("double_touch", double_touch.judge, RESTART_FOUL, occasion="set piece"),
     Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance"), occasion="set piece"),
+    Rule("penalty_kick", penalty_kick.judge, PENALTY, occasion="set piece"),
+    Rule(
+        "encroachment",
+        encroachment.judge,
+        (
+            "fouls.encroachment",
+            *RESTART_FOUL,
+            "restarts.opponent_distance",
+            "restarts.teammate_distance",
+            "restarts.encroach_margin",
+            "restarts.encroach_retreat",
+            "restarts.ties",
+        ),
+        occasion="set piece",
+    ),
     Rule(
         "own_goal_kick", own_goal_kick.judge, ("scoring.robots_touched", "restarts.corner_inset"), occasion="crossing"
     ),
@@ -100,36 +120,60 @@ RULES: tuple[Rule, ...] = (
     ),
     Rule("long_hold", long_hold.judge, ("fouls.long_hold", "handling.hold_duration"), occasion="dribble"),
     Rule(
-        "pushing",
-        pushing.judge,
-        ("fouls.pushing", "contact.push_distance", "restarts.ties"),
-        occasion="pushes",
+        "charging",
+        charging.judge,
+        (
+            "fouls.charging",
+            "contact.charge_speed",
+            "contact.charge_margin",
+            "contact.charge_ball",
+            "contact.charge_card_speed",
+            "restarts.ties",
+        ),
+        occasion="impacts",
     ),
+    Rule("pushing", pushing.judge, ("fouls.pushing", "contact.push_distance", "restarts.ties"), occasion="pushes"),
     Rule(
         "goal_area",
         goal_area.judge,
-        ("fouls.goal_area", "areas.goal_area_duration", "restarts.ties"),
+        ("fouls.goal_area", "areas.goal_area_duration", "areas.recovery", "restarts.ties"),
         occasion="stays",
     ),
     Rule(
         "penalty_area",
         penalty_area.judge,
-        ("fouls.penalty_area", "areas.penalty_area_robots", "areas.penalty_area_duration", "restarts.ties"),
+        (
+            "fouls.penalty_area",
+            "areas.penalty_area_robots",
+            "areas.penalty_area_duration",
+            "areas.penalty_area_stay",
+            "areas.recovery",
+            "restarts.ties",
+        ),
         occasion="stays",
     ),
     Rule(
         "leaving_field",
         leaving_field.judge,
-        ("fouls.leaving_field", "contact.outside_duration", "restarts.ties"),
+        ("fouls.leaving_field", "contact.outside_duration", "contact.outside_recovery", "restarts.ties"),
         occasion="outside",
     ),
     Rule("stand_off", stand_off.judge, ("contact.stand_off_duration", "restarts.ties"), occasion="pushes"),
     Rule("scrum", scrum.judge, ("scrum.reach", "scrum.progress", "scrum.duration"), occasion="contest"),
     Rule("stall", stall.judge, ("stall.still_speed", "stall.still_duration"), occasion="still ball"),
+    Rule(
+        "no_progress",
+        no_progress.judge,
+        ("stall.progress_distance", "stall.progress_duration"),
+        occasion="no progress",
+    ),
     Rule("half_end", half_end.judge, ("periods.halves", "periods.half_duration"), while_running=False),
 )
 
-SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),)
+SHOOT_OUT: tuple[Rule, ...] = (
+    Rule("penalty_kick", penalty_kick.judge, PENALTY),
+    Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),
+)
 """The rules of the penalty shoot-out."""
 RULES_BY_TIME: Mapping[str, tuple[Rule, ...]] = {
     "running": RULES,
@@ -143,9 +187,15 @@ def first_decision(situation: Situation, *, clocks_alone: bool = False) -> tuple
     """The first rule that decides in this tick, with its decision."""
     for rule in rules_to_ask(situation, clocks_alone=clocks_alone):
         decision = rule.judge(situation)
-        if decision is not None:
+        if decision is not None and not _is_noted(situation, rule, decision):
             return rule, decision
     return None
+
+
+def _is_noted(situation: Situation, rule: Rule, decision: Decision) -> bool:
+    """Whether a foul goes on that an advantage is played for."""
+    noted = situation.state.advantage
+    return noted is not None and noted.rule == rule.name and noted.decision.robot == decision.robot
 
 
 def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, ...]:
@@ -153,7 +203,19 @@ def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[R
     return _rules_for(_time(situation, clocks_alone), _occasions(situation))
 
 
-OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
+OCCASIONS = (
+    "set piece",
+    "crossing",
+    "kick",
+    "dribble",
+    "impacts",
+    "pushes",
+    "stays",
+    "outside",
+    "contest",
+    "still ball",
+    "no progress",
+)
 """The occasions that rules depend on, in the order of `_occasions`."""
 
 
@@ -166,11 +228,13 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
         situation.crossing is not None,
         seen.flight is not None,
         seen.dribble is not None,
+        bool(situation.snapshot.impacts),
         bool(seen.pushes),
         seen.stays is not NO_STAYS,
         bool(seen.outside),
         seen.contest is not None,
         state.still > 0.0,
+        no_progress.is_due(situation),
     )
 
 

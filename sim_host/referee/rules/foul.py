@@ -1,6 +1,6 @@
 """Common parts of all fouls: whether the rule book calls them, the text of the event, and the restart.
 
-The referee stops the game at once and plays no advantage. People may undo the decision.
+The referee stops the game at once, unless it plays an advantage. People may undo the decision.
 """
 
 from schemas.game import Card, EventKind, Phase
@@ -37,6 +37,7 @@ def foul(
     place: tuple[float, float],
     phase: Phase = Phase.FREE_KICK,
     restart_from: tuple[float, float] | None = None,
+    card: Card | None = None,
 ) -> Decision:
     """The decision on a foul: a restart for the other side where the ball is, and a card for the first offender.
 
@@ -51,13 +52,15 @@ def foul(
         place: m; where it happened.
         phase: the restart.
         restart_from: m; the place that determines the spot of the restart, if not the ball's.
+        card: the card that the deed itself earns; otherwise the rule book's choice for the foul.
     """
     side = situation.match.roster.side_of(offenders[0])
     ball = situation.snapshot.ball
+    remark = "" if situation.match.advantage else "; no advantage is played"
     start = restart_from if restart_from is not None else (ball.x, ball.y)
     return Decision(
         kind=EventKind.FOUL,
-        text=f"{text}; no advantage is played",
+        text=text + remark,
         restart=restart_at(situation.match, situation.state, phase, side.opponent, start),
         side=side,
         robot=offenders[0],
@@ -66,7 +69,7 @@ def foul(
         measured=measured,
         limit=limit,
         unit=unit,
-        card=CARDS[getattr(situation.match.book.fouls, name)],
+        card=card or CARDS[getattr(situation.match.book.fouls, name)],
     )
 
 

@@ -6,7 +6,7 @@ illegal attack. The opponents of the offender get a free kick.
 
 Section: play, illegal defence and attack.
 Measures: the time for which the centre of a robot has been inside the outer edges of the area's lines, or in the goal
-behind it.
+behind it. Outside, the time runs down at the rate of the rule book, and does not begin anew.
 Not judged: whether it was pushed there; a hull that reaches over the line.
 """
 
@@ -20,7 +20,7 @@ def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side, at the restart spot nearest to the area, or None."""
     stays, limit = situation.state.evidence.stays.robots, situation.match.book.areas.goal_area_duration
     for stay in worst_first(situation, stays, lambda stay: stay.lasted, lambda stay: stay.robot):
-        if exceeds(stay.lasted, limit) and is_called(situation, "goal_area"):
+        if stay.inside and exceeds(stay.lasted, limit) and is_called(situation, "goal_area"):
             roster, robot = situation.match.roster, situation.snapshot.robots[stay.robot]
             defends = situation.state.attack(roster.sides[stay.robot]) != stay.end
             name, area = roster.names[stay.robot], "its own" if defends else "the other"

@@ -1,10 +1,12 @@
 """Leaving the field: a robot that takes part must stay on the field. Otherwise the other side gets a free kick.
 
 Section: play; a robot may leave only with the referee's permission, for repair, substitution or a card.
-Measures: the time for which the whole hull of a robot has been outside the lines, also in a goal.
+Measures: the time for which the whole hull of a robot has been outside the lines, also in a goal. On the field the time
+runs down at the rate of the rule book, and does not begin anew.
 Not judged: why it left, and whether it was pushed out; robots that are off the field by decision of the referee.
 """
 
+from sim_host.referee.evidence.zones import is_outside
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
@@ -16,13 +18,13 @@ def judge(situation: Situation) -> Decision | None:
     limit = situation.match.book.contact.outside_duration
     outside = situation.state.evidence.outside
     for index, lasted in worst_first(situation, outside, lambda one: one[1], lambda one: one[0]):
-        name = situation.match.roster.names[index]
+        name, robot = situation.match.roster.names[index], situation.snapshot.robots[index]
         if (
             exceeds(lasted, limit)
+            and is_outside(situation.match, index, robot.x, robot.y)
             and name not in situation.state.participation.absences
             and is_called(situation, "leaving_field")
         ):
-            robot = situation.snapshot.robots[index]
             text = f"{name} has been outside the field for {lasted:.1f} s, limit {limit:.1f}"
             return foul(
                 situation,

@@ -7,7 +7,7 @@ held by the other side, is at rest after the kick, or when the time is up.
 
 Section: match, play-offs; penalty shoot-out.
 Measures: the place of the ball, the kick, touches after it, and the time since START.
-Not judged: what the robots behind the halfway line do after START.
+Not judged: the places of the other robots, which the rule `penalty_kick` judges.
 """
 
 from schemas.game import EventKind

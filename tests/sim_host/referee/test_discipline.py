@@ -53,7 +53,7 @@ def test_a_suspension_is_served_in_playing_time_and_ends_at_the_next_stoppage(ri
     for _ in range(2):
         rig.ask("yellow_card", robot="cyan3")
     rig.velocity = (1.0, 0.0, 0.0)
-    rig.run(rig.book.discipline.suspension + 1.0)
+    rig.play_on(rig.book.discipline.suspension + 1.0)
     assert away(rig, "cyan3").left == 0.0 and is_beside(rig, "cyan3")
     assert "stoppage" in refused(rig.ask("enter", robot="cyan3"))
     rig.ask("stop")

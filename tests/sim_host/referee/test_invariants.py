@@ -26,7 +26,17 @@ actions = st.builds(
     robot=st.sampled_from([None, *NAMES]),
 )
 wishes = st.none() | actions
-TOO_MUCH = {"dribble_circle", "backward", "not_rolling", "long_hold", "goal_area", "penalty_area", "pushing", "lob"}
+TOO_MUCH = {
+    "dribble_circle",
+    "backward",
+    "not_rolling",
+    "long_hold",
+    "goal_area",
+    "penalty_area",
+    "pushing",
+    "charging",
+    "lob",
+}
 """Fouls of doing more than the limit."""
 scuffles = st.none() | st.tuples(
     st.sampled_from(NAMES),
@@ -34,8 +44,9 @@ scuffles = st.none() | st.tuples(
     st.floats(-7.5, 7.5),
     st.sampled_from(NAMES),
     st.booleans(),
+    st.booleans(),
 )
-"""A robot goes somewhere and leans on another, or holds the ball for the whole flight."""
+"""A robot goes somewhere and leans on another, holds the ball for the whole flight, or hits the other in each tick."""
 silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
 
 
@@ -44,11 +55,12 @@ silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
     rules=st.sampled_from(["friendly", "msl", "paper", "china-sim-2020"]),
     mode=st.sampled_from(OfficiatingMode),
     winner=st.booleans(),
+    advantage=st.sampled_from([None, 3.0]),
     story=st.lists(st.tuples(flights, wishes, silences, scuffles), max_size=40),
 )
-def test_score_clock_and_restarts_are_sound_in_any_match(new_rig, rules, mode, winner, story):
+def test_score_clock_and_restarts_are_sound_in_any_match(new_rig, rules, mode, winner, advantage, story):
     profile = "paper" if rules == "paper" else "msl"
-    rig = new_rig(profile, rules, dt=0.1, duration=24.0, mode=mode, proposal=1.0, winner=winner)
+    rig = new_rig(profile, rules, dt=0.1, duration=24.0, mode=mode, proposal=1.0, winner=winner, advantage=advantage)
     for (x, y, z, toucher, ticks), wish, silent, scuffle in story:
         seen = scuffled(rig, scuffle)
         for left in range(ticks, 0, -1):
@@ -69,12 +81,14 @@ def scuffled(rig, scuffle):
     """What there is to see of a scuffle: contact and motion of two robots, or a hold."""
     if scuffle is None:
         return {}
-    name, x, y, other, holds = scuffle
+    name, x, y, other, holds, hits = scuffle
     if rig.robot(name) not in rig.state.participation.absences:
         rig.robots[name] = (x, y)
-    pushing = {"motions": {name: (0.5, 1.0, 0.5), other: (0.5, 1.0, 0.4)}}
+    speed = 4.0 if hits else 1.0
+    pushing = {"motions": {name: (0.5, speed, 0.5), other: (0.5, 1.0, 0.4)}}
     if name != other:
         pushing["contacts"] = [(name, other)]
+        pushing["impacts"] = [(name, other)] * hits
     return pushing | ({"possession": name} if holds else {})
 
 
@@ -109,6 +123,8 @@ def sound_step(rig, ball, touches, asked, **seen):
     assert after.spot is None or after.pending is None, "two restarts at once"
     assert after.timing.effective >= before.timing.effective or any(event.rule == "undo" for event in ruling.events)
     assert after.stage is not GameStage.SHOOT_OUT or after.score == before.score
+    assert after.running or (after.advantage is None and not after.participation.owed), "a card is owed after a stop"
+    assert after.advantage is None or after.phase is Phase.PLAY
     for placement in ruling.placements:
         inside = abs(placement.x) <= rig.pitch.goal_line and abs(placement.y) <= rig.pitch.touch_line
         assert inside or placement.body in {*after.participation.absences, *before.participation.absences}

@@ -19,7 +19,7 @@ from schemas.side import Side
 from sim_host.match.referee_factory import make_referee
 from sim_host.referee.core import Ruling
 from sim_host.referee.placement.spots import restart_at
-from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.snapshot import BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 from touchline.play import InProcessMatch
 
 NAMES = tuple(f"{side}{number}" for side in Side for number in range(1, 6))
@@ -50,9 +50,19 @@ def mirrored(snapshot: Snapshot) -> Snapshot:
         touches=tuple([counterpart(name) for name in snapshot.touches]),
         level=tuple([counterpart(name) for name in snapshot.level]),
         contacts=tuple(sorted([tuple(sorted([places[one], places[other]])) for one, other in snapshot.contacts])),
+        impacts=tuple(sorted([_impact(impact, places) for impact in snapshot.impacts])),
         ball_spin=(-wx, -wy),
         kickers_ready=tuple([snapshot.kickers_ready[place] for place in places]),
     )
+
+
+def _impact(impact: Impact, places: list[int]) -> Impact:
+    """The mirrored impact, the smaller index first."""
+    (x, y), (vx, vy), (wx, wy) = impact.direction, impact.first_velocity, impact.second_velocity
+    first, second = places[impact.first], places[impact.second]
+    if first < second:
+        return Impact(first, second, (-x, -y), (-vx, -vy), (-wx, -wy))
+    return Impact(second, first, (x, y), (-wx, -wy), (-vx, -vy))
 
 
 def facts(ruling: Ruling, sign: int) -> tuple[list[tuple[object, ...]], list[tuple[object, ...]]]:

@@ -1,12 +1,17 @@
 """Whole restart sequences: STOP, ball placed and signal, START, ball in play."""
 
+import dataclasses
 import math
 
 import pytest
 
+from schemas.config.rule_book import Restarts
 from schemas.game import EventKind, Phase
 from schemas.side import Side
+from support.referee_rig import with_book
 
+REQUIRED = [field.name for field in dataclasses.fields(Restarts) if field.default is dataclasses.MISSING]
+"""The numbers of a rule book of before the others existed."""
 STOP, RESTART, START, IN_PLAY = EventKind.STOP, EventKind.RESTART, EventKind.START, EventKind.IN_PLAY
 
 
@@ -125,14 +130,50 @@ def test_start_waits_until_opponents_have_left_and_is_given_at_once_then(rig):
     assert rig.state.running
 
 
-def test_start_waits_no_longer_than_the_limit_and_then_names_the_robots_with_a_wrong_position(rig):
-    thrown_in(rig)
+@pytest.mark.parametrize(
+    ("rules", "latest"), [("msl", 7.0), ("paper", 7.0), ("china-sim-2020", 7.0), ("friendly", 9.0)]
+)
+def test_start_waits_for_no_robot_beyond_the_limit_which_counts_from_the_signal(new_rig, rules, latest):
+    rig = thrown_in(new_rig("msl", rules))
     rig.robots["cyan4"] = (1.0, rig.pitch.touch_line - 1.0)
     rig.until(lambda state: state.running)
+    assert moment(rig, START) - moment(rig, RESTART) == pytest.approx(latest)
+    assert "cyan4 stands" in rig.events[-1].text
+
+
+def test_a_book_of_before_counts_the_limit_from_the_earliest_start(new_rig):
+    rig = new_rig()
     numbers = rig.book.restarts
+    earlier = Restarts(**{field: getattr(numbers, field) for field in REQUIRED})
+    assert earlier.positions_from == "earliest start"
+    rig = thrown_in(with_book(rig, dataclasses.replace(rig.book, restarts=earlier)))
+    rig.robots["cyan4"] = (1.0, rig.pitch.touch_line - 1.0)
+    rig.until(lambda state: state.running)
     waited = moment(rig, START) - moment(rig, RESTART)
     assert waited == pytest.approx(numbers.signal_to_start + numbers.positions_limit)
-    assert "cyan4 stands" in rig.events[-1].text
+
+
+@pytest.mark.parametrize(("rules", "moved", "card"), [("msl", True, True), ("friendly", False, False)])
+def test_at_the_limit_an_offender_is_moved_and_shown_a_card_where_the_rule_book_demands_it(new_rig, rules, moved, card):
+    rig = thrown_in(new_rig("msl", rules))
+    place = rig.robots["cyan4"] = (1.0, rig.pitch.touch_line - 1.0)
+    rig.until(lambda state: state.running)
+    assert (rig.robots["cyan4"] != place) is moved and (EventKind.CARD in rig.kinds()) is card
+    spot, required = rig.state.spot, rig.book.restarts.opponent_distance
+    assert (math.dist(rig.robots["cyan4"], spot) - rig.hull >= required) is moved
+
+
+@pytest.mark.parametrize("deed", ["free_kick", "throw_in", "corner", "goal_kick", "drop_ball", "penalty", "kick_off"])
+def test_every_restart_has_the_same_latest_start(new_rig, deed):
+    rig = new_rig().playing()
+    rig.ask(deed, None if deed == "drop_ball" else Side.CYAN)
+    rig.until(lambda state: state.spot is not None)
+    signalled = moment(rig, RESTART)
+    while not rig.state.running:
+        x, y = rig.state.spot
+        rig.robots["magenta4"] = (x * 0.9, y - 0.5)
+        rig.tick()
+    assert moment(rig, START) - signalled == pytest.approx(7.0)
 
 
 def test_only_the_tick_with_start_of_a_kick_off_is_a_checkpoint(rig):

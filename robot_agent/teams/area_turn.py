@@ -1,0 +1,60 @@
+"""The penalty areas, in which one field robot of a side may be at a time, and for a while."""
+
+import math
+
+from robot_agent.fair_play import RuleLimits
+from robot_agent.skills.keep_out import Area
+from robot_agent.world_model import WorldBelief
+
+LEAVES_BEFORE = 2.0
+"""s before its time is up, when a robot leaves."""
+COMES_BACK = 0.5
+"""Share of its time that has to be left before it enters again."""
+
+
+class AreaTurn:
+    """When one robot that keeps no goal has to be outside the penalty areas."""
+
+    def __init__(self, limits: RuleLimits, area: Area) -> None:
+        self._limits = limits
+        self._area = area
+        self._time = 0.0
+        """s in a penalty area; outside it runs down as fast."""
+        self._is_used_up = False
+
+    def has_to_be_out(self, belief: WorldBelief, keeper: str | None) -> bool:
+        """Whether the robot has to leave the nearer penalty area, or stay out of it, after one more sight."""
+        inside = self._has(belief, *belief.me[:2])
+        self._time = max(0.0, self._time + (belief.dt if inside else -belief.dt))
+        if self._time > self._limits.stay - LEAVES_BEFORE:
+            self._is_used_up = True
+        elif self._time < (1.0 - COMES_BACK) * self._limits.stay:
+            self._is_used_up = False
+        return self._is_used_up or self._is_second(belief, keeper, inside)
+
+    def _is_second(self, belief: WorldBelief, keeper: str | None, inside: bool) -> bool:
+        """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
+
+        Where a second robot there is a foul at once, the teammate may be anywhere, since it may be about to enter, and
+        this robot waits outside until a teammate inside has left, also with the ball.
+        """
+        ball = belief.ball.now[:2] if belief.ball is not None else (_end(belief) * self._area.goal_line, 0.0)
+        mine = math.dist(ball, belief.me[:2])
+        for name, mate in belief.mates.items():
+            if name == keeper:
+                continue
+            is_there = self._has(belief, *mate.body[:2])
+            if self._limits.at_once and is_there and not inside:
+                return True
+            is_nearer = not belief.holding and math.dist(ball, mate.body[:2]) < mine
+            if is_nearer and (self._limits.at_once or is_there):
+                return True
+        return False
+
+    def _has(self, belief: WorldBelief, x: float, y: float) -> bool:
+        return self._area.has(_end(belief), x, y)
+
+
+def _end(belief: WorldBelief) -> float:
+    """The sign of the x of the nearer goal."""
+    return math.copysign(1.0, belief.me.x)

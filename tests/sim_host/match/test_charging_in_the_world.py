@@ -1,0 +1,87 @@
+"""Charging with the real engine: who is called when robots run into each other."""
+
+import math
+
+import pytest
+
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.config.scene import SceneGame
+from schemas.frames import Pose
+from schemas.game import EventKind, Phase
+from schemas.side import Side
+from sim_host.referee.core import Referee
+from support.world_rig import WorldRig, tell
+
+PHASES = [0.0, 0.013, 0.031, 0.047]
+"""m; where a robot begins, so that it arrives at all moments of a tick."""
+
+
+def called(rig, ticks=200, **inputs):
+    """The first fouls that the referee calls while the robots drive, each with the measured quantity."""
+    profile, roster = rig.profile, rig.roster
+    starts = {name: Pose(0.0, 0.0, 0.0) for name in roster.names}
+    referee = Referee(
+        load_rule_book("msl"),
+        profile.field,
+        profile.ball,
+        roster,
+        duration=None,
+        kick_off=Side.CYAN,
+        automatic=True,
+        starts=starts,
+    )
+    ball = rig.world.snapshot().ball
+    state = referee.begin_at(SceneGame(phase=Phase.PLAY), (ball.x, ball.y))
+    for _ in range(ticks):
+        ruling = referee.step(state, rig.tick(**inputs), (), profile.time.tick)
+        state = ruling.state
+        fouls = [(event.rule, event.robot, event.measured) for event in ruling.events if event.kind is EventKind.FOUL]
+        if fouls:
+            return fouls
+    return []
+
+
+@pytest.mark.parametrize("profile", ["msl", "ideal", "omni"])
+@pytest.mark.parametrize("phase", PHASES)
+def test_a_robot_at_full_speed_into_a_standing_opponent_charges_it(profile, phase):
+    rig = WorldRig(load_profile(profile))
+    rig.place(cyan2=(-3.0 + phase, 0, 0), magenta2=(0, 0, 0), ball=(5, 0, 0))
+    ((rule, robot, speed),) = called(rig, cyan2=tell(vx=4.0))
+    assert (rule, robot) == ("charging", "cyan2") and speed == pytest.approx(3.5, abs=0.2)
+
+
+@pytest.mark.parametrize("phase", PHASES)
+def test_of_two_robots_at_full_speed_into_each_other_neither_is_called(phase):
+    rig = WorldRig(load_profile("msl"))
+    rig.place(cyan2=(-2 + phase, 0, 0), magenta2=(2 + phase, 0, math.pi), ball=(0, 5, 0))
+    assert called(rig, cyan2=tell(vx=4.0), magenta2=tell(vx=4.0)) == []
+
+
+def test_robots_that_push_each_other_from_rest_do_not_charge():
+    rig = WorldRig(load_profile("msl"))
+    rig.place(cyan2=(-0.27, 0, 0), magenta2=(0.27, 0, math.pi), ball=(0, 5, 0))
+    assert called(rig, cyan2=tell(vx=4.0), magenta2=tell(vx=4.0)) == []
+
+
+@pytest.mark.parametrize("gap", [0.55, 0.7, 0.9])
+def test_a_robot_that_is_knocked_into_another_is_never_called(gap):
+    """cyan2 hits magenta1, which stands and is knocked into cyan1."""
+    rig = WorldRig(load_profile("msl"))
+    rig.place(cyan2=(-3, 0, 0), magenta1=(0, 0, 0), cyan1=(gap, 0, 0), ball=(0, 5, 0))
+    ((rule, robot, _),) = called(rig, cyan2=tell(vx=4.0))
+    assert (rule, robot) == ("charging", "cyan2")
+
+
+@pytest.mark.parametrize("gap", [0.505, 0.55, 0.7])
+def test_a_robot_that_knocks_its_teammate_into_an_opponent_is_called_in_its_place(gap):
+    rig = WorldRig(load_profile("msl"))
+    rig.place(cyan2=(-3, 0, 0), cyan1=(0, 0, 0), magenta2=(gap, 0, 0), ball=(0, 5, 0))
+    ((rule, robot, _),) = called(rig, cyan2=tell(vx=4.0))
+    assert (rule, robot) == ("charging", "cyan2")
+
+
+def test_a_robot_that_drives_into_an_opponent_behind_the_ball_does_not_charge():
+    rig = WorldRig(load_profile("msl"))
+    rig.place(cyan2=(-2, 0, 0), magenta2=(0.4, 0, math.pi), ball=(0, 0, 0))
+    assert called(rig, 60, cyan2=tell(vx=3.0)) == []

@@ -1,0 +1,166 @@
+"""The stuck flag: up where a robot makes no progress against its demands, however they flicker, and never else."""
+
+import math
+import random
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from schemas.config.profile import load_profile
+from schemas.messages.applied import AppliedInput
+from support.world_rig import REST, WorldRig
+from support.world_rig import tell as drive
+
+POST = 1.2625
+"""m; |y| of the centres of the posts."""
+
+
+@pytest.fixture(params=["msl", "ideal", "omni"])
+def rig(request: pytest.FixtureRequest) -> Iterator[WorldRig]:
+    rig = WorldRig(load_profile(request.param))
+    yield rig
+    rig.world.close()
+
+
+def flags(rig: WorldRig, seconds: float, of: str, **inputs: Callable[[], AppliedInput]) -> list[bool]:
+    """The flag of one robot in each tick, while these functions say what robots demand."""
+    place, found = rig.roster.names.index(of), []
+    for _ in range(round(seconds / rig.profile.time.tick)):
+        rig.tick(**{name: demand() for name, demand in inputs.items()})
+        found.append(rig.stuck[place])
+    return found
+
+
+def always(demand: AppliedInput) -> Callable[[], AppliedInput]:
+    return lambda: demand
+
+
+def flickering(seed: int, speed: float = 2.0) -> Callable[[], AppliedInput]:
+    """As of a robot at a ball that it contests: ahead, now and then aside, backward or not at all."""
+    dice = random.Random(seed)
+
+    def demand() -> AppliedInput:
+        if dice.random() < 0.15:
+            return REST
+        size, angle = speed * dice.uniform(0.5, 1.5), dice.uniform(-0.5, 0.5)
+        if dice.random() < 0.1:
+            size = -0.3 * size
+        return drive(size * math.cos(angle), size * math.sin(angle), dice.uniform(-1.0, 1.0))
+
+    return demand
+
+
+def share(found: list[bool]) -> float:
+    return sum(found) / len(found)
+
+
+@pytest.mark.parametrize("speed", [0.5, 2.0, 4.0])
+def test_a_robot_that_drives_at_a_wall_is_stuck_within_a_second_and_until_it_turns_back(rig, speed):
+    wall = rig.profile.field.goal_line + rig.profile.field.border - rig.profile.robot.radius
+    rig.place(cyan1=(wall - 0.02, 3, 0))
+    found = flags(rig, 2.0, "cyan1", cyan1=always(drive(speed)))
+    assert not any(found[:5]) and all(found[50:])
+    found = flags(rig, 2.5, "cyan1", cyan1=always(drive(-speed)))
+    assert not any(found[100:]), "on wheels, the controller brakes what it had commanded first"
+
+
+def test_a_robot_that_drives_at_a_post_is_stuck(rig):
+    goal_line = rig.profile.field.goal_line
+    rig.place(cyan1=(goal_line - rig.profile.robot.radius - 0.02, POST, 0))
+    assert all(flags(rig, 2.0, "cyan1", cyan1=always(drive(2)))[60:])
+
+
+def test_a_robot_that_slides_along_a_wall_is_not_stuck(rig):
+    """At 45 degrees half of its demanded progress is left, less friction."""
+    wall = rig.profile.field.touch_line + rig.profile.field.border - rig.profile.robot.radius
+    rig.place(cyan1=(-6, wall - 0.02, 0))
+    assert not any(flags(rig, 2.0, "cyan1", cyan1=always(drive(1.5, 1.0))))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_robots_that_clinch_are_stuck_although_their_demands_flicker(rig, seed):
+    """Two hold a third in a corner of the boundary: most of the time in which a robot gets nowhere, for each."""
+    field, r = rig.profile.field, rig.profile.robot.radius
+    x, y = field.goal_line + field.border - r, field.touch_line + field.border - r
+    places = {"cyan1": (x, y, -0.75 * math.pi), "magenta1": (x - 2 * r, y, 0), "magenta2": (x, y - 2 * r, math.pi / 2)}
+    rig.place(**places, ball=(0, 5, 0))
+    pushes = {name: flickering(seed + 100 * number, 2.0 if number else 0.8) for number, name in enumerate(places)}
+    names, found = rig.roster.names, {name: [] for name in places}
+    for tick in range(400):
+        told = {name: facing(rig, name, places[name][2], demand()) for name, demand in pushes.items()}
+        rig.tick(**told)
+        if tick >= 60:
+            for name, flags_of in found.items():
+                if math.hypot(rig.at(name).vx, rig.at(name).vy) < 0.1:
+                    flags_of.append(rig.stuck[names.index(name)])
+    held = [flags_of for flags_of in found.values() if len(flags_of) > 100]
+    assert held, "one may slip out"
+    assert min(map(share, held)) > 0.85
+
+
+def facing(rig: WorldRig, robot: str, angle: float, demand: AppliedInput) -> AppliedInput:
+    """The same demand in this direction of the field, whatever the robot's heading is."""
+    turn = angle - rig.at(robot).heading
+    c, s, told = math.cos(turn), math.sin(turn), demand.drive
+    return drive(c * told.vx - s * told.vy, s * told.vx + c * told.vy, told.omega)
+
+
+def test_a_wall_holds_a_robot_back_although_its_demands_flicker(rig):
+    wall = rig.profile.field.goal_line + rig.profile.field.border - rig.profile.robot.radius
+    rig.place(cyan1=(wall - 0.02, 3, 0))
+    assert share(flags(rig, 4.0, "cyan1", cyan1=flickering(1))[50:]) > 0.95
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_flickering_demands_alone_make_no_robot_stuck(rig, seed):
+    rig.place(cyan1=(-9, 0, 0), ball=(0, 5, 0))
+    assert not any(flags(rig, 3.0, "cyan1", cyan1=flickering(seed)))
+
+
+@pytest.mark.parametrize("demand", [drive(4), drive(0.3), drive(omega=8), drive(-2, 2, 3)])
+def test_a_slow_start_and_a_stop_are_not_stuck(rig, demand):
+    rig.place(cyan1=(-3, 0, 0.3), ball=(0, 5, 0))
+    assert not any(flags(rig, 1.5, "cyan1", cyan1=always(demand)))
+    assert not any(flags(rig, 1.5, "cyan1", cyan1=always(REST)))
+
+
+def test_a_robot_that_turns_back_at_full_speed_is_not_stuck(rig):
+    rig.place(cyan1=(-3, 0, 0), ball=(0, 5, 0))
+    for demand in (drive(4), drive(-4), drive(0, 4), drive(4)):
+        assert not any(flags(rig, 1.2, "cyan1", cyan1=always(demand)))
+
+
+def test_a_robot_that_stands_and_is_pushed_away_is_not_stuck(rig):
+    r = rig.profile.robot.radius
+    rig.place(cyan1=(-2 * r - 0.5, 0, 0), magenta1=(0, 0, 0), ball=(0, 5, 0))
+    assert not any(flags(rig, 2.0, "magenta1", cyan1=always(drive(4)), magenta1=always(REST)))
+
+
+def test_a_robot_that_pushes_one_that_stands_its_ground_is_stuck(rig):
+    """Against a wall, so that it stands its ground with every drive."""
+    r = rig.profile.robot.radius
+    wall = rig.profile.field.goal_line + rig.profile.field.border
+    rig.place(cyan1=(wall - 3 * r, 3, 0), magenta1=(wall - r, 3, 0))
+    assert all(flags(rig, 2.0, "cyan1", cyan1=always(drive(2)), magenta1=always(REST))[60:])
+
+
+def test_a_bump_is_not_stuck(rig):
+    """Two robots that brush each other's hulls at 2 m/s and drive on."""
+    r = rig.profile.robot.radius
+    rig.place(cyan1=(-2, 0, 0), magenta1=(2, 1.8 * r, math.pi), ball=(0, 5, 0))
+    found = [flags(rig, 0.02, "cyan1", cyan1=always(drive(2)), magenta1=always(drive(2)))[0] for _ in range(150)]
+    assert not any(found)
+
+
+def test_a_held_ball_makes_no_robot_stuck(rig):
+    rig.give("cyan1", -9.0)
+    demand = drive(1.5, dribble=True)
+    assert not any(flags(rig, 3.0, "cyan1", cyan1=always(demand)))
+
+
+def test_a_robot_that_is_placed_is_not_stuck_any_more(rig):
+    wall = rig.profile.field.goal_line + rig.profile.field.border - rig.profile.robot.radius
+    rig.place(cyan1=(wall - 0.02, 3, 0))
+    assert flags(rig, 2.0, "cyan1", cyan1=always(drive(2)))[-1]
+    rig.place(cyan1=(0, -3, 0))
+    assert not any(flags(rig, 1.0, "cyan1", cyan1=always(drive(2))))
