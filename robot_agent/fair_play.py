@@ -33,10 +33,10 @@ class RuleLimits(NamedTuple):
     """m; how far a robot may drive backward with the ball more than once."""
     keeps_out: bool
     """Only the goalkeeper may enter a goal area."""
-    takes_turns: bool
-    """Only one field robot of a side at a time may be in a penalty area."""
+    area_robots: float
+    """Field robots of a side that may be in a penalty area at the same time."""
     at_once: bool
-    """A second robot there is a foul at once, or nearly so."""
+    """One more robot there is a foul at once, or nearly so."""
     stay: float
     """s; how long one robot may be there."""
     passes_first: bool
@@ -56,18 +56,23 @@ class RuleLimits(NamedTuple):
         """The limits of a match."""
         fouls, handling, scoring, areas = setup.fouls, setup.handling, setup.scoring, setup.areas
         if fouls is None or handling is None or scoring is None:
-            return cls(math.inf, math.inf, False, False, False, math.inf, False, 0.0)
+            return cls(math.inf, math.inf, False, math.inf, False, math.inf, False, 0.0)
         return cls(
             circle=handling.circle if fouls.dribble_circle != "off" else math.inf,
             backward=handling.backward_once if fouls.backward != "off" else math.inf,
             keeps_out=fouls.goal_area != "off",
-            takes_turns=fouls.penalty_area != "off",
+            area_robots=_area_robots(setup) if fouls.penalty_area != "off" else math.inf,
             at_once=areas is not None and areas.penalty_area_duration < SHORT_STAY,
             stay=areas.penalty_area_stay if areas is not None and areas.penalty_area_stay else math.inf,
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
             spares_opponents=fouls.charging != "off",
         )
+
+
+def _area_robots(setup: Setup) -> int:
+    """Field robots that the rule book allows in a penalty area; 1, as the league does, where a setup has no number."""
+    return setup.areas.penalty_area_robots if setup.areas is not None else 1
 
 
 class Carry(NamedTuple):

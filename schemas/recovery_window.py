@@ -8,7 +8,7 @@ once, and the ticks between two of its reports, are a fraction of that.
 """
 
 BATCH_TICKS = 8
-"""Ticks in a batch: with five robots a side, a batch fits into one of Zenoh's batches of 64 KiB."""
+"""Ticks in a batch: with five robots a side, a batch fits into one of Zenoh's batches of 64 KiB; more is split."""
 BATCH_S = 0.15
 """Wall time after which a batch with fewer ticks is published; half a second later a recorder has it on its disk."""
 KEPT_BATCHES = 300

@@ -1,7 +1,7 @@
 """The state of the world at one tick, as plain numbers in the field frame: the input of the referee and the sensors."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import NamedTuple, Self
 
@@ -13,6 +13,7 @@ from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.roster import RosterEntry
+from schemas.frames import Pose
 from schemas.side import Side
 
 BALL = "ball"
@@ -206,3 +207,9 @@ class Snapshot:
     """Fixed bodies, in the order in which they were added."""
     kickers_ready: tuple[bool, ...] = ()
     """Per robot: its kicker is charged."""
+
+    def with_robot_at(self, name: str, pose: Pose) -> "Snapshot":
+        """The same snapshot with a robot at another pose."""
+        index = self.roster.names.index(name)
+        moved = self.robots[index]._replace(x=pose.x, y=pose.y, heading=pose.heading)
+        return replace(self, robots=RobotStates((*self.robots[:index], moved, *self.robots[index + 1 :])))

@@ -21,6 +21,7 @@ from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeActi
 from schemas.messages.radio import Belief
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
+from schemas.natural_order import natural_order
 from schemas.side import Side
 
 _POLL_S = 0.01
@@ -132,7 +133,7 @@ class LiveMatch:
         """Robot → its newest belief, of these sides, in its team's frame."""
         wanted = list(sides)
         beliefs = self.follower.beliefs
-        return {name: beliefs[name] for name in sorted(beliefs) if self.sides.get(name) in wanted}
+        return {name: beliefs[name] for name in sorted(beliefs, key=natural_order) if self.sides.get(name) in wanted}
 
     def obstacles(self, side: Side) -> list[TeamObstacle]:
         """Opponents and other bodies as this side believes them, in its team frame."""

@@ -14,6 +14,7 @@ from recordings.container.mcap_file import ChannelRecord, McapFile, open_mcap_fi
 from recordings.container.numbering import numbered_files
 from recordings.container.sealed_metadata import from_metadata, is_sealed, to_metadata
 from schemas.errors import TouchlineError
+from schemas.natural_order import natural_order
 
 _Id = tuple[str, int, int]
 """Key, sequence number and time of sending of a message."""
@@ -105,5 +106,5 @@ def _result(file: McapFile) -> Result:
 
 def _summed(results: list[Result]) -> dict[str, KeyCount]:
     """Key → its counts in all files."""
-    keys = sorted({key for result in results for key in result.keys})
+    keys = sorted({key for result in results for key in result.keys}, key=natural_order)
     return {key: reduce(KeyCount.plus, (result.keys.get(key, KeyCount()) for result in results)) for key in keys}

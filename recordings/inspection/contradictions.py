@@ -16,6 +16,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.messages.game import GameState
 from schemas.messages.setup import Setup
+from schemas.natural_order import natural_order
 from schemas.topics import APPLIED, EVENT, STATE
 
 _LAST_S = 3.0
@@ -63,7 +64,7 @@ def record_faults(recording: Recording) -> list[str]:
     result = recording.result
     if result is None or not result.keys or _was_paused(result):
         return found
-    for key in sorted({*trackers, *result.keys}):
+    for key in sorted({*trackers, *result.keys}, key=natural_order):
         count = trackers[key].count() if key in trackers else KeyCount()
         sealed = result.keys.get(key, KeyCount())
         # a later file of a split recording, or a copy, does not show what was lost before its first message
@@ -136,7 +137,7 @@ def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
     if not result.keys or _was_paused(result) or recording.manifest.latched_count:
         return  # of a repaired file, or with latched messages at its beginning or after a pause, which are in no count
     there = {channel.key: channel.messages for channel in recording.channels if channel.messages}
-    for key in sorted({*there, *result.keys}):
+    for key in sorted({*there, *result.keys}, key=natural_order):
         sealed = result.keys.get(key, KeyCount()).messages
         if there.get(key, 0) != sealed:
             yield f"{key}: {there.get(key, 0)} messages in the file, {sealed} in the result"

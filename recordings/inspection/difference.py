@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.inspection.message_difference import BEYOND_NS, Difference, EarliestDifference
 from recordings.reading.recording import RecordedMessage, Recording
+from schemas.natural_order import natural_order
 from schemas.topics import COMMAND, HEALTH, INVALID
 
 WALL_TIME_TOPICS = (HEALTH, INVALID)
@@ -50,7 +51,7 @@ def compare(
     """
     keys = {channel.key for recording in (one, other) for channel in recording.channels if channel.messages}
     wanted = {key for key in keys if selection.includes(key) and (everything or not _is_of_wall_time(key))}
-    comparison = Comparison(left_out=sorted(keys - wanted), keys=len(wanted))
+    comparison = Comparison(left_out=sorted(keys - wanted, key=natural_order), keys=len(wanted))
     earliest = EarliestDifference()
     span = (start, end)
     sides = (_messages(one, wanted, everything, span), _messages(other, wanted, everything, span))

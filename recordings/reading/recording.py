@@ -13,6 +13,7 @@ from recordings.container.sealed_metadata import digest, from_metadata, is_seale
 from recordings.container.split_file import open_split_file
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
+from schemas.natural_order import natural_order
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 from schemas.wire.message import VERSION, BadMessageError
@@ -126,12 +127,12 @@ class Recording:
             for channel in self.mcap_file.channels.values()
             if not is_derived(channel.metadata)
         ]
-        return sorted(facts)
+        return sorted(facts, key=lambda channel: natural_order(channel.key))
 
     @property
     def drawn(self) -> dict[str, int]:
         """Topic → messages, of the channels for viewers."""
-        channels = sorted(self.mcap_file.channels.values(), key=lambda channel: channel.key)
+        channels = sorted(self.mcap_file.channels.values(), key=lambda channel: natural_order(channel.key))
         return {channel.key: channel.messages for channel in channels if is_derived(channel.metadata)}
 
     def messages(self, *keys: str, start: float | None = None, end: float | None = None) -> Iterator[RecordedMessage]:

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from recordings.container.manifest import KeyCount
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.sequence_tracker import SequenceTracker
+from schemas.natural_order import natural_order
 
 
 class LossCounts:
@@ -26,7 +27,7 @@ class LossCounts:
     def for_this_file(self) -> dict[str, KeyCount]:
         """Key → its counts since the beginning of the current file, sorted."""
         counts = {}
-        for key, tracker in sorted(self._trackers.items()):
+        for key, tracker in self._sorted():
             count = tracker.count().since(self._before.get(key, KeyCount()))
             if count != KeyCount():
                 counts[key] = count
@@ -44,4 +45,7 @@ class LossCounts:
     @property
     def losses(self) -> dict[str, int]:
         """Key → messages lost in all files; keys without loss are left out."""
-        return {key: tracker.lost for key, tracker in sorted(self._trackers.items()) if tracker.lost}
+        return {key: tracker.lost for key, tracker in self._sorted() if tracker.lost}
+
+    def _sorted(self) -> list[tuple[str, SequenceTracker]]:
+        return sorted(self._trackers.items(), key=lambda item: natural_order(item[0]))

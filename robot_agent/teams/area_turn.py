@@ -1,4 +1,4 @@
-"""The penalty areas, in which one field robot of a side may be at a time, and for a while."""
+"""The penalty areas, in which few field robots of a side may be at a time, and for a while."""
 
 import math
 
@@ -30,26 +30,27 @@ class AreaTurn:
             self._is_used_up = True
         elif self._time < (1.0 - COMES_BACK) * self._limits.stay:
             self._is_used_up = False
-        return self._is_used_up or self._is_second(belief, keeper, inside)
+        return self._is_used_up or self._is_one_too_many(belief, keeper, inside)
 
-    def _is_second(self, belief: WorldBelief, keeper: str | None, inside: bool) -> bool:
-        """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
+    def _is_one_too_many(self, belief: WorldBelief, keeper: str | None, inside: bool) -> bool:
+        """Whether as many teammates as allowed are nearer to the ball than this robot, and in the nearer penalty area.
 
-        Where a second robot there is a foul at once, the teammate may be anywhere, since it may be about to enter, and
-        this robot waits outside until a teammate inside has left, also with the ball.
+        Where one more robot there is a foul at once, the teammates may be anywhere, since they may be about to enter,
+        and this robot waits outside until one of those inside has left, also with the ball.
         """
+        allowed, at_once = self._limits.area_robots, self._limits.at_once
         ball = belief.ball.now[:2] if belief.ball is not None else (_end(belief) * self._area.goal_line, 0.0)
         mine = math.dist(ball, belief.me[:2])
+        there = nearer = 0
         for name, mate in belief.mates.items():
             if name == keeper:
                 continue
             is_there = self._has(belief, *mate.body[:2])
-            if self._limits.at_once and is_there and not inside:
-                return True
-            is_nearer = not belief.holding and math.dist(ball, mate.body[:2]) < mine
-            if is_nearer and (self._limits.at_once or is_there):
-                return True
-        return False
+            there += is_there
+            nearer += math.dist(ball, mate.body[:2]) < mine and (at_once or is_there)
+        if at_once and not inside and there >= allowed:
+            return True
+        return nearer >= allowed and not (belief.holding and allowed)
 
     def _has(self, belief: WorldBelief, x: float, y: float) -> bool:
         return self._area.has(_end(belief), x, y)

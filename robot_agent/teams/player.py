@@ -51,6 +51,8 @@ PLAYS_BALL = 0.3
 """m of air between its hull and the ball up to which a robot plays the ball."""
 _PARKING_SPEED = 1.5
 """m/s."""
+_PARKED_APART, _PARKED_ROWS = 1.5, 1.0
+"""m between two parked robots, and between two rows of them."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
 """Stands in for a ball whose place is unknown."""
 _AIR = 0.1
@@ -199,7 +201,7 @@ class Player(ABC):
         drive = action.drive
         if self._rule_limits.keeps_out:
             drive = keep_out(belief.me, drive, self._goal_area, self.limits)
-        if self._rule_limits.takes_turns:
+        if math.isfinite(self._rule_limits.area_robots):
             must_be_out = self._area_turn.has_to_be_out(belief, self.keeper)
             outside = keep_out(belief.me, drive, self._penalty_area, self.limits)
             if must_be_out and outside is not drive:
@@ -262,7 +264,8 @@ class Player(ABC):
         if self.is_keeper and belief.ball is not None:
             reach, pitch = self.setup.robot.reach, self.setup.pitch
             return Action("keeper", "keep", keep_goal(belief.me, belief.ball.now, pitch, reach, limits), dribble=True)
-        return Action("", "wait", shoot_out.wait(belief, self.briefing.number, self.setup, limits))
+        count = len(self.briefing.teammates) + 1
+        return Action("", "wait", shoot_out.wait(belief, self.briefing.number, count, self.setup, limits))
 
     def _search(self, belief: WorldBelief) -> Action:
         """Search for a lost ball in play: the keeper guards the goal, the others drive around."""
@@ -274,10 +277,11 @@ class Player(ABC):
         return Action("", "look for the ball", go_around(me, x, y, me.heading, blocked, self.limits))
 
     def _park(self, belief: WorldBelief) -> Drive:
-        """Park at the right touch line of the own half, in a row (simatch: 1.5 m apart)."""
+        """Park at the right touch line of the own half, 1.5 m apart as in simatch, in as many rows as necessary."""
         pitch, radius = self.setup.pitch, self.setup.robot.reach
-        x = -pitch.goal_line + 1.5 * self.briefing.number
-        y = -pitch.touch_line + radius + 0.1
+        row, place = divmod(self.briefing.number - 1, max(1, int((pitch.goal_line - radius) / _PARKED_APART)))
+        x = -pitch.goal_line + _PARKED_APART * (place + 1)
+        y = -pitch.touch_line + radius + 0.1 + _PARKED_ROWS * row
         blocked = circles(belief.others, 2.0 * self.setup.robot.reach + _AIR)
         return go_around(belief.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
 

@@ -1,12 +1,13 @@
 """What a robot of the shipped teams reports: its radio message, and why it does not carry out an order. Pure."""
 
+import math
 from collections.abc import Collection
 
 from robot_agent.teams.action import Action
 from robot_agent.world_model import WorldBelief
 from schemas.game import Point
 from schemas.messages.coach import CoachOrder, CoachTest
-from schemas.messages.radio import BallBelief, Motion, Radio
+from schemas.messages.radio import MAX_OBSTACLES, BallBelief, Motion, Radio
 
 _MOST = 80
 """Characters of a reason, as of `schemas.wire.message.ShortText`."""
@@ -21,8 +22,15 @@ def radio_message(belief: WorldBelief, action: Action) -> Radio:
         role=action.role,
         intention=action.intention,
         pass_to=action.pass_to,
-        obstacles=[Point(x=round(x, 2), y=round(y, 2)) for x, y in belief.opponents],
+        obstacles=[Point(x=round(x, 2), y=round(y, 2)) for x, y in _nearest(belief)],
     )
+
+
+def _nearest(belief: WorldBelief) -> list[tuple[float, float]]:
+    """The opponents and other bodies; of more than a message holds, the nearest."""
+    if len(belief.opponents) <= MAX_OBSTACLES:
+        return belief.opponents
+    return sorted(belief.opponents, key=lambda place: math.dist(place, belief.me[:2]))[:MAX_OBSTACLES]
 
 
 def why_refused(order: CoachOrder, tests: Collection[CoachTest], tactics: Collection[str]) -> str:

@@ -41,11 +41,22 @@ def kicker_of(robots: Sequence[str], keeper: str | None, game: GameView) -> str:
     return (field or there or list(robots))[0]
 
 
-def wait(belief: WorldBelief, number: int, setup: Setup, limits: DriveLimits) -> Drive:
-    """Wait beyond the halfway line, in a row; `number` is the robot's place in its team."""
+def wait(belief: WorldBelief, number: int, count: int, setup: Setup, limits: DriveLimits) -> Drive:
+    """Wait beyond the halfway line, in as many rows as necessary.
+
+    The first robots of the list, which arrive first, have the farthest row: they do not wall off the line.
+
+    Args:
+        number: the robot's place in its team's list, from 1.
+        count: the number of robots in the list.
+    """
+    pitch, reach = setup.pitch, setup.robot.reach
     beyond = -1.0 if belief.game.phase is TeamPhase.OUR_PENALTY else 1.0
-    x = beyond * (setup.robot.reach + CLEAR)
-    y = setup.pitch.centre_circle_radius + number * SPACING  # left of its own attack: each team has a side of its own
+    in_a_row = max(1, int((pitch.touch_line - reach - pitch.centre_circle_radius) / SPACING))
+    row, place = divmod(number - 1, in_a_row)
+    x = beyond * (reach + CLEAR + ((count - 1) // in_a_row - row) * SPACING)
+    # left of its own attack: each team has a side of its own
+    y = pitch.centre_circle_radius + (place + 1) * SPACING
     blocked = circles(belief.others, 2.0 * setup.robot.reach + 0.1)
     return go_around(belief.me, x, y, math.atan2(-y, -x), blocked, limits)
 

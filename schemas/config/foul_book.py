@@ -79,7 +79,7 @@ class Scoring:
 
     pass_roll: Annotated[float, Quantity("m", "free roll of the ball that counts as a pass", 0, 10)]
     robots_touched: Annotated[
-        int, Quantity("1", "robots of the taker's side that must touch the ball before a goal", 1, 5)
+        int, Quantity("1", "robots of the taker's side that must touch the ball before a goal", 1, 11)
     ]
     lob_height: Annotated[float, Quantity("m", "apex of the ball's underside above which a kick is a lob", 0, 5)]
     lob_teammate: Annotated[float, Quantity("m", "a teammate this close to where it lands makes it a pass", 0, 20)]

@@ -12,6 +12,9 @@ from schemas.game import OfficiatingMode
 from schemas.side import Side
 from schemas.wire.message import Name, Part
 
+DEFAULT_SIZE = 5
+"""Robots of a team that gives neither a size nor names."""
+
 
 class TeamConfig(Part):
     """One team of the match file: its robots and their program."""
@@ -22,7 +25,7 @@ class TeamConfig(Part):
     """`module:Class` of a brain in Python; each robot's process constructs one instance."""
     command: list[str] | None = None
     """Command line of a program in any language, in place of a brain; environment variables name its robot."""
-    size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
+    size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
     """Number of robots, where `robots` does not name them."""
     robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
     """Names of the robots, the goalkeeper first; where the list is empty, side and number, as `cyan1`."""

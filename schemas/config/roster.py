@@ -5,8 +5,8 @@ from collections.abc import Container, Sequence
 from schemas.side import Side
 from schemas.wire.message import Name, Part
 
-MAX_ROBOTS = 5
-"""Most robots of one side."""
+MAX_ROBOTS = 11
+"""Most robots of one side that a rule book can allow."""
 RESERVED = frozenset({"ball"})
 """Names that have another meaning in keys."""
 

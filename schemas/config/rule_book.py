@@ -8,10 +8,11 @@ from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.quantity import Choice, Quantity, merge_tables, read_section
+from schemas.config.roster import MAX_ROBOTS
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
-SHIPPED = ("china-sim-2020", "friendly", "msl", "paper")
+SHIPPED = ("china-sim-2020", "eleven", "friendly", "msl", "paper")
 """The rule books that the package ships."""
 
 
@@ -88,6 +89,9 @@ class Restarts:
     penalty_behind: Annotated[
         int, Quantity("1", "1: at a penalty all but kicker and goalkeeper stay behind the ball; 0: not", 0, 1)
     ] = 0
+    moves_apart: Annotated[
+        int, Quantity("1", "1: robots moved at the limit get places apart from each other; 0: each its own", 0, 1)
+    ] = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,18 +131,20 @@ class Discipline:
 
 @dataclass(frozen=True, slots=True)
 class People:
-    """Robots that leave and return."""
+    """How many robots a side has, and how they leave and return."""
 
-    least_robots: Annotated[int, Quantity("1", "a side that cannot field as many robots forfeits; 0: never", 0, 5)]
+    least_robots: Annotated[int, Quantity("1", "a side that cannot field as many robots forfeits; 0: never", 0, 11)]
     forfeit_goals: Annotated[int, Quantity("1", "least goal difference of a forfeited match", 0, 20)]
     repair: Annotated[float, Quantity("s", "time off the field of a robot in repair", 0, 600)]
-    repairs_at_once: Annotated[int, Quantity("1", "robots of a side in repair at the same time", 0, 5)]
+    repairs_at_once: Annotated[int, Quantity("1", "robots of a side in repair at the same time", 0, 11)]
     substitutions: Annotated[int, Quantity("1", "substitutions of a side in one match", 0, 20)]
     substitution: Annotated[float, Quantity("s", "time from a robot's leaving to its substitute's entry", 0, 600)]
     silent_limit: Annotated[
         float, Quantity("s", "time after which a robot without a program is taken off the field; 0: never", 0, 600)
     ]
-    returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that return in one stoppage", 1, 5)]
+    returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that return in one stoppage", 1, 11)]
+    most_robots: Annotated[int, Quantity("1", "robots of a side in a match, at most", 1, MAX_ROBOTS)] = 5
+    entry_rows: Annotated[int, Quantity("1", "rows of places at the touch line where robots come back", 1, 5)] = 1
 
 
 SECTIONS: dict[str, type] = {
@@ -170,7 +176,7 @@ class RuleBook(Described):
     discipline: Discipline
     """Cards and their consequences."""
     people: People
-    """Repairs, substitutions and forfeits."""
+    """Sizes of the sides, repairs, substitutions and forfeits."""
     stall: Stall
     """When a ball that lies still or makes no progress is dropped."""
     scrum: Scrum

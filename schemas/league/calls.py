@@ -6,6 +6,7 @@ from typing import NamedTuple
 from schemas.game import GameStage, OffField, Phase
 from schemas.league.signals import BY_NAME, END_GAME, HALF_OF, HALF_TIME, RESTART_OF, START, STOP, Signal
 from schemas.messages.game import DisciplinaryRecord, GameState
+from schemas.natural_order import natural_order
 from schemas.side import Side
 
 _PHASES: Mapping[Phase, Signal] = {
@@ -75,7 +76,7 @@ def _half(old: GameState | None, new: GameState) -> Iterator[Call]:
 
 
 def _people(before: GameState, new: GameState, sides: Mapping[str, Side]) -> Iterator[Call]:
-    for name in sorted({*before.robots, *new.robots}):
+    for name in sorted({*before.robots, *new.robots}, key=natural_order):
         if name in sides:
             was, now = before.robots.get(name, _CLEAN), new.robots.get(name, _CLEAN)
             for signal in _person(was, now):

@@ -9,6 +9,9 @@ const LEAST_PX = 8.5;
 /** Radius of a robot as it is drawn, in pixels. */
 export const drawnRadius = (projection, radius) => projection.length(LARGER * radius, LEAST_PX);
 
+/** Size of a number on a robot that is drawn with this radius, in pixels: two digits have to fit, too. */
+export const numberSize = (number, radius) => (number.length > 1 ? 1.05 : 1.3) * radius;
+
 /** The path of a robot's body, about the origin. */
 export function bodyPath(context, side, radius) {
   context.beginPath();
@@ -49,7 +52,7 @@ export function drawRobot(context, projection, { x, y, heading }, { side, radius
   context.fill();
   context.stroke();
   context.rotate(-projection.angle(heading));
-  write(context, number, 0, 0, 1.3 * size, { colour: colours.ink, weight: 700 });
+  write(context, number, 0, 0, numberSize(number, size), { colour: colours.ink, weight: 700 });
   context.restore();
 }
 

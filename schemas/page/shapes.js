@@ -24,16 +24,23 @@ export function rectangle(context, projection, x1, y1, x2, y2) {
   );
 }
 
+/** The plate of a text as it is written, in pixels. */
+export function plateOf(context, text, left, top, size, weight) {
+  context.font = `${weight} ${size}px ${FONT}`;
+  const wide = context.measureText(text).width + 0.7 * size;
+  return { left: left - wide / 2, right: left + wide / 2, top: top - 0.65 * size, bottom: top + 0.65 * size };
+}
+
 /** Writes a text of `size` pixels about a point of the canvas, on a plate of the colour `ground` if one is given. */
 export function write(context, text, left, top, size, { colour = INK, weight = 650, ground = null } = {}) {
   context.font = `${weight} ${size}px ${FONT}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
   if (ground !== null) {
-    const wide = context.measureText(text).width + 0.7 * size;
+    const plate = plateOf(context, text, left, top, size, weight);
     context.fillStyle = ground;
     context.beginPath();
-    context.roundRect(left - wide / 2, top - 0.65 * size, wide, 1.3 * size, 0.35 * size);
+    context.roundRect(plate.left, plate.top, plate.right - plate.left, plate.bottom - plate.top, 0.35 * size);
     context.fill();
   }
   context.fillStyle = colour;

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from schemas.config.roster import Placement
+from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase
@@ -21,7 +22,7 @@ class OperatorRequests:
     """Holds the layout, the parameters and the episode of a match, and the changes that its next tick applies."""
 
     def __init__(
-        self, live_parameters: LiveParameters, subsystems: Subsystems, start: Scene, began: LayoutChange
+        self, live_parameters: LiveParameters, subsystems: Subsystems, book: RuleBook, start: Scene, began: LayoutChange
     ) -> None:
         """`start` is the scene that the match begins with, and `began` the layout that it makes."""
         self.live_parameters = live_parameters
@@ -32,6 +33,7 @@ class OperatorRequests:
         )
         """Changes to apply before the next tick."""
         self._subsystems = subsystems
+        self._book = book
         self._reset_scenes = ResetScenes(start, start)
 
     def pop_pending(self) -> PendingChanges:
@@ -111,7 +113,7 @@ class OperatorRequests:
     @property
     def _specs(self) -> Specs:
         profile = self.live_parameters.profile
-        return Specs(profile.field, profile.ball, self.live_parameters.types)
+        return Specs(profile.field, profile.ball, self.live_parameters.types, self._book)
 
 
 def _setting_text(value: Setting) -> str:

@@ -5,7 +5,8 @@ from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
 from schemas.config.rule_book import RuleBook, load_rule_book
 from sim_host.match.live_parameters import LiveParameters
-from sim_host.match.start_scene import opening_layout, start_poses
+from sim_host.match.start_poses import start_poses
+from sim_host.match.start_scene import opening_layout
 from sim_host.referee.core import Referee
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster
@@ -23,7 +24,7 @@ def make_referee(
         duration=duration,
         kick_off=options.kick_off,
         automatic=options.automatic,
-        starts=start_poses(roster, profile.field, book.restarts),
+        starts=start_poses(roster, profile.field, book.restarts)[0],
         mode=options.mode,
         proposal=options.proposal,
         winner=options.winner,
@@ -38,7 +39,7 @@ def opening_state(config: MatchConfig) -> RefereeState:
         TouchlineError: the profile, the rule book or the scene of the match file is invalid.
     """
     live_parameters, book = LiveParameters.of(config), load_rule_book(config.rules)
-    start, began = opening_layout(config, live_parameters, book.restarts)
+    start, began = opening_layout(config, live_parameters, book)
     roster = Roster.of_entries(began.layout.robots, live_parameters.types)
     referee = make_referee(book, live_parameters.profile, roster, config.duration, config.referee)
     return referee.begin_at(start.game, began.ball)

@@ -18,6 +18,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.messages.setup import Setup
 from schemas.messages.world import World as WorldMessage
+from schemas.natural_order import natural_order
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, bodies_fields
@@ -200,7 +201,7 @@ class Resimulation:
     def _check(self, applied: Applied) -> None:
         names = self._names
         if applied.tick > 0 and applied.inputs.keys() != names:
-            odd = ", ".join(sorted(applied.inputs.keys() ^ names))
+            odd = ", ".join(sorted(applied.inputs.keys() ^ names, key=natural_order))
             raise ImpossibleTickError(f"tick {applied.tick}: inputs do not match the robots that take part: {odd}")
         for placement in applied.placements:
             if placement.body not in names and placement.body != BALL:
@@ -209,7 +210,7 @@ class Resimulation:
 
 def _states(world: WorldMessage, roster: Roster) -> tuple[list[RobotState], BallState]:
     if world.robots.keys() != set(roster.names):
-        odd = ", ".join(sorted(world.robots.keys() ^ set(roster.names)))
+        odd = ", ".join(sorted(world.robots.keys() ^ set(roster.names), key=natural_order))
         raise ImpossibleTickError(f"tick {world.tick}: the world does not match the robots that take part: {odd}")
     robots = []
     for name in roster.names:

@@ -73,9 +73,9 @@ class Simulation:
         live_parameters = LiveParameters.of(config)
         self.book: RuleBook = load_rule_book(config.rules)
         self._engine = {**fingerprint(), "referee": referee_fingerprint()}
-        start, began = opening_layout(config, live_parameters, self.book.restarts)
+        start, began = opening_layout(config, live_parameters, self.book)
         self._subsystems = Subsystems(config, self.book, live_parameters, began.layout.robots)
-        self._operator = OperatorRequests(live_parameters, self._subsystems, start, began)
+        self._operator = OperatorRequests(live_parameters, self._subsystems, self.book, start, began)
         self.state = self.referee.begin_at(start.game, began.ball)
         self.world = World(self.profile, self.roster)
         for obstacle in began.layout.obstacles:

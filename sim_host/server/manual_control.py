@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from schemas.bus.contract import Bus
 from schemas.messages.command import Command, Kick
 from schemas.messages.manual import TIMEOUT_S, ManualDrive
+from schemas.natural_order import natural_order
 from schemas.topics import MANUAL
 from schemas.wire.message import BadMessageError
 from sim_host.server.invalid_log import InvalidLog
@@ -51,7 +52,7 @@ class ManualControl:
 
     def changes(self) -> Iterator[tuple[str, bool]]:
         """Robots whose manual control has begun or ended since the last call."""
-        for name in sorted({*self._driven, *self._reported}):
+        for name in sorted({*self._driven, *self._reported}, key=natural_order):
             is_driven = name in self._driven
             if is_driven != (name in self._reported):
                 yield name, is_driven

@@ -11,10 +11,11 @@ WRONG = {
     "an unknown key": ("sede = 7", "sede is not known; did you mean"),
     "an unknown key of a team": ("[teams.cyan]\nbrian = 'a:B'", "teams.cyan.brian is not known; did you mean"),
     "a wrong type": ("seed = 'seven'", "seed is 'seven'; a whole number"),
-    "a sixth robot": ("[teams.cyan]\nsize = 6", "teams.cyan.size is 6; a side has 1 to 5 robots"),
-    "a sixth name": (
-        "[teams.cyan]\nrobots = ['a', 'b', 'c', 'd', 'e', 'f']",
-        "1 to 5 different names",
+    "a twelfth robot": ("[teams.cyan]\nsize = 12", "teams.cyan.size is 12; a side has 1 to 11 robots"),
+    "a twelfth name": (f"[teams.cyan]\nrobots = {[f'r{n}' for n in range(12)]}", "1 to 11 different names"),
+    "more robots than the rules allow": (
+        "rules = 'msl'\n[teams.magenta]\nsize = 6",
+        "magenta has 6 robots; the rules msl allow 5 of a side; 6 are allowed by eleven, friendly",
     ),
     "a brain that does not exist": (
         "[teams.magenta]\nbrain = 'no_such_team:Brain'",

@@ -42,8 +42,8 @@ def after(*scenes, before=NOBODYS):
 
 
 def test_a_friendly_asks_only_to_keep_out_of_areas_and_to_spare_opponents(setup, league):
-    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, True, False, math.inf, False, 1.0, True)
-    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, True, True, 10.0, True, 1.0, True)
+    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, 1, False, math.inf, False, 1.0, True)
+    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, 1, True, 10.0, True, 1.0, True)
 
 
 def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
@@ -53,7 +53,7 @@ def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
 
 def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
     old = league.model_copy(update={"handling": None, "scoring": None, "fouls": None})
-    assert RuleLimits.of(old) == RuleLimits(math.inf, math.inf, False, False, False, math.inf, False, 0.0)
+    assert RuleLimits.of(old) == RuleLimits(math.inf, math.inf, False, math.inf, False, math.inf, False, 0.0)
 
 
 def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():

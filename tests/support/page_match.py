@@ -13,6 +13,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.game import ActionName
 from schemas.messages.command import Command
 from schemas.messages.game import GameEvent, GameState, RefereeAction
+from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from schemas.process.clock import WallClock
 from schemas.side import Side
@@ -31,6 +32,16 @@ class Still:
 
     def act(self, sight: Sight) -> Command:
         return Command(answers_tick=sight.tick)
+
+
+class Announcing:
+    """A brain that lets its robot stand, and sends a role."""
+
+    def __init__(self, briefing: Briefing) -> None:
+        del briefing
+
+    def act(self, sight: Sight) -> Command:
+        return Command(answers_tick=sight.tick, radio=Radio(role="right supporter", intention="hold the place"))
 
 
 class Match:

@@ -31,6 +31,7 @@ class RefereeRig:
         mirrored: bool = False,
         dt: float = 0.02,
         magenta_types: dict[str, str] | None = None,
+        size: int = 5,
         **options: Any,
     ) -> None:
         chosen = load_profile(profile)
@@ -38,11 +39,20 @@ class RefereeRig:
         self.book = load_rule_book(rules or profile)
         self.pitch, self.radius, self.hull = chosen.field, chosen.ball.radius, chosen.robot.radius
         self.mirrored = mirrored
-        self.roster = Roster.of(load_match(None, {"teams.magenta.types": magenta_types or {}}), chosen)
+        self.roster = Roster.of(
+            load_match(
+                None,
+                {
+                    "teams.magenta.types": magenta_types or {},
+                    **{f"teams.{side}.size": size for side in Side},
+                },
+            ),
+            chosen,
+        )
         self.starts = {}
         for name, side in zip(self.roster.names, self.roster.sides, strict=True):
-            number = int(name[-1])
-            self.starts[name] = Pose(-5.0 - 0.6 * number, -4.0, 0.5).team(side.attack(1))
+            row, column = divmod(int(name.removeprefix(side)) - 1, 5)
+            self.starts[name] = Pose(-5.6 - 0.6 * column, -4.0 - 0.6 * row, 0.5).team(side.attack(1))
         settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": self.starts} | options
         settings["kick_off"] = self.side(settings["kick_off"])
         self.referee = Referee(self.book, self.pitch, chosen.ball, self.roster, **settings)
@@ -73,7 +83,7 @@ class RefereeRig:
     def robot(self, name: str) -> str:
         if not self.mirrored:
             return name
-        return f"{self.roster.side_of(name).opponent}{name[-1]}"
+        return f"{(side := self.roster.side_of(name)).opponent}{name.removeprefix(side)}"
 
     def side_sign(self, name: str) -> int:
         """Sign of the x direction that the side of a robot attacks in the first half."""

@@ -92,7 +92,7 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     from sim_host.match.live_parameters import LiveParameters
     from sim_host.match.start_scene import opening_layout
 
-    opening_layout(config, LiveParameters.of(config), book.restarts)
+    opening_layout(config, LiveParameters.of(config), book)
     return config
 
 

@@ -3,6 +3,7 @@
 from recordings.container.key_selection import KeySelection
 from recordings.reading.recording import Recording
 from recordings.reading.tick_records import manually_driven
+from schemas.natural_order import natural_order
 from schemas.topics import COMMAND, EVENT, STATE, WORLD
 from touchline.verify.game_comparison import is_agent_event
 
@@ -21,7 +22,7 @@ def not_checked(recording: Recording, *, referee: bool, why_no_referee: str) -> 
     if not referee:
         found.append(f"{STATE.key}, {EVENT.key}, and clock, episode and off_field of {WORLD.key} ({why_no_referee})")
     found += [f"{key} (not recorded)" for key in _missing(recording, referee=referee)]
-    driven = sorted(manually_driven(recording))
+    driven = sorted(manually_driven(recording), key=natural_order)
     if driven:
         found.append(f"inputs of {', '.join(driven)} (under manual control, which is not recorded)")
     if referee:
@@ -49,7 +50,7 @@ def _incomplete(recording: Recording) -> list[str]:
     commands = {channel.key for channel in recording.channels if channel.topic == "command" and channel.messages}
     beliefs = {channel.key for channel in recording.channels if channel.topic == "belief" and channel.messages}
     found = []
-    for key in sorted(beliefs):
+    for key in sorted(beliefs, key=natural_order):
         robot = key.rsplit("/", 1)[1]
         command = COMMAND.fill(robot=robot)
         count = counts.get(command)

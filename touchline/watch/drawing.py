@@ -19,17 +19,25 @@ def draw_match(follower: MatchFollower, setup: Setup, width: int, height: int) -
     pitch_width = width - panel.WIDTH - 2 if is_beside else width
     room = max(1, height - 2 - LEAST_EVENTS)
     robots = panel.robots(setup, follower.world, follower.radios, follower.state, follower.health)
-    robots += panel.orders(follower.orders)
+    orders = panel.orders(follower.orders)
     rows = field(setup, follower.world, follower.state, pitch_width, min(room, rows_for(setup.pitch, pitch_width)))
     if is_beside:
-        rows = _beside(rows, pitch_width, robots)[:room]
-    elif len(rows) + len(robots) <= room:
-        rows = [*rows, *robots]
+        rows = _beside(rows, pitch_width, [*_fitting(robots, room - len(orders)), *orders])[:room]
+    elif len(rows) + len(robots) + len(orders) <= room:
+        rows = [*rows, *robots, *orders]
     happened = panel.events(setup, follower, height - 2 - len(rows))
     rows = [panel.head(setup, follower.state), *rows, *happened, panel.foot(follower)][:height]
     for row in rows:
         row.truncate(width, overflow="ellipsis")
     return rows
+
+
+def _fitting(robots: list[Text], room: int) -> list[Text]:
+    """The rows of the robots; where there is no room for all, the last row has the number of those left out."""
+    if len(robots) <= room:
+        return robots
+    shown = max(0, room - 1)
+    return [*robots[:shown], Text(f"{len(robots) - shown} more robots: make the terminal higher", style=panel.QUIET)]
 
 
 def _beside(left: list[Text], width: int, right: list[Text]) -> list[Text]:

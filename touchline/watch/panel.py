@@ -18,7 +18,7 @@ from schemas.messages.radio import Radio
 from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
-from touchline.watch.pitch import SIDES, arrow
+from touchline.watch.pitch import SIDES, arrow, numbered
 from touchline.watch.status_line import losses_text, robots_text
 
 QUIET = Style(dim=True)
@@ -30,7 +30,7 @@ LOUD = {
     EventKind.ADVANTAGE: Style(color="yellow"),
 }
 """Highlighted events."""
-WIDTH = 64
+WIDTH = 65
 """Width of a robot's row, cells."""
 
 _ACTIVITY = 26
@@ -64,10 +64,11 @@ def robots(
     health: Health | None,
 ) -> list[Text]:
     """One row for each robot: number and heading, role and intention, position, speed, ball, and trouble."""
-    rows = []
-    for side, name, number in _everybody(setup):
+    rows, everybody = [], numbered(setup)
+    digits = max(len(str(number)) for _, _, number in everybody)
+    for side, name, number in everybody:
         robot = world.robots.get(name) if world is not None else None
-        row = Text.assemble((f"{number}{arrow(robot) if robot is not None else ' '}", SIDES[side]), " ")
+        row = Text.assemble((f"{number:>{digits}}{arrow(robot) if robot is not None else ' '}", SIDES[side]), " ")
         radio = radios.get(name)
         activity = Text(_activity(radio))
         activity.truncate(_ACTIVITY, overflow="ellipsis", pad=True)
@@ -80,12 +81,6 @@ def robots(
         row.append(", ".join(_troubles(name, robot, discipline, health, setup.time.tick)), TROUBLE)
         rows.append(row)
     return rows
-
-
-def _everybody(setup: Setup) -> Iterator[tuple[Side, str, int]]:
-    for side, team in setup.teams.items():
-        for number, name in enumerate(team.robots, start=1):
-            yield side, name, number
 
 
 def _activity(radio: Radio | None) -> str:

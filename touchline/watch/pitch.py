@@ -9,6 +9,7 @@ from rich.text import Text
 
 from schemas.config.sections import Pitch
 from schemas.game import RESTARTS, Phase
+from schemas.league.robot_numbers import numbers_of
 from schemas.messages.game import GameState
 from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
@@ -114,13 +115,18 @@ def _draw_restart(dots: BrailleCanvas, scale: Scale, setup: Setup, state: GameSt
 def _marks(setup: Setup, world: World) -> list[Mark]:
     """Obstacles, robots, and the ball, which is on top."""
     marks = [Mark(body.x, body.y, "▒▒", OBSTACLE) for body in world.obstacles.values()]
-    for side, team in setup.teams.items():
-        for number, name in enumerate(team.robots, start=1):
-            robot = world.robots.get(name)
-            if robot is not None:
-                style = SIDES[side] + AWAY if robot.off_field is not None else SIDES[side]
-                marks.append(Mark(robot.x, robot.y, f"{number}{arrow(robot)}", style))
+    for side, name, number in numbered(setup):
+        robot = world.robots.get(name)
+        if robot is not None:
+            style = SIDES[side] + AWAY if robot.off_field is not None else SIDES[side]
+            marks.append(Mark(robot.x, robot.y, f"{number}{arrow(robot)}", style))
     return [*marks, Mark(world.ball.x, world.ball.y, "●", BALL)]
+
+
+def numbered(setup: Setup) -> list[tuple[Side, str, int]]:
+    """Side, name and number of all robots; the number is that of the name, as on the page."""
+    sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+    return [(sides[name], name, number) for name, number in numbers_of(sides).items()]
 
 
 def arrow(robot: RobotTruth) -> str:

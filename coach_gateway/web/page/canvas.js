@@ -4,6 +4,7 @@ import { drawBeliefs, drawPasses } from "./beliefs.js";
 import { drawDistances } from "./distances.js";
 import { fillGoals, writeTeams } from "./goals.js";
 import { drawGhost, drawMarkedRobot, drawObstacle, drawVelocity } from "./marked_bodies.js";
+import { drawRoleLabels } from "./role_labels.js";
 import { signOf } from "./seen_from.js";
 import { drawBall } from "./shared/bodies.js";
 import { drawGrass, drawLines } from "./shared/pitch.js";
@@ -22,6 +23,8 @@ export class PitchCanvas {
   drawn = 0;
   /** Frames in the last whole second. */
   rate = 0;
+  /** Robots whose role is written below them. */
+  labelled = [];
   /** Functions of (context, projection) that draw over everything. */
   over = [];
   #trails = new Trails();
@@ -85,12 +88,22 @@ export class PitchCanvas {
       drawMarkedRobot(context, projection, match, name, robot, {
         selected: name === selection.robot,
         holding: world.possession === name,
-        label: layers.roles && (projection.width >= ROOM_PX || name === selection.robot) ? match.radioOf(name)?.role : null,
       });
     }
+    if (layers.roles) this.#labelRobots(context, world);
     if (layers.velocities) drawVelocity(context, projection, world.ball, BALL_VELOCITY);
     drawBall(context, projection, world.ball, match.setup.ball.radius);
     if (selection.dragged) drawGhost(context, projection, selection.dragged);
+  }
+
+  #labelRobots(context, world) {
+    const { match, projection, selection } = this;
+    const bodies = Object.entries(world.robots).map(([name, truth]) => ({ name, truth, radius: match.radiusOf(name) }));
+    const labels = bodies
+      .filter(({ name }) => projection.width >= ROOM_PX || name === selection.robot)
+      .map((body) => ({ ...body, text: match.radioOf(body.name)?.role }))
+      .filter(({ text }) => text);
+    this.labelled = drawRoleLabels(context, projection, labels, bodies, new Set([selection.robot, world.possession]));
   }
 
   #count(now) {

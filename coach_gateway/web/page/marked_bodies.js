@@ -7,7 +7,7 @@ import { numberOf } from "./text.js";
 
 const AHEAD_S = 0.5; // how far a line of velocity leads
 
-/** One robot; `look` has whether it is selected, whether it holds the ball, and the label below it. */
+/** One robot; `look` has whether it is selected, and whether it holds the ball. */
 export function drawMarkedRobot(context, projection, match, name, truth, look) {
   const side = match.sideOf(name), radius = match.radiusOf(name), robot = inPicture(projection, truth, radius);
   const number = numberOf(name, match.setup.teams[side].robots);
@@ -19,7 +19,6 @@ export function drawMarkedRobot(context, projection, match, name, truth, look) {
   const size = drawnRadius(projection, radius);
   if (robot.off_field) cross(context, size);
   if (robot.stuck) write(context, "!", 0.9 * size, -0.95 * size, size, { colour: "#2a1c00", ground: HOLDS });
-  if (look.label) write(context, look.label, 0, 1.5 * size + 9, 11, { weight: 550, ground: "#0b1c14a6" });
   context.restore();
 }
 

@@ -1,4 +1,4 @@
-"""Five of the paper's robots in a match: the one nearest to the ball runs the machine, the others hold their places."""
+"""The paper's robots in a match: the one nearest to the ball runs the machine, the others hold their places."""
 
 import math
 
@@ -22,10 +22,22 @@ from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.command import Drive, KickMode
 
-HOMES = ((-10.5, 0.0), (-2.0, 1.0), (-2.0, -1.0), (-5.0, 2.0), (-5.0, -2.0))
-"""m on 22 × 14 m, the goalkeeper first; simatch's start poses."""
-AHEAD = {2: (3.0, 2.5), 3: (3.0, -2.5)}
-"""m on 22 × 14 m; where two robots wait for a pass, without which a goal of their side would not count."""
+HOMES = (
+    (-10.5, 0.0),
+    (-2.0, 1.0),
+    (-2.0, -1.0),
+    (-5.0, 2.0),
+    (-5.0, -2.0),
+    (-2.0, 4.8),
+    (-2.0, -4.8),
+    (-5.0, 5.0),
+    (-5.0, -5.0),
+    (-7.5, 1.2),
+    (-7.5, -1.2),
+)
+"""m on 22 × 14 m, the goalkeeper first; the first five are simatch's start poses."""
+AHEAD = {2: (3.0, 2.5), 3: (3.0, -2.5), 6: (5.0, 4.8), 7: (5.0, -4.8)}
+"""m on 22 × 14 m; where some robots wait for a pass, without which a goal of their side would not count."""
 LOYALTY = 0.5
 """m by which a teammate must be nearer to the ball than the robot that plays it, to play it instead."""
 PROMISED = 3.0
@@ -52,7 +64,7 @@ PLAYS, HOLDS, KEEPS = "plays the ball", "holds its place", "keeper"
 
 
 class NuBot(Player):
-    """One of the five robots; alone, the paper's robot."""
+    """One of up to eleven robots; alone, the paper's robot."""
 
     plays_alone = True
     tests = Player.tests | {CoachTest.MACHINE}

@@ -1,4 +1,4 @@
-"""A plain team of five roles: keeper, striker, defender and two supporters."""
+"""A plain team: keeper, striker, and up to nine places in a formation that moves with the ball."""
 
 from robot_agent.teams.simple.team import Simple
 

@@ -7,11 +7,11 @@ present role counts a little in its favour, so that two of them do not swap each
 import math
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
-from itertools import permutations
 from typing import NamedTuple
 
 from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.intercept import meeting_time, way_of
+from robot_agent.teams.simple.assignment import cheapest_assignment
 from schemas.config.rolling import Rolling
 
 
@@ -23,6 +23,12 @@ class Role(StrEnum):
     DEFENDER = "defender"
     LEFT = "left supporter"
     RIGHT = "right supporter"
+    LEFT_BACK = "left back"
+    RIGHT_BACK = "right back"
+    CENTRE = "centre"
+    LEFT_WING = "left wing"
+    RIGHT_WING = "right wing"
+    FORWARD = "forward"
 
 
 class Candidate(NamedTuple):
@@ -66,14 +72,7 @@ def share_places(
     names = sorted(candidates)
     open_places = places[: len(names)]
     far = [[_far(candidates[name], role, place) for name in names] for role, place in open_places]
-
-    def cost(order: Sequence[int]) -> float:
-        total = 0.0
-        for place, robot in enumerate(order):
-            total += far[place][robot]
-        return total
-
-    best = min(permutations(range(len(names)), len(open_places)), key=cost)
+    best = cheapest_assignment(far)
     return {names[robot]: role for robot, (role, _) in zip(best, open_places, strict=True)}
 
 

@@ -34,7 +34,7 @@ KICK_OFF_ARRIVING = 1.0
 
 
 class Simple(Player):
-    """One of up to five robots."""
+    """One of up to eleven robots."""
 
     def __init__(self, briefing: Briefing) -> None:
         super().__init__(briefing)
@@ -91,7 +91,7 @@ class Simple(Player):
         if striker == me:
             return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]
-        formation = places(spot, self.setup.pitch, self._reach)
+        formation = places(spot, self.setup.pitch, self._reach, max(1, len(candidates)))
         role = share_places(candidates, formation).get(me, Role.DEFENDER)
         return role, dict(formation)[role]
 

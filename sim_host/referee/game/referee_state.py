@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from schemas.game import GameStage, Phase, Point, Score
 from schemas.messages.game import GameState
+from schemas.natural_order import natural_order
 from schemas.side import Side
 from sim_host.referee.evidence import NO_EVIDENCE, Evidence
 from sim_host.referee.game.advantage import Advantage
@@ -128,7 +129,9 @@ class RefereeState(NamedTuple):
             cyan_attacks=self.cyan_attacks,
             spot=point(self.spot),
             left=self.timing.left,
-            robots=participation.disciplinary_records(sorted({*participation.cards, *participation.absences})),
+            robots=participation.disciplinary_records(
+                sorted({*participation.cards, *participation.absences}, key=natural_order)
+            ),
             proposal=None if self.proposal is None else self.proposal.text,
             episode=episode,
             refbox=self.refbox_gone is not None,

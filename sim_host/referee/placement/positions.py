@@ -10,7 +10,7 @@ Not judged: robots that move between START and the kick; they may encroach.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import NamedTuple
 
 from schemas.game import GameStage, Phase
@@ -63,6 +63,8 @@ class LineUp(NamedTuple):
     """The robot of the taker's side nearest to the ball; None at a drop ball."""
     free: tuple[int, ...]
     """Defenders that may stand near the ball before their own goal."""
+    waiting: Collection[str] = ()
+    """Robots that will leave their places."""
 
     def own_end(self, index: int) -> int:
         """Sign of the x of the goal that a robot defends."""

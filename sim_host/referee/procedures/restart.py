@@ -24,7 +24,7 @@ from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.clear_ground import clear_restart
-from sim_host.referee.placement.legal_pose import legal_pose
+from sim_host.referee.placement.legal_poses import legal_poses
 from sim_host.referee.placement.positions import PositionFault, is_spot_covered, position_faults
 from sim_host.referee.procedures import advantage, discipline, offences
 from sim_host.referee.ruling_draft import RulingDraft
@@ -158,7 +158,8 @@ def _latest_start(numbers: Restarts) -> float:
 def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: Sequence[PositionFault]) -> None:
     """START when the positions limit is over: name robots in wrong positions, move them or show them a card."""
     numbers, wrong = draft.book.restarts, _nearest_last(draft, wrong)
-    for fault in wrong:
+    poses = legal_poses(draft.match, draft.state, restart, draft.snapshot, wrong) if numbers.moves_offenders else []
+    for place, fault in enumerate(wrong):
         robot = draft.snapshot.robots[draft.match.roster.names.index(fault.robot)]
         draft.add_event(
             EventKind.FOUL,
@@ -173,7 +174,7 @@ def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: Sequence[Pos
         )
         draft.state = draft.state._replace(offender=fault.robot)
         if numbers.moves_offenders:
-            draft.place_robot(fault.robot, legal_pose(draft.match, draft.state, restart, draft.snapshot, fault))
+            draft.place_robot(fault.robot, poses[place])
         is_card = bool(numbers.position_card) or offences.is_next_a_card(draft, POSITIONS, fault.robot)
         offences.count(draft, POSITIONS, fault.robot)
         if is_card and draft.match.mode is OfficiatingMode.AUTOMATIC:

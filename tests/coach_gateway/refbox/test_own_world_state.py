@@ -16,6 +16,7 @@ from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
 from schemas.side import Side
+from support.messages import make_setup
 
 SETUP = Setup.of(
     load_match(None, {f"teams.{side}.size": 2 for side in Side}), load_profile("msl"), load_rule_book("friendly")
@@ -135,3 +136,17 @@ def test_what_stands_on_the_pitch_is_an_obstacle(view: View) -> None:
     post = ObstacleTruth(x=4.0, y=0.0, heading=0.0, radius=0.3, height=1.0, shape="cylinder", size_x=0.6, size_y=0.6)
     seen = view(Side.CYAN, world=WORLD.model_copy(update={"obstacles": {"post": post}}))
     assert {"position": [0.0, 4.0], "velocity": [0.0, 0.0], "radius": 0.3, "confidence": 1.0} in seen["obstacles"]
+
+
+def test_a_world_state_has_eleven_robots_with_the_numbers_of_their_names(
+    check_world_state: Callable[[Any], None],
+) -> None:
+    setup = make_setup(size=11, rules="eleven")
+    sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+    robots = {name: truth(0.5 * number, 1.0, holding=False) for number, name in enumerate(sides)}
+    world = WORLD.model_copy(update={"robots": robots})
+    for side in Side:
+        seen = own_world_state(side, setup, sides, state(), world, {})
+        check_world_state(seen)
+        assert [robot["id"] for robot in seen["robots"]] == list(range(1, 12))
+        assert len(seen["obstacles"]) == 11

@@ -69,7 +69,12 @@ STARTS = {1: (-10.5, 0.0, 0.0), 2: (-2.0, 1.0, 0.0), 3: (-2.0, -1.0, 0.0), 4: (-
 
 @pytest.fixture
 def squad(setup, sight_of):
-    def make(team: str = "simple", poses: dict[int, tuple[float, float, float]] | None = None, side=Side.CYAN) -> Squad:
+    def make(
+        team: str = "simple",
+        poses: dict[int, tuple[float, float, float]] | None = None,
+        side: Side = Side.CYAN,
+        setup: Setup = setup,
+    ) -> Squad:
         numbered = poses or STARTS
         made = Squad(team, setup, sight_of, {f"{side.value}{number}": pose for number, pose in numbered.items()})
         made.meet()

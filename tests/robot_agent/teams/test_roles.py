@@ -57,7 +57,7 @@ def test_the_farthest_robot_has_no_place_where_there_are_more_robots_than_places
 @pytest.mark.parametrize("ball", [(0.0, 0.0), (10.0, 6.5), (-10.5, 0.5), (-3.0, -6.0)])
 def test_the_formation_leaves_the_ball_and_the_penalty_areas_alone(setup, ball):
     pitch = setup.pitch
-    for _, (x, y) in places(ball, pitch, setup.robot.radius):
+    for _, (x, y) in places(ball, pitch, setup.robot.radius, 3):
         assert (x - ball[0]) ** 2 + (y - ball[1]) ** 2 >= 2.4**2 - 1e-9
         assert abs(x) < pitch.goal_line
         assert abs(y) < pitch.touch_line

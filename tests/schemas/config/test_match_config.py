@@ -22,8 +22,8 @@ def test_without_a_file_it_is_five_against_five_of_the_teams_that_ship() -> None
     [
         ("sede = 1", 'sede is not known; did you mean "seed"?'),
         ('[teams.cyan]\nbrian = "a:B"', 'teams.cyan.brian is not known; did you mean "brain"?'),
-        ("[teams.cyan]\nsize = 6", "teams.cyan.size is 6; a side has 1 to 5 robots"),
-        ('[teams.magenta]\nrobots = ["a","b","c","d","e","f"]', "teams.magenta.robots is"),
+        ("[teams.cyan]\nsize = 12", "teams.cyan.size is 12; a side has 1 to 11 robots"),
+        (f"[teams.magenta]\nrobots = {[f'r{n}' for n in range(12)]}", "teams.magenta.robots is"),
         ('[teams.cyan]\nrobots = ["ball"]', 'a robot is named "ball", which has another meaning in keys'),
         ('[teams.cyan]\nrobots = ["magenta1"]', 'two robots are named "magenta1"'),
         ('[teams.cyan]\nbrain = "nonsense"', "teams.cyan.brain is 'nonsense'; write \"module:Class\""),

@@ -307,7 +307,11 @@ REFUSED: dict[str, tuple[str, dict[str, Any], str]] = {
     "a flying robot": ("place", {"place": [Placement(body="cyan2", x=1, y=3, z=2)]}, "stands on the ground"),
     "a ball in the ground": ("place", {"place": [Placement(body="ball", x=1, y=3, z=0)]}, "its radius is 0.11 m"),
     "nobody": ("place", {}, "no body to place is named"),
-    "a sixth robot": ("add", {"robots": [robot("cyan6", 3.0, 3.0)]}, "cyan has 6 robots; a side has at most 5"),
+    "a twelfth robot": (
+        "add",
+        {"robots": [robot(f"cyan{number}", number - 5.0, 5.0) for number in range(6, 13)]},
+        "cyan has 12 robots; a side has at most 11",
+    ),
     "a name twice": ("add", {"obstacles": [WALL.model_copy(update={"name": "cyan1"})]}, 'two bodies are named "cyan1"'),
     "an obstacle on a robot": ("add", {"obstacles": [WALL.model_copy(update={"place": [-10.5, 0.5]})]}, "inside wall"),
     "everybody": (

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -10,11 +11,13 @@ from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement
 from schemas.config.rule_book import load_rule_book
+from schemas.errors import TouchlineError
 from schemas.game import Phase
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
 from schemas.side import Side
-from sim_host.match.start_scene import start_poses
+from sim_host.match.start_poses import start_poses
+from sim_host.match.start_scene import start_scene
 from sim_host.match.world import World
 from sim_host.referee.core import Referee
 from sim_host.referee.game.referee_state import RefereeState, Restart
@@ -28,7 +31,8 @@ def a_match(profile_name, rules, **overrides):
     config = load_match(None, {"profile": profile_name, **overrides})
     profile, book = load_profile(profile_name), load_rule_book(rules)
     roster = Roster.of(config, profile)
-    starts = start_poses(roster, profile.field, book.restarts)
+    starts, misplaced = start_poses(roster, profile.field, book.restarts)
+    assert not misplaced
     half, settings = book.periods.half_duration, {"kick_off": Side.CYAN, "automatic": True, "starts": starts}
     constants = MatchConstants(book, profile.field, profile.ball, roster, half, **settings)
     state = RefereeState(Phase.PRE_GAME, Timing(half), Side.CYAN)
@@ -58,6 +62,55 @@ def test_a_robot_with_a_wide_frame_starts_as_far_away_as_its_frame_asks_for():
     assert nearest > 3.0 + math.hypot(0.245, 0.30)
 
 
+SIZES = [(1, 1), (2, 7), (6, 6), (11, 1), (11, 11)]
+
+
+def sizes(cyan, magenta):
+    return {"teams.cyan.size": cyan, "teams.magenta.size": magenta}
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("pitch", [(22.0, 14.0), (18.0, 12.0), (12.0, 8.0), (9.0, 6.0), (100.0, 64.0)])
+def test_sides_of_any_size_start_legally_and_apart_on_every_pitch_that_has_room(pitch, size):
+    profile = load_profile("msl")
+    field = replace(profile.field, length=pitch[0], width=pitch[1])
+    roster = Roster.of(load_match(None, sizes(*size)), profile)
+    starts, misplaced = start_poses(roster, field, load_rule_book("eleven").restarts)
+    reach = profile.robot.reach
+    assert not misplaced
+    assert all(
+        math.dist((one.x, one.y), (two.x, two.y)) > 2 * reach for one, two in itertools.combinations(starts.values(), 2)
+    )
+    for name, side in zip(roster.names, roster.sides, strict=True):
+        x, y = starts[name].x * side.attack(1), starts[name].y
+        assert -field.goal_line <= x - reach and x + reach <= 0.0
+        assert abs(y) + reach <= field.touch_line
+        assert math.hypot(x, y) - reach > 3.0
+
+
+def test_robots_of_a_side_that_start_outside_the_penalty_areas_do_so_on_a_small_pitch_too():
+    """More of them than the rules allow would commit illegal defence where they stand."""
+    profile = load_profile("msl")
+    field = replace(profile.field, length=16.0, width=10.0)
+    starts, _ = start_poses(
+        Roster.of(load_match(None, sizes(11, 11)), profile), field, load_rule_book("eleven").restarts
+    )
+    front = field.penalty_area_depth - field.goal_line
+    inside = [name for name, at in starts.items() if at.x < front and abs(at.y) < field.penalty_area_width / 2]
+    assert inside == ["cyan1"]
+
+
+def test_a_match_on_a_pitch_without_room_for_its_robots_is_refused_in_one_line():
+    profile = load_profile("msl")
+    profile = replace(profile, field=replace(profile.field, length=6.0, width=5.0))
+    with pytest.raises(TouchlineError) as refusal:
+        start_scene(load_match(None, sizes(11, 11)), profile, load_rule_book("eleven").restarts)
+    assert str(refusal.value) == (
+        "a half of 3 × 5 m has no legal place at the kick-off for cyan3, one of 11 robots of cyan; "
+        "have fewer robots, a larger pitch, or a scene"
+    )
+
+
 @pytest.mark.parametrize("profile", ["msl", "paper"])
 def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
     *_, snapshot = a_match(profile, "msl")
@@ -68,11 +121,8 @@ def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
 
 
 @pytest.mark.parametrize("count", [2, 6, 10, 20, 100])
-def test_nothing_but_the_rules_keeps_a_side_at_five_robots_with_one_digit(count):
-    """simatch cannot name a sixth robot.
-
-    A match file has five a side at most, as the rules do; start, world and referee take any number.
-    """
+def test_start_world_and_referee_take_any_number_of_robots(count):
+    """simatch cannot name a sixth robot. A match file has eleven a side at most."""
     profile, book = load_profile("msl"), load_rule_book("msl")
     pairs = [(f"{side}{number}", side) for side in Side for number in range(1, count // 2 + 1)]
     roster = Roster(
@@ -81,7 +131,8 @@ def test_nothing_but_the_rules_keeps_a_side_at_five_robots_with_one_digit(count)
         keepers={side: f"{side}1" for side in Side},
         models=(RobotModel.standard(profile),) * count,
     )
-    starts = start_poses(roster, profile.field, book.restarts)
+    starts, misplaced = start_poses(roster, profile.field, book.restarts)
+    assert not misplaced
     for (_, one), (_, other) in itertools.combinations(starts.items(), 2):
         assert math.hypot(one.x - other.x, one.y - other.y) > 2 * profile.robot.radius
     world = World(profile, roster)

@@ -196,10 +196,10 @@ def test_a_foul_of_the_side_with_the_advantage_brings_the_game_back_to_the_first
 
 def test_a_foul_that_goes_on_is_noted_once_and_masks_no_other_rule(new_rig):
     """magenta5 stays in the goal area for the whole time; the half ends meanwhile."""
-    rig = new_rig(advantage=3.0, duration=40.0, rules="msl").playing(BALL)
+    rig = new_rig(advantage=3.0, duration=16.0, rules="msl").playing(BALL)
     rig.robots |= {"cyan3": (0.7, 1.0), "magenta5": (-rig.pitch.goal_line + 0.3, 0.5)}
-    while rig.state.clock < 18.5:
-        rig.robots["magenta5"] = (-rig.pitch.goal_line + (0.3 if rig.state.clock > 17.9 else 4.0), 0.5)
+    while rig.state.clock < 6.5:
+        rig.robots["magenta5"] = (-rig.pitch.goal_line + (0.3 if rig.state.clock > 5.9 else 4.0), 0.5)
         hold(rig, "cyan3", rig.dt)
     hold(rig, "cyan3", 2.0)
     noted = [event for event in rig.events if event.kind is ADVANTAGE and event.rule == "goal_area"]

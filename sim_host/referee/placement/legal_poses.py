@@ -1,8 +1,7 @@
-"""A legal pose for a robot that the referee moves out of a wrong position before a restart."""
+"""Legal poses for robots that the referee moves out of wrong positions before a restart."""
 
-import dataclasses
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from schemas.frames import Pose
 from sim_host.referee.areas import in_a_penalty_area
@@ -11,31 +10,43 @@ from sim_host.referee.game.restart import Restart, Spot
 from sim_host.referee.match_constants import MatchConstants
 from sim_host.referee.placement.clear_ground import clearance
 from sim_host.referee.placement.positions import LineUp, PositionFault, checks_of, line_up_of, min_distance
-from sim_host.snapshot import RobotStates, Snapshot
+from sim_host.snapshot import Snapshot
 
 _ROOM = 0.2
 """m; distance that a moved robot gets beyond the required one, and from other robots."""
 _BEARINGS = 24
 """Number of directions from the ball that are tried for a moved robot."""
 _RINGS = 8
-"""Number of distances that are tried, 1 m apart."""
+"""Number of distances that are tried, 1 m apart, for a robot that is moved by itself."""
 
 
-def legal_pose(
-    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot, fault: PositionFault
-) -> Pose:
-    """A legal pose for a robot in a wrong position: on the field, near its bearing from the ball, clear of others.
+def legal_poses(
+    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot, faults: Sequence[PositionFault]
+) -> list[Pose]:
+    """A legal pose for each robot in a wrong position: on the field, near its bearing from the ball, clear of others.
 
-    The present pose if there is no such place.
+    The present pose of a robot if there is no such place.
     """
-    line_up = line_up_of(match, state, restart, snapshot)
-    index = match.roster.names.index(fault.robot)
-    robot = snapshot.robots[index]
+    line_up, poses = line_up_of(match, state, restart, snapshot), []
+    moved_apart = match.book.restarts.moves_apart
+    for place, fault in enumerate(faults):
+        if moved_apart:
+            line_up = line_up._replace(waiting=[later.robot for later in faults[place + 1 :]])
+        pose = _legal_pose(line_up, fault.robot)
+        if moved_apart:
+            line_up = line_up._replace(snapshot=line_up.snapshot.with_robot_at(fault.robot, pose))
+        poses.append(pose)
+    return poses
+
+
+def _legal_pose(line_up: LineUp, name: str) -> Pose:
+    index, snapshot, spot = line_up.match.roster.names.index(name), line_up.snapshot, line_up.restart.spot
+    robot, checks = snapshot.robots[index], checks_of(line_up.state, line_up.restart)
     for x, y in _around(line_up, index):
-        moved = RobotStates((*snapshot.robots[:index], robot._replace(x=x, y=y), *snapshot.robots[index + 1 :]))
-        tried = line_up._replace(snapshot=dataclasses.replace(snapshot, robots=moved))
-        if all(check(tried, index) is None for check in checks_of(state, restart)) and _has_room(tried, index):
-            return Pose(x, y, math.atan2(restart.spot[1] - y, restart.spot[0] - x))
+        pose = Pose(x, y, math.atan2(spot[1] - y, spot[0] - x))
+        tried = line_up._replace(snapshot=snapshot.with_robot_at(name, pose))
+        if all(check(tried, index) is None for check in checks) and _has_room(tried, index):
+            return pose
     return Pose(robot.x, robot.y, robot.heading)
 
 
@@ -46,7 +57,8 @@ def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
         yield line_up.own_end(index) * (pitch.goal_line - line_up.match.reaches[index] - _ROOM), 0.0
     bearing = math.atan2(robot.y - y, robot.x - x)
     nearest = min_distance(line_up, index) + line_up.match.reaches[index] + _ROOM
-    for ring in range(_RINGS):
+    rings = math.ceil(pitch.length) if line_up.match.book.restarts.moves_apart else _RINGS
+    for ring in range(rings):
         for step in range(_BEARINGS):
             turn = (step + 1) // 2 * (1 if step % 2 else -1) * math.tau / _BEARINGS
             away = nearest + ring
@@ -69,5 +81,5 @@ def _has_room(line_up: LineUp, index: int) -> bool:
     return all(
         math.dist(here, (robots[other].x, robots[other].y)) > reaches[index] + reaches[other] + _ROOM
         for other in line_up.on_field
-        if other != index
+        if other != index and line_up.match.roster.names[other] not in line_up.waiting
     )
