@@ -70,6 +70,14 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
+    ties: Annotated[
+        str,
+        Choice(
+            "what decides between offences of one tick, returning robots, and equally near spots: fair, the same for "
+            "both sides in a mirrored match; roster, the order of the roster and of the field's axes",
+            ("fair", "roster"),
+        ),
+    ] = "roster"
     encroach_margin: Annotated[
         float,
         Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),

@@ -116,6 +116,17 @@ class Ball:
         float, Quantity("1", "lift over the same, of a ball that spins as if it rolled; proportional to the spin", 0, 2)
     ] = 0.0
     rolling_drag_coefficient: Annotated[float, Quantity("1", "drag over the same, of a ball on the ground", 0, 2)] = 0.0
+    touch_order: Annotated[
+        str,
+        Choice(
+            "which of several robots at the ball in one physics step touches it last: with force, the one that presses "
+            "hardest; with roster, any within reach of a contact, by order of the roster",
+            ("force", "roster"),
+        ),
+    ] = "roster"
+    touch_tie: Annotated[
+        float, Quantity("1", "touches of one step are level if their forces differ by this share of the larger", 0, 0.9)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from sim_host.actuation.carrying import METHODS, HeldBall
 from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers
 from sim_host.actuation.possession import can_hold, holder, why_not_held
+from sim_host.actuation.touches import TOUCH_ORDERS, StepTouches
 from sim_host.physics.body_state import BallContacts, BodyState
 from sim_host.physics.engine import Engine
 from sim_host.physics.free_ball import FreeBall
@@ -30,7 +31,16 @@ class BallReport:
     refused: dict[int, str] = field(default_factory=dict)
     """Robot → why its kick could not be carried out."""
     touches: list[int] = field(default_factory=list)
+    """In the order of time."""
+    level: tuple[int, ...] = ()
+    """The last robots of them, if several were equally late and pressed equally hard."""
     kicked: int | None = None
+
+    def add(self, step: StepTouches) -> None:
+        """Add the touches of a step after the earlier ones."""
+        if step.robots:
+            self.touches += step.robots
+            self.level = step.level
 
 
 class BallHandling:
@@ -44,6 +54,8 @@ class BallHandling:
         self._step = profile.time.physics_step
         self._free = FreeBall(profile.ball, profile.field, self._step)
         self._kickers = Kickers([model.kicker for model in models], profile.time.tick)
+        self._touches_of_step = TOUCH_ORDERS[profile.ball.touch_order]
+        self._tie = profile.ball.touch_tie
         self.holder: int | None = None
         self._ball_leaving: int | None = None
         """The robot whose kicked ball has not left its hull yet."""
@@ -123,11 +135,10 @@ class BallHandling:
         contacts: BallContacts = self._engine.ball_contacts(self.holder)
         if self._ball_leaving is not None:
             self._end_kick(self._ball_leaving)
-        if self.holder is not None:
-            report.touches.append(self.holder)
-            if contacts.depth > _MAX_PRESSED_DEPTH:
-                self.set_holder(None)
-        report.touches.extend(contacts.robots)
+        if contacts.forces or self.holder is not None:
+            report.add(self._touches_of_step(contacts.forces, self.holder, self._tie))
+        if self.holder is not None and contacts.depth > _MAX_PRESSED_DEPTH:
+            self.set_holder(None)
 
     def release_lost_ball(self, robots: tuple[RobotState, ...], ball: BallState) -> bool:
         """At the end of a tick, release a ball that has left its holder; returns whether it was released."""

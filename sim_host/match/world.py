@@ -150,7 +150,7 @@ class World:
         )
 
     def snapshot(self, report: BallReport = _NOTHING, impacts: tuple[Impact, ...] = ()) -> Snapshot:
-        """The present state of all bodies; `touches` and `kicked` come from the report of the tick."""
+        """The present state of all bodies; `touches`, `level` and `kicked` come from the report of the tick."""
         names, holding = self._roster.names, self._ball.holder
         last_touches = dict.fromkeys(reversed(report.touches))  # each robot once, where it touched last
         return Snapshot(
@@ -161,6 +161,7 @@ class World:
             ball=self._ball_state,
             possession=None if holding is None else names[holding],
             touches=tuple([names[place] for place in reversed(last_touches)]),
+            level=tuple([names[place] for place in report.level]),
             kicked=None if report.kicked is None else names[report.kicked],
             contacts=self._engine.robot_contacts,
             impacts=impacts,

@@ -253,11 +253,17 @@ class Engine:
         contacts = pybullet.getContactPoints(self.ball, physicsClientId=self.client)
         if len(contacts) < 2 and (not contacts or contacts[0][2] == self._ground):
             return NO_CONTACTS
-        depth = {contact[2]: -contact[8] for contact in contacts if contact[2] != self._ground}
-        robots = [place for place, body in enumerate(self.robots) if body in depth]
+        depth: dict[int, float] = {}
+        force: dict[int, float] = {}
+        for contact in contacts:
+            body = contact[2]
+            if body != self._ground:
+                depth[body] = -contact[8]
+                force[body] = force.get(body, 0.0) + contact[9]
+        forces = {place: force[body] for place, body in enumerate(self.robots) if body in force}
         if holder is not None:
             depth.pop(self.robots[holder], None)
-        return BallContacts(robots, max(depth.values(), default=0.0))
+        return BallContacts(forces, max(depth.values(), default=0.0))
 
     def contact_direction(self, one: int, other: int) -> tuple[float, float] | None:
         """The unit vector on the ground from one robot to another at their contact in the last step; None without one.

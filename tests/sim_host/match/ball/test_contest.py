@@ -54,6 +54,51 @@ def test_over_scenes_and_their_mirror_images_both_sides_have_the_ball_as_often(b
     assert abs(totals["cyan1"] - totals["magenta1"]) < 0.1 * both
 
 
+def last_touches(rig, tell, cyan, magenta, seconds=1.0):
+    """Per robot: ticks in which both touch the ball and it is the last; and the ticks in which neither is."""
+    rig.place(cyan1=cyan, magenta1=magenta, ball=(0, 0, 0))
+    rig.world.make_checkpoint()
+    last = {"cyan1": 0, "magenta1": 0, None: 0}
+    for _ in range(round(seconds / rig.profile.time.tick)):
+        told = tell(1.5, dribble=True)
+        snapshot = rig.tick(cyan1=told, magenta1=told)
+        if len(snapshot.touches) == 2:
+            last[None if snapshot.level else snapshot.touches[-1]] += 1
+    return last
+
+
+@pytest.mark.parametrize(
+    "order", [("cyan1", "cyan2", "magenta1", "magenta2"), ("magenta2", "magenta1", "cyan2", "cyan1")]
+)
+def test_in_ticks_in_which_both_touch_the_ball_each_side_is_the_last_as_often(build, tell, order):
+    """Over scenes and their mirror images; by the order of the roster, one of them would always be."""
+    rig = build(order=order)
+    totals = {"cyan1": 0, "magenta1": 0, None: 0}
+    for number in range(SCENES):
+        first, second = scene(number)
+        for cyan, magenta in ((first, second), (turned(second), turned(first))):
+            for name, ticks in last_touches(rig, tell, cyan, magenta).items():
+                totals[name] += ticks
+    decided = totals["cyan1"] + totals["magenta1"]
+    assert decided > 2 * SCENES and totals[None] > 0
+    assert abs(totals["cyan1"] - totals["magenta1"]) < 0.4 * decided
+
+
+def test_two_robots_that_press_a_ball_from_both_ends_alike_are_level(build, tell):
+    rig = build()
+    cyan = (-0.5, 0.0, 0.0)
+    last = last_touches(rig, tell, cyan, turned(cyan))
+    assert last[None] > 10 and last["cyan1"] == last["magenta1"] == 0
+
+
+def test_a_recording_without_an_order_of_touches_has_that_of_the_roster(build, tell):
+    """The order was missing in the profiles of older recordings, and the later robot was always the last."""
+    rig = build(ball={"touch_order": "roster", "touch_tie": 0.0})
+    cyan = (-0.5, 0.0, 0.0)
+    last = last_touches(rig, tell, cyan, turned(cyan))
+    assert last[None] == 0 and last["magenta1"] > 5 * last["cyan1"] > 0
+
+
 def test_a_first_touch_belongs_to_the_same_robot_in_any_order_of_the_roster(build, tell):
     """In simatch the last writer has the ball."""
     orders = [("cyan1", "cyan2", "magenta1", "magenta2"), ("magenta2", "magenta1", "cyan2", "cyan1")]
