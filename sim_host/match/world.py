@@ -37,9 +37,9 @@ class World:
         self._roster = roster
         self._tick_s = profile.time.tick
         self._engine = engine or Engine(profile, roster)
-        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
+        self._chassis = Chassis(profile.time, roster.models, self._engine)
         self._ball = BallHandling(profile, roster.models, self._engine)
-        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field)
+        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field, profile.ball.radius)
         self._collision = ContinuousCollision(profile, self._engine)
         self.tick = 0
         self._obstacles: tuple[ObstacleState, ...] = ()
@@ -97,12 +97,12 @@ class World:
         self._engine = Engine(profile, roster)
         for obstacle in obstacles:
             self._engine.put_obstacle(ObstacleState.of(obstacle))
-        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field)
+        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field, profile.ball.radius)
         self._collision = ContinuousCollision(profile, self._engine)
         self._update_obstacles()
         new_states = self._engine.robot_states(None)
         self._roster = roster
-        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
+        self._chassis = Chassis(profile.time, roster.models, self._engine)
         self._ball = BallHandling(profile, roster.models, self._engine)
         robots = [kept.get(name, state) for name, state in zip(roster.names, new_states, strict=True)]
         self._engine.rebuild(robots, ball)
@@ -123,8 +123,8 @@ class World:
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
         report = ball.decide_possession_and_kick(self.tick, self._robots, self._ball_state, ordered)
-        pairs, fixed = self._candidates.find(self._robots)
-        for drives in self._chassis.plan(self._robots, ordered):
+        pairs, fixed, touching, meeting = self._candidates.find(self._robots, self._ball_state)
+        for drives in self._chassis.plan(self._robots, ordered, touching):
             free_ball = ball.before_step(drives)
             if pairs or fixed:
                 self._collision.advance_robots(pairs, fixed, drives)
@@ -132,6 +132,8 @@ class World:
             if free_ball is not None:
                 self._collision.advance_ball(free_ball)
             engine.step()
+            if meeting:
+                engine.note_robot_contacts()
             ball.after_step(report)
         engine.read()
         self._read_states()
