@@ -178,6 +178,10 @@ class Dribble:
     damping: Annotated[float, Quantity("N·s/m", "method `force`: damping of motion relative to the gap", 0, 50)] = 0.0
     max_pull: Annotated[float, Quantity("N", "method `force`: largest force along the kick axis", 0, 100)] = 0.0
     max_side: Annotated[float, Quantity("N", "method `force`: largest force across the kick axis", 0, 100)] = 0.0
+    contest: Annotated[
+        str,
+        Choice("method `force`: which of several robots that reach the ball draw it to themselves", ("nearest", "all")),
+    ] = "nearest"
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,11 +40,14 @@ class BallHandling:
         self._profile = profile
         self._models = models
         self._dribbles = [model.dribble for model in models]
+        self._contests = [one.method == "force" and one.contest == "all" for one in self._dribbles]
         self._engine = engine
         self._step = profile.time.physics_step
         self._free = FreeBall(profile.ball, profile.field, self._step)
         self._kickers = Kickers([model.kicker for model in models], profile.time.tick)
         self.holder: int | None = None
+        self._contestants: list[int] = []
+        """Robots other than the holder that draw the ball to themselves in this tick."""
         self._ball_leaving: int | None = None
         """The robot whose kicked ball has not left its hull yet."""
 
@@ -92,7 +95,16 @@ class BallHandling:
             self._kickers.kicked(index, tick)
             report.kicked = index
             report.touches.append(index)
+        self._contestants = [] if report.kicked is not None else self._contestants_among(claims, robots, ball)
         return report
+
+    def _contestants_among(self, claims: Sequence[int], robots: tuple[RobotState, ...], ball: BallState) -> list[int]:
+        """The robots among `claims` that draw the ball to themselves although they do not hold it."""
+        return [
+            index
+            for index in claims
+            if index != self.holder and self._contests[index] and can_hold(robots[index], ball, self._dribbles[index])
+        ]
 
     def before_step(self, drives: Sequence[FieldTwist]) -> BodyState | None:
         """Move the ball with its holder, or by ground and air; the state of a free ball, None for a held one."""
@@ -100,6 +112,9 @@ class BallHandling:
         position, _, velocity, spin = now
         if self.holder is not None and self._is_overrun(self.holder, position):
             self.set_holder(None)
+        for index in self._contestants:
+            if not self._is_overrun(index, position):
+                self._carry(index, drives[index], BallState(*position, *velocity))
         if self.holder is not None:
             self._carry(self.holder, drives[self.holder], BallState(*position, *velocity))
             if not self._is_carried(self.holder):
