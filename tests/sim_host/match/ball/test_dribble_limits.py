@@ -61,8 +61,8 @@ def on_the_spot(driven, limit):
 
 def in_a_turn(driven, limit):
     """The same at 4 m/s, with a drive that costs no grip."""
-    motion = {"model": "velocity", "turn_acceleration": 3.0}
-    return driven([(1.6, {"vx": 4.0}), (limit / 3.0 + 3.0, {"vx": 4.0, "omega": limit})], **motion)
+    motion = {"model": "velocity", "turn_acceleration": 1.0}
+    return driven([(1.6, {"vx": 4.0}), (limit + 3.0, {"vx": 4.0, "omega": limit})], **motion)
 
 
 LIMITS = {
@@ -70,7 +70,7 @@ LIMITS = {
     "backward": (backward, PULL - ROLLING, 0.04),
     "sideways": (sideways, SIDE - ROLLING, 0.05),
     "on the spot": (on_the_spot, math.sqrt(PULL / GAP), 0.04),
-    "in a turn": (in_a_turn, SIDE / 4.0, 0.06),
+    "in a turn": (in_a_turn, SIDE / 4.0, 0.07),
 }
 """Way to lose the ball → the drive to its limit, the closed form in m/s² or rad/s, and by which share it may err."""
 
