@@ -166,9 +166,10 @@ class BallHandling:
         return launch(applied.kick.mode, PlannedKick(applied.kick.speed, ball, robot.heading, kicker, self._profile))
 
     def _apply_launch(self, index: int, velocity: Launch) -> None:
-        """Set the velocity of a kicked ball; along the ground it rolls at once, and so keeps its speed."""
+        """Set the velocity of a kicked ball; along the ground it gets the kicker's share of the spin of rolling."""
         vx, vy, vz = velocity
-        self._engine.set_ball_motion((vx, vy, vz), self._free.rolling_spin(vx, vy) if vz == 0.0 else (0.0, 0.0, 0.0))
+        share = self._models[index].kicker.kick_spin if vz == 0.0 else 0.0
+        self._engine.set_ball_motion((vx, vy, vz), self._free.rolling_spin(share * vx, share * vy))
         self._engine.ignore_ball_contacts(index)
         self.holder, self._ball_leaving = None, index
 
