@@ -17,18 +17,19 @@ from schemas.config.rule_book import load_rule_book, unversioned_tables
 from schemas.errors import TouchlineError
 
 DIGESTS = {
-    "profiles/ideal": (1, "d65651492ae5"),
-    "profiles/msl": (1, "ead0e1b36a16"),
-    "profiles/msl-2016": (1, "a636a33ad3a7"),
-    "profiles/omni": (1, "cd98f0afcaea"),
-    "profiles/omni3": (1, "a5e0458d34c8"),
-    "profiles/paper": (1, "94f581d8b8f0"),
-    "rule_books/china-sim-2020": (1, "913fe4025581"),
-    "rule_books/friendly": (1, "47c71a6de830"),
-    "rule_books/msl": (1, "e727f6940e8f"),
-    "rule_books/msl-2016": (1, "b4f261391ac0"),
-    "rule_books/msl-2019": (1, "b4f261391ac0"),
-    "rule_books/paper": (1, "501ce0f8c50d"),
+    "profiles/ideal": (1, "312c32f4f1bf"),
+    "profiles/msl": (1, "da95d06dacd7"),
+    "profiles/msl-2016": (1, "4a88a1aa7672"),
+    "profiles/omni": (1, "a5f16b8b9d13"),
+    "profiles/omni3": (1, "5b474577beed"),
+    "profiles/paper": (1, "39db3364eb2f"),
+    "rule_books/china-sim-2020": (1, "96eb91155fb3"),
+    "rule_books/eleven": (1, "de78cf209b2f"),
+    "rule_books/friendly": (1, "a990e49b975c"),
+    "rule_books/msl": (1, "4abbe32fb0e0"),
+    "rule_books/msl-2016": (1, "bbd9c6bfae6c"),
+    "rule_books/msl-2019": (1, "bbd9c6bfae6c"),
+    "rule_books/paper": (1, "0dbbb4ed4e5f"),
 }
 """File → its version, and a digest of its numbers."""
 UNVERSIONED_DIGESTS = {
