@@ -75,8 +75,8 @@ def ball_roll() -> Figure:
     drawn, (panel, start) = figure(2)
     ball = load_profile("msl").ball
     share = 1 / (1 + ball.inertia / (ball.mass * ball.radius**2))
-    for spin_free, name, colour in ((False, "kicked: rolls at once", _BLUE), (True, "set off without spin", _ORANGE)):
-        run = runs.ball_roll(spin_free)
+    for spin, name, colour in ((1.0, "kicked with the spin of rolling", _BLUE), (0.0, "kicked at its middle", _ORANGE)):
+        run = runs.ball_roll(spin)
         for axes in (panel, start):
             axes.plot(run.times[1:], run.ball("vx")[1:, 0], color=colour, label=name, linewidth=1.4)
     start.axhline(4 * share, color=_GREY, linestyle=":", linewidth=0.9)

@@ -16,17 +16,24 @@ INTRODUCTION = """\
 
 <!-- Written by `python docs/parity.py > docs/parity.md`; edit docs/parity.toml. -->
 
-What these systems and tools do, whether Touchline does it, and which test shows it:
+Touchline began as a replacement for the simulation of the NuBot team, which runs on ROS and Gazebo. This page lists
+what that simulation, its successor and the tools of its league offer, and whether Touchline offers it:
 
 * **The paper**: W. Yao, W. Dai, J. Xiao, H. Lu, Z. Zheng, *A Simulation System Based on ROS and Gazebo for RoboCup
   Middle Size League* (2015), and its code, nubot-nudt/single_nubot_gazebo.
 * **simatch**: its successor for two teams, with coach and automatic referee (nubot-nudt/gazebo_visual and
   nubot-nudt/simatch).
-* **The league's tools**: the referee box, and the requirements that the Middle Size League wrote down for a simulator
-  of its own (RoboCup-MSL/RefBox and RoboCup-MSL/MSL-Simulator).
+* **The league**: the referee box of the Middle Size League, its rule books, its protocol for mixed teams, and the
+  requirements that it wrote down for a simulator of its own (RoboCup-MSL/RefBox and RoboCup-MSL/MSL-Simulator).
 
-`touchline match matches/paper.toml` plays on the pitch of the paper with its robots, noise and physics step. Every test
-below runs with `make test`.
+The features were collected from the text and the equations of the paper, from the code and the open issues of these
+repositories, and from the rule books. The column *found in* names the source; *simatch lacks it* stands for a gap that
+its authors or users name, *league wants it* for a requirement that no tool of the league meets.
+
+A feature **works** if a test shows it with its effect, **partly** if something named in italics is missing, and is
+**missing** if Touchline does not have it. The last column links the tests; every one runs with `make test`. Italics say
+what is different here. `touchline match matches/paper.toml` plays on the pitch of the paper with its robots, noise and
+physics step.
 """
 
 
@@ -75,13 +82,26 @@ def link(shown: str) -> str:
     return f"[{words}](../{file.relative_to(ROOT).as_posix()})"
 
 
-def table(kind: str, rows: list[dict[str, Any]]) -> Iterator[str]:
-    """Lines of one table."""
-    yield f"| {kind} | status | shown by |"
+def feature_table(rows: list[tuple[int, dict[str, Any]]]) -> Iterator[str]:
+    """Lines of a table of features, each with its number."""
+    yield "| | feature | found in | status | shown by |"
+    yield "| --- | --- | --- | --- | --- |"
+    for number, row in rows:
+        shown = "; ".join(map(link, row["shown"])) or "–"
+        yield f"| {number} | {_text(row, 'feature')} | {', '.join(row['from'])} | {row['status']} | {shown} |"
+
+
+def defect_table(rows: list[dict[str, Any]]) -> Iterator[str]:
+    """Lines of the table of defects."""
+    yield "| defect | status | shown by |"
     yield "| --- | --- | --- |"
     for row in rows:
-        note = f" *{row['note']}*" if "note" in row else ""
-        yield f"| {row[kind]}.{note} | {row['status']} | {'; '.join(map(link, row['shown']))} |"
+        yield f"| {_text(row, 'defect')} | {row['status']} | {'; '.join(map(link, row['shown']))} |"
+
+
+def _text(row: dict[str, Any], kind: str) -> str:
+    """A feature or a defect, with its note in italics."""
+    return f"{row[kind]}.{' *' + row['note'] + '*' if 'note' in row else ''}"
 
 
 def page() -> str:
@@ -92,11 +112,11 @@ def page() -> str:
         sum(row["status"] == status for row in rows["feature"]) for status in ("works", "partly", "missing")
     )
     lines += [f"Of {len(rows['feature'])} features {works} work, {partly} partly, and {missing} are missing.", ""]
-    for area, group in groupby(rows["feature"], lambda row: str(row["area"])):
-        lines += [f"### {area}", "", *table("feature", list(group)), ""]
+    for area, group in groupby(enumerate(rows["feature"], 1), lambda numbered: str(numbered[1]["area"])):
+        lines += [f"### {area}", "", *feature_table(list(group)), ""]
     lines += ["## Defects of the earlier systems", ""]
     lines += ["Found in their code or their issue trackers. Each has a test that fails where it is repeated.", ""]
-    lines += [*table("defect", rows["defect"]), ""]
+    lines += [*defect_table(rows["defect"]), ""]
     return "\n".join(lines)
 
 

@@ -28,7 +28,7 @@ Told = Callable[[float], Mapping[str, AppliedInput]]
 Pose = tuple[float, float, float]
 """x, y in m, heading in rad."""
 NAMES = ("cyan1", "magenta1")
-DRIVES = {"velocity": "msl", "omni, four wheels": "omni", "omni, three wheels": "omni3"}
+DRIVES = {"traction": "msl", "omni, four wheels": "omni", "omni, three wheels": "omni3"}
 """Label of a drive in a plot → the profile with that drive."""
 METHODS = ("pose", "velocity", "force")
 
@@ -117,11 +117,10 @@ def top_speeds(profile_name: str, directions: int) -> tuple[Floats, Floats]:
     return angles, np.array(speeds)
 
 
-def ball_roll(spin_free: bool, speed: float = 4.0) -> Run:
-    """A ball that starts at `speed` m/s along x: without spin, or rolling after a kick."""
+def ball_roll(kick_spin: float, speed: float = 4.0) -> Run:
+    """A ball that is kicked at `speed` m/s along x, with a share of the spin of rolling."""
     profile = load_profile("msl")
-    if spin_free:
-        return play(profile, {"ball": (-8.0, 0.0, 0.0)}, nothing, 8.0, launch=(speed, 0.0, 0.0))
+    profile = replace(profile, kicker=replace(profile.kicker, kick_spin=kick_spin))
     kick = Kick(mode=KickMode.GROUND, speed=speed)
     bodies = {"cyan1": (-8.0, 0.0, 0.0), "ball": (-8.0 + profile.dribble.gap, 0.0, 0.0)}
     return play(profile, bodies, lambda time: {"cyan1": told(kick=kick)} if time == 0.0 else {}, 8.0)

@@ -10,7 +10,6 @@ from pathlib import Path
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from schemas.config.match_config import MatchConfig
-from schemas.config.rule_book import load_rule_book
 from schemas.config.settings import Settings
 from schemas.config.settings_file import run_process
 from schemas.messages.setup import Setup
@@ -35,7 +34,7 @@ def run(settings: BuildCheckSettings) -> int:
         TouchlineError: a brain cannot be built.
     """
     config = settings.config
-    setup = Setup.of(config, config.load_profile(), load_rule_book(config.rules))
+    setup = Setup.of(config, config.load_profile(), config.load_rule_book())
     for robot in config.robots(settings.side):
         os.environ["TOUCHLINE_ROBOT"] = robot
         load_brain(config.team(settings.side).brain or "", Briefing.of(robot, setup), settings.brain_folder)

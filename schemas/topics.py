@@ -15,6 +15,7 @@ from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.radio import Belief
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderProgress, RecorderReply, RecorderRequest
+from schemas.messages.referee_seat import SeatReply, SeatRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
@@ -148,6 +149,17 @@ ACTION = Topic(
     False,
     "a request to the referee: accepted, or refused with the reason",
     reply=ActionReply,
+)
+REFEREE_SEAT = Topic(
+    "game/referee_seat",
+    SeatRequest,
+    Party.COACH,
+    (Party.HOST,),
+    "on demand",
+    Delivery.QUERY,
+    False,
+    "shows, takes or leaves the seat of the referee, which one referee holds at a time",
+    reply=SeatReply,
 )
 SETUP = Topic(
     "host/setup",
@@ -284,7 +296,7 @@ ALIVE = Topic(
     "while the process lives",
     Delivery.PRESENCE,
     False,
-    "token of a process: host, agent, session, coach, recorder, replay; refbox while a referee box officiates",
+    "token of a process: host, agent, session, coach, recorder, replay, referee; refbox while a referee box officiates",
 )
 
 TOPICS: dict[str, Topic] = {
@@ -301,6 +313,7 @@ TOPICS: dict[str, Topic] = {
     "event": EVENT,
     "action": ACTION,
     "setup": SETUP,
+    "referee_seat": REFEREE_SEAT,
     "claim": CLAIM,
     "parameters": PARAMETERS,
     "scene": SCENE,

@@ -22,6 +22,7 @@ RIGHTS: dict[str, frozenset[Role]] = {
     "parameters": _REFEREE,
     "scene": _REFEREE,
     "replay": _REFEREE,
+    "referee_seat": _REFEREE,
 }
 """Deed → the roles that may do it: the referee's actions by name, and other requests of the page."""
 

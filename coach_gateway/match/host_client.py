@@ -1,23 +1,27 @@
 """Requests to the host: actions of the referee, orders to a side, live parameters, scenes, replay, and the setup."""
 
-from typing import Any
+from typing import Any, TypeVar
 
+from coach_gateway.access.referee_name import gateway_name
 from coach_gateway.match.orders import OrderFollower, Receipt
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
-from schemas.bus.contract import Bus, NoReplyError, Publisher
+from schemas.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
 from schemas.messages.game import ActionReply, RefereeAction
 from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.side import Side
 from schemas.topic import Topic
-from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
+from schemas.topics import ACTION, ORDER, PARAMETERS, REFEREE_SEAT, REPLAY_CONTROL, SCENE, SETUP
 from schemas.wire.faults import FaultError
 from schemas.wire.message import BadMessageError, WireMessage
 from schemas.wire.struct_faults import validated
+
+M = TypeVar("M", RefereeAction, SeatRequest)
 
 _POLL_S = 0.02
 """s of wall time between two looks for acknowledgements."""
@@ -26,8 +30,14 @@ _POLL_S = 0.02
 class HostClient:
     """One client of a match's host."""
 
-    def __init__(self, bus: Bus, patience: float = 3.0) -> None:
+    def __init__(self, bus: Bus, patience: float = 3.0, referee: str | None = None) -> None:
+        """`referee` is the name under which it officiates; by default that of its connection, which is present with it.
+
+        A client that closes its connection after each request needs a name of its own, to keep the referee's seat.
+        """
         self._bus = bus
+        self._referee = gateway_name(bus.name) if referee is None else referee
+        self._stays = referee is None
         self._patience = patience
         """How long a reply may take, in s of wall time."""
         self._orders: dict[Side, Publisher] = {}
@@ -56,8 +66,23 @@ class HostClient:
         Raises:
             TouchlineError: no host answers for this match.
         """
-        reply: ActionReply = self._ask(ACTION, action)
+        reply: ActionReply = self._ask(ACTION, action if action.referee else self._named(action))
         return reply
+
+    def referee_seat(self, operation: SeatOperation, source: str = "coach") -> SeatReply:
+        """Show, take or leave the seat of the referee; the reply has who holds it.
+
+        Raises:
+            TouchlineError: no host answers for this match.
+        """
+        reply: SeatReply = self._ask(REFEREE_SEAT, self._named(SeatRequest(operation=operation, source=source)))
+        return reply
+
+    def _named(self, request: M) -> M:
+        """The request with the name of this referee, whose presence the host sees as long as its connection is open."""
+        if self._stays:
+            self._bus.declare_alive(PresenceKind.REFEREE, self._referee)
+        return request.model_copy(update={"referee": self._referee})
 
     def parameters(self, request: ParametersRequest) -> ParametersReply:
         """Ask for live parameters, or change them; the reply has whether it was accepted, and why not.

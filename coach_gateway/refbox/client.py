@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.access.referee_name import box_name
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_ours, response_to, speaks_for
@@ -222,10 +223,14 @@ class RefBoxClient:
                 await self._ask(action)
 
     async def _ask(self, action: RefereeAction) -> None:
-        reply = await self._live.act(action)
+        reply = await self._live.act(self._named(action))
         self.counts["forwarded" if reply.accepted else "refused"] += 1
         if not reply.accepted:
             self._log(f"referee box: {reply.reason}")
+
+    def _named(self, action: RefereeAction) -> RefereeAction:
+        """The action with the name of the box, which is one referee for all base stations that are connected to it."""
+        return action.model_copy(update={"referee": box_name(self._box.host, self._box.port)})
 
     async def _start(self, action: RefereeAction) -> None:
         """Repeat START until the game runs, unless the box changes the game otherwise meanwhile.
@@ -240,7 +245,7 @@ class RefBoxClient:
             and self._live.time < until
             and self._waits_for_start()
         ):
-            reply = await self._live.act(action)
+            reply = await self._live.act(self._named(action))
             reason = reply.reason
             await asyncio.sleep(_START_AGAIN_S)
         lost = bool(reason) and self._waits_for_start()

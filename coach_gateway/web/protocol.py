@@ -20,6 +20,7 @@ from schemas.messages.health import Health
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersRequest
 from schemas.messages.radio import Belief
+from schemas.messages.referee_seat import SeatOperation
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneRequest
 from schemas.messages.setup import Setup
@@ -240,6 +241,13 @@ class PageReplay(_PageRequest):
     request: ReplayRequest
 
 
+class PageSeat(_PageRequest):
+    """Shows, takes or leaves the seat of the referee."""
+
+    deed: Literal["referee_seat"]
+    operation: SeatOperation
+
+
 class PageTokenCheck(_PageRequest):
     """Checks the token: a new welcome comes with its role; an unknown token is refused."""
 
@@ -247,7 +255,7 @@ class PageTokenCheck(_PageRequest):
 
 
 PageRequest = Annotated[
-    PageAction | PageOrder | PageScene | PageParameters | PageDrive | PageReplay | PageTokenCheck,
+    PageAction | PageOrder | PageScene | PageParameters | PageDrive | PageReplay | PageSeat | PageTokenCheck,
     Field(discriminator="deed"),
 ]
 """Any message of the page."""

@@ -16,6 +16,7 @@ from coach_gateway.web.protocol import (
     PageReplay,
     PageRequest,
     PageScene,
+    PageSeat,
     PageTokenCheck,
     Reply,
 )
@@ -89,6 +90,9 @@ class RequestHandler:
             case PageReplay():
                 replay = request.request
                 return lambda: self.client.replay(replay)
+            case PageSeat():
+                operation = request.operation
+                return lambda: self.client.referee_seat(operation, **source)
         raise TypeError(f"{request.deed} is not a query to the match")
 
     def _order(self, request: PageOrder) -> CoachOrder:

@@ -5,7 +5,7 @@ from pydantic_core import to_json
 from recordings.container.json_schema import whole_schema
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import profile_tables
-from schemas.config.rule_book import rule_book_text
+from schemas.config.rule_book import rule_book_tables
 from schemas.topic import Delivery
 from schemas.topics import TOPICS
 from schemas.wire.message import WireMessage
@@ -14,6 +14,10 @@ MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
 """Suffix of an attachment → its media type."""
 PROFILE = "profile.json"
 """The attachment with the profile and the profiles that it extends, for `schemas.config.profile.profile_of`."""
+RULE_BOOK = "rules.json"
+"""The attachment with the rule book and those that it extends, for `schemas.config.rule_book.rule_book_of`."""
+UNVERSIONED_RULE_BOOK = "rules.toml"
+"""The same attachment before rule books had versions: the text of the rule book, without the one that it extends."""
 
 
 def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
@@ -27,5 +31,5 @@ def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
     if config is not None:
         files["match.json"] = to_json(config)
         files[PROFILE] = to_json(config.profile_tables or profile_tables(config.profile))
-        files["rules.toml"] = rule_book_text(config.rules).encode()
+        files[RULE_BOOK] = to_json(config.rule_book_tables or rule_book_tables(config.rules))
     return files

@@ -8,10 +8,11 @@ from typing import Any
 from pydantic_core import from_json
 
 from recordings.container.manifest import MANIFEST, EndReason, KeyCount, Result
+from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import ChannelFacts, Recording
 from recordings.recorder.sequence_tracker import SequenceTracker
-from schemas.config.profile import Profile, profile_of
-from schemas.config.rule_book import load_rule_book
+from schemas.config.number_files import UNVERSIONED
+from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.messages.game import GameState
@@ -27,6 +28,8 @@ _FROM_MATCH_FILE = ("pace", "rules", "duration", "referee", "officiating")
 """Fields of the setup that no operator can change."""
 _FROM_PROFILE = {"time": "time", "pitch": "field", "robot": "robot", "ball": "ball"}
 """Field of the setup → section of the profile that it repeats."""
+_FROM_RULE_BOOK = tuple(RULE_SECTIONS)
+"""Fields of the setup that are sections of the rule book."""
 
 
 def contradictions(recording: Recording) -> list[str]:
@@ -101,14 +104,19 @@ def _of_match_file(recording: Recording) -> Iterator[str]:
 
 def _of_setup(recording: Recording) -> Iterator[str]:
     """The setup that the host reported, and what follows from the match file."""
-    setup, config = recording.manifest.setup, recording.manifest.config
-    if setup is None or config is None or recording.manifest.missing_scene is not None:
+    setup = recording.manifest.setup
+    if setup is None or recording.manifest.missing_scene is not None:
         return
     try:
-        profile = _profile(recording)
-        expected = Setup.of(config, profile, load_rule_book(config.rules))
-    except TouchlineError:
-        return  # a profile or a rule book of another version
+        config = config_of(recording)
+        if config is None:
+            return
+        profile = config.load_profile().with_types(config.types, f'match "{config.name}"')
+        book = config.load_rule_book()
+        expected = Setup.of(config, profile, book)
+    except TouchlineError as error:
+        yield f"the numbers of the match cannot be read: {error}"
+        return
     different = [
         name
         for name in _FROM_MATCH_FILE
@@ -118,18 +126,13 @@ def _of_setup(recording: Recording) -> Iterator[str]:
         different += [
             name for name, section in _FROM_PROFILE.items() if getattr(setup, name) != getattr(profile, section)
         ]
+    if setup.rules_version != UNVERSIONED:
+        different += [name for name in _FROM_RULE_BOOK if getattr(setup, name) != getattr(book, name)]
     names = {side: team.name for side, team in setup.teams.items()}
     if names != {side: team.name for side, team in expected.teams.items()}:
         different.append("teams")
     if different:
         yield f"the setup does not follow from the match file: {', '.join(different)}"
-
-
-def _profile(recording: Recording) -> Profile:
-    config, tables = recording.manifest.config, recording.attachments.get("profile.json")
-    assert config is not None
-    profile = config.load_profile() if tables is None else profile_of(config.profile, from_json(tables))
-    return profile.with_types(config.types, f'match "{config.name}"')
 
 
 def _of_counts(result: Result, recording: Recording) -> Iterator[str]:

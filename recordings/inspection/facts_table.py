@@ -1,6 +1,7 @@
 """Formats the facts of a recording for a terminal."""
 
 from recordings.inspection.recording_facts import RecordingFacts
+from schemas.config.number_files import versioned_name
 
 HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
 """Column headings for `key_rows`."""
@@ -24,8 +25,8 @@ def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "phase": facts.phase,
         "ended": facts.ended,
         "pace": facts.pace,
-        "profile": facts.profile,
-        "rules": facts.rules,
+        "profile": versioned_name(facts.profile, facts.profile_version) if facts.profile is not None else None,
+        "rules": versioned_name(facts.rules, facts.rules_version) if facts.rules is not None else None,
         "seed": str(facts.seed) if facts.seed is not None else None,
         "started": facts.started,
         "duration": f"{facts.duration:.2f} s simulated, from {facts.start:.2f} to {facts.end:.2f} s",

@@ -11,6 +11,7 @@ from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.sequence_tracker import SequenceTracker
+from schemas.config.number_files import UNVERSIONED
 from schemas.game import Phase, Score
 from schemas.topics import EVENT
 
@@ -43,7 +44,11 @@ class RecordingFacts:
     match: str
     pace: str | None
     profile: str | None
+    profile_version: int
+    """0 for a file without a version, and in recordings that are older than versions."""
     rules: str | None
+    rules_version: int
+    """0 for a file without a version, and in recordings that are older than versions."""
     seed: int | None
     teams: dict[str, str]
     """Side → name of its team."""
@@ -106,7 +111,9 @@ def facts_of(recording: Recording) -> RecordingFacts:
         match=manifest.match,
         pace=described.pace if described is not None else None,
         profile=described.profile if described is not None else None,
+        profile_version=setup.profile_version if setup is not None else UNVERSIONED,
         rules=described.rules if described is not None else None,
+        rules_version=setup.rules_version if setup is not None else UNVERSIONED,
         seed=config.seed if config is not None else None,
         teams=teams,
         started=manifest.started,

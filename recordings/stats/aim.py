@@ -3,6 +3,7 @@
 import math
 from enum import Enum, auto
 
+from schemas.config.kicked import Kicked
 from schemas.config.rolling import Rolling
 from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth
@@ -11,6 +12,8 @@ GRAVITY = 9.81
 """m/s²."""
 NEAR_MISS_M = 1.0
 """m beside a post up to which a kick counts as aimed at the goal, as does one over the bar. Chosen here."""
+_FLIES = 0.2
+"""m/s upward; a slower ball stays on the ground."""
 
 
 class Aim(Enum):
@@ -26,8 +29,9 @@ class Aim(Enum):
 def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
     """Where the ball crosses the attacked goal line (`attack` is the sign of its x) if it rolls or flies freely.
 
-    The ball moves in a straight line and is slowed as a rolling one: a ball that stops before the line is aimed
-    elsewhere. A flying ball follows a parabola without drag until it lands; after that it is below the bar.
+    The ball moves in a straight line and is slowed as one that was kicked along the ground, or as a rolling one where
+    it flies first: a ball that stops before the line is aimed elsewhere. A flying ball follows a parabola without drag
+    until it lands; after that it is below the bar.
     """
     pitch = setup.pitch
     ahead = pitch.goal_line - attack * ball.x
@@ -36,7 +40,8 @@ def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
         return Aim.ELSEWHERE
     time = ahead / closing
     speed = math.hypot(ball.vx, ball.vy)
-    if Rolling.of(setup.ball).speed_to_arrive(0.0, speed * time) > speed:
+    slowed = Rolling.of(setup.ball) if ball.vz > _FLIES else Kicked.of(setup.ball, setup.kicker)
+    if slowed.speed_to_arrive(0.0, speed * time) > speed:
         return Aim.ELSEWHERE
     beside = abs(ball.y + ball.vy * time) - pitch.goal_width / 2
     if beside > NEAR_MISS_M:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.shoot import lane_width
-from schemas.config.rolling import Rolling
+from schemas.config.kicked import Kicked
 from schemas.frames import wrap
 from schemas.messages.command import Drive, Kick
 from schemas.messages.setup import Setup
@@ -58,8 +58,9 @@ def is_open(ball: Point, receiver: Point, opponents: Sequence[Point], ease: floa
 
 
 def pass_speed(distance: float, setup: Setup, arriving: float = ARRIVING) -> float:
-    """The exit speed in m/s of a ball that still rolls at `arriving` m/s after `distance` m."""
-    return min(setup.kicker.max_ground_speed, Rolling.of(setup.ball).speed_to_arrive(arriving, distance))
+    """The exit speed in m/s of a ball that still moves at `arriving` m/s after `distance` m."""
+    kicked = Kicked.of(setup.ball, setup.kicker)
+    return min(setup.kicker.max_ground_speed, kicked.speed_to_arrive(arriving, distance))
 
 
 def pass_to(

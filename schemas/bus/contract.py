@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from types import TracebackType
 from typing import Any, NamedTuple, Self
+from uuid import uuid4
 
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
@@ -89,6 +90,8 @@ class PresenceKind(StrEnum):
     """A page or a terminal that shows the match."""
     REFBOX = "refbox"
     """A base station that is connected to a league's referee box; its name is that of its side."""
+    REFEREE = "referee"
+    """A gateway through which people officiate; its name is that in their requests."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,6 +227,8 @@ class Bus(ABC):
 
     match: str
     clock: Clock
+    name: str = field(default_factory=lambda: uuid4().hex[:8], init=False)
+    """A name that no other connection has."""
     _closed: bool = field(default=False, init=False)
 
     @abstractmethod
@@ -255,7 +260,7 @@ class Bus(ABC):
 
     @abstractmethod
     def declare_alive(self, kind: PresenceKind, name: str) -> None:
-        """Declare the token `alive/{kind}/{name}`.
+        """Declare the token `alive/{kind}/{name}`; without effect where it is declared already.
 
         It exists until it is withdrawn, this bus is closed, or its process dies.
         """

@@ -230,8 +230,9 @@ class InProcessBus(Bus):
     def declare_alive(self, kind: PresenceKind, name: str) -> None:
         self.check_open()
         token = (self.prefix + kind, name)
-        self._tokens.append(token)
-        self.shared_state.count_token(self.match, token, +1)
+        if token not in self._tokens:
+            self._tokens.append(token)
+            self.shared_state.count_token(self.match, token, +1)
 
     def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         self.check_open()

@@ -1,10 +1,11 @@
 """The match file: one frozen `MatchConfig` from TOML, with errors that name file, key, value and remedy.
 
-`load_match` reads the scene and the profile that a match file names and embeds their content: a config is
-self-contained.
+`load_match` reads the scene, the profile and the rule book that a match file names and embeds their content: a config
+is self-contained.
 """
 
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -22,9 +23,13 @@ from schemas.config.match_parts import (
     default_magenta,
 )
 from schemas.config.noise import PRESETS
+from schemas.config.number_files import NumberFiles
 from schemas.config.obstacle import Shape, StaticObstacle
-from schemas.config.profile import SHIPPED, Profile, load_profile, profile_of, profile_tables
+from schemas.config.profile import FILES as PROFILES
+from schemas.config.profile import Profile, load_profile, profile_of
 from schemas.config.roster import MAX_ROBOTS, RESERVED
+from schemas.config.rule_book import FILES as RULE_BOOKS
+from schemas.config.rule_book import RuleBook, load_rule_book, rule_book_of
 from schemas.config.scene import REMEDIES as SCENE_REMEDIES
 from schemas.config.scene import Scene, load_scene
 from schemas.config.settings import DEFAULT_MATCH
@@ -65,6 +70,13 @@ REMEDIES = {
 """Key → remedy for an invalid value; keys without one get the validator's message."""
 
 
+_NUMBER_FILES: tuple[tuple[str, str, NumberFiles, Callable[[str], object]], ...] = (
+    ("profile", "profile_tables", PROFILES, load_profile),
+    ("rules", "rule_book_tables", RULE_BOOKS, load_rule_book),
+)
+"""Key that names a file of numbers, key of its embedded tables, where it is read from, how it is checked."""
+
+
 class MatchConfig(Part):
     """The complete description of a match; with the same brains, it gives the same match again."""
 
@@ -86,7 +98,9 @@ class MatchConfig(Part):
     profile_tables: dict[str, Any] | None = None
     """All tables of the profile, with those of the profiles that it extends; None for the shipped profile."""
     rules: str = "friendly"
-    """A shipped rule book, by name."""
+    """A shipped rule book by name, or the path of the file that `rule_book_tables` was read from."""
+    rule_book_tables: dict[str, Any] | None = None
+    """All tables of the rule book, with those of the rule books that it extends; None for the shipped rule book."""
     teams: TeamConfigs = Field(default_factory=TeamConfigs)
     """Both teams."""
     types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
@@ -158,6 +172,16 @@ class MatchConfig(Part):
             return load_profile(self.profile)
         return profile_of(self.profile, self.profile_tables, recorded=True)
 
+    def load_rule_book(self) -> RuleBook:
+        """The rule book that the match is played by.
+
+        Raises:
+            TouchlineError: there is no such shipped rule book, or a number in it is invalid.
+        """
+        if self.rule_book_tables is None:
+            return load_rule_book(self.rules)
+        return rule_book_of(self.rules, self.rule_book_tables, recorded=True)
+
     @property
     def speed(self) -> float | None:
         """Simulated seconds per wall second at this pace; None in lockstep."""
@@ -183,7 +207,7 @@ def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> Ma
             raise TouchlineError(f"{path}: not TOML: {error}") from None
     for key, value in (overrides or {}).items():
         _set_at_path(content, key.split("."), value)
-    return _validate(_with_profile(_with_scene(content), where), where)
+    return _validate(_with_number_files(_with_scene(content), where), where)
 
 
 def _with_scene(content: dict[str, Any]) -> dict[str, Any]:
@@ -196,15 +220,16 @@ def _with_scene(content: dict[str, Any]) -> dict[str, Any]:
     return {key: scene[key] for key in ("profile", "rules") if scene.get(key) is not None} | content
 
 
-def _with_profile(content: dict[str, Any], where: str) -> dict[str, Any]:
-    """The content of a match file with the tables of a profile that is not shipped."""
-    if "profile_tables" in content:
-        raise TouchlineError(f'{where}: profile_tables is not for match files; write profile = "FILE.toml"')
-    profile = content.get("profile")
-    if not isinstance(profile, str) or profile in SHIPPED:
-        return content
-    load_profile(profile)  # each number of a file is required
-    return content | {"profile_tables": profile_tables(profile)}
+def _with_number_files(content: dict[str, Any], where: str) -> dict[str, Any]:
+    """The content of a match file with the tables of a profile and a rule book that are not shipped."""
+    for key, tables_key, files, load in _NUMBER_FILES:
+        if tables_key in content:
+            raise TouchlineError(f'{where}: {tables_key} is not for match files; write {key} = "FILE.toml"')
+        name = content.get(key)
+        if isinstance(name, str) and name not in files.shipped:
+            load(name)  # each number of a file is required
+            content = content | {tables_key: files.tables(name)}
+    return content
 
 
 def _set_at_path(content: dict[str, Any], path: list[str], value: Any) -> None:

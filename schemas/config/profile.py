@@ -1,18 +1,17 @@
 """A profile: its sections and its types of robots, read from TOML.
 
 The package ships those of `SHIPPED`. Any other TOML file may extend one with `extends = "msl"` and change numbers.
+The `version` of a shipped profile is raised with every change of a number in it, or in one that it extends.
 Every number has a unit (declared in `schemas.config.sections`) and an origin (written in the file, kept in
 `Profile.origins`).
 """
 
 import dataclasses
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import resources
-from pathlib import Path
 from typing import Any
 
+from schemas.config.number_files import UNVERSIONED, VERSION_KEY, NumberFiles, version_of
 from schemas.config.quantity import merge_tables, read_changes, read_section
 from schemas.config.sections import (
     SECTIONS,
@@ -33,8 +32,10 @@ from schemas.config.sections import (
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
-SHIPPED = ("msl", "ideal", "omni", "omni3", "paper")
+SHIPPED = ("msl", "ideal", "omni", "omni3", "msl-2016", "paper")
 """The profiles that the package ships."""
+FILES = NumberFiles("profile", "profiles", SHIPPED)
+"""Where profiles are read from."""
 
 STANDARD = "standard"
 """The type of robot whose numbers are in the profile's own sections."""
@@ -77,6 +78,8 @@ class Profile(Described):
     """Type of robot → its differences from the standard type; `schemas.config.robot_model` makes models of them."""
     origins: Mapping[str, str] = dataclasses.field(repr=False, compare=False)
     """`section.key` → origin of the number."""
+    version: int = UNVERSIONED
+    """Version of the numbers; 0 for a file without one, and in recordings that are older than versions."""
 
     def robot_of_type(self, name: str) -> dict[str, Any]:
         """Section of `TYPE_SECTIONS` → its numbers for a type of robot."""
@@ -123,11 +126,11 @@ def profile_of(name: str, tables: Mapping[str, Any], *, recorded: bool = False) 
         for key, cls in SECTIONS.items()
     }
     types = read_types(tables.get("types", {}), name, origins)
-    known = (*SECTIONS, "types")
-    for section in sorted(set(tables) - set(known)):
+    version, known = version_of(tables, name), (*SECTIONS, "types")
+    for section in sorted(set(tables) - {*known, VERSION_KEY}):
         raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, known)}")
     origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
-    profile = Profile(name=name, types=types, origins=origins, **sections)
+    profile = Profile(name=name, types=types, origins=origins, version=version, **sections)
     check_consistent(profile)
     return profile
 
@@ -158,32 +161,13 @@ def _table(content: Any, at: str) -> dict[str, Any]:
     return content
 
 
-def profile_tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
-    """The tables of a profile, merged into those that it extends; `below` are the profiles that extend it.
+def profile_tables(name: str) -> dict[str, Any]:
+    """The tables of a profile, merged into those that it extends.
 
     Raises:
         TouchlineError: there is no such profile, it is not TOML, or it extends itself.
     """
-    if name in below:
-        raise TouchlineError(f"{name}: extends itself through {' → '.join(below)}; break the circle")
-    try:
-        tables = tomllib.loads(profile_text(name))
-    except tomllib.TOMLDecodeError as error:
-        raise TouchlineError(f"{name}: not TOML: {error}") from None
-    parent = tables.pop("extends", None)
-    return merge_tables(profile_tables(str(parent), (*below, name)), tables) if parent is not None else tables
-
-
-def profile_text(name: str) -> str:
-    """The TOML text of a profile."""
-    if name in SHIPPED:
-        return (resources.files("schemas") / "profiles" / f"{name}.toml").read_text("utf-8")
-    if not name.endswith(".toml"):
-        raise TouchlineError(f'profile is "{name}"; {did_you_mean(name, SHIPPED)} Or give a path that ends in .toml')
-    try:
-        return Path(name).read_text("utf-8")
-    except OSError as error:
-        raise TouchlineError(f'profile is "{name}": {error.strerror}; give one of {", ".join(SHIPPED)}') from None
+    return FILES.tables(name)
 
 
 def check_consistent(profile: Profile) -> None:

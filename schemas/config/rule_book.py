@@ -1,19 +1,26 @@
-"""A rule book: the numbers of the rules as frozen data, read from TOML. The rules themselves are in the referee."""
+"""A rule book: the numbers of the rules as frozen data, read from TOML. The rules themselves are in the referee.
 
-import tomllib
+The package ships those of `SHIPPED`. Any other TOML file may extend one with `extends = "msl"` and change numbers. The
+`version` of a shipped rule book is raised with every change of a number in it, or in one that it extends.
+"""
+
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib import resources
 from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
-from schemas.config.quantity import Choice, Quantity, merge_tables, read_section
+from schemas.config.number_files import HEADER, PROFILE_KEY, UNVERSIONED, NumberFiles, version_of
+from schemas.config.quantity import Choice, Quantity, read_section
 from schemas.config.roster import MAX_ROBOTS
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
-SHIPPED = ("china-sim-2020", "eleven", "friendly", "msl", "paper")
+SHIPPED = ("china-sim-2020", "eleven", "friendly", "msl", "msl-2016", "msl-2019", "paper")
 """The rule books that the package ships."""
+FILES = NumberFiles("rules", "rule_books", SHIPPED)
+"""Where rule books are read from."""
+UNVERSIONED_FILES = NumberFiles("rules", "rule_books/unversioned", ("china-sim-2020", "friendly", "msl", "paper"))
+"""The rule books as they were before they had versions: never changed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +70,14 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
+    ties: Annotated[
+        str,
+        Choice(
+            "what decides between offences of one tick, returning robots, and equally near spots: fair, the same for "
+            "both sides in a mirrored match; roster, the order of the roster and of the field's axes",
+            ("fair", "roster"),
+        ),
+    ] = "roster"
     encroach_margin: Annotated[
         float,
         Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),
@@ -185,28 +200,58 @@ class RuleBook(Described):
     """Which fouls are called."""
     origins: Mapping[str, str] = field(repr=False, compare=False)
     """`section.key` → origin of the number."""
-
-
-def rule_book_text(name: str) -> str:
-    """The TOML text of a rule book."""
-    if name not in SHIPPED:
-        raise TouchlineError(f'rules is "{name}"; {did_you_mean(name, SHIPPED)}')
-    return (resources.files("schemas") / "rule_books" / f"{name}.toml").read_text("utf-8")
+    version: int = UNVERSIONED
+    """Version of the numbers; 0 for a file without one, and in recordings that are older than versions."""
+    profile: str | None = None
+    """Name of the profile whose pitch the rule book describes; None for a rule book that describes none."""
 
 
 def load_rule_book(name: str) -> RuleBook:
-    """A shipped rule book by name.
+    """A shipped rule book by name, or one from a path that ends in `.toml`.
 
     Raises:
-        TouchlineError: there is no such rule book.
+        TouchlineError: there is no such rule book, or it is invalid.
     """
-    tables = tomllib.loads(rule_book_text(name))
-    parent = tables.pop("extends", None)
-    if parent is not None:
-        tables = merge_tables(tomllib.loads(rule_book_text(parent)), tables)
+    return rule_book_of(name, rule_book_tables(name))
+
+
+def rule_book_of(name: str, tables: Mapping[str, Any], *, recorded: bool = False) -> RuleBook:
+    """The rule book of these tables, as `rule_book_tables` returns them.
+
+    In `recorded` tables, numbers that have a default may be missing: the recording is older than they are.
+
+    Raises:
+        TouchlineError: they are invalid.
+    """
     origins: dict[str, str] = {}
     sections: dict[str, Any] = {
-        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
+        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins, recorded=recorded)
+        for key, cls in SECTIONS.items()
     }
+    version, profile = version_of(tables, name), tables.get(PROFILE_KEY)
+    if profile is not None and not isinstance(profile, str):
+        raise TouchlineError(f'{name}: profile is {profile!r}; write the name of a profile, profile = "msl"')
+    for section in sorted(set(tables) - {*SECTIONS, *HEADER}):
+        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, SECTIONS)}")
     origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
-    return RuleBook(name=name, origins=origins, **sections)
+    return RuleBook(name=name, origins=origins, version=version, profile=profile, **sections)
+
+
+def rule_book_tables(name: str) -> dict[str, Any]:
+    """The tables of a rule book, merged into those that it extends.
+
+    Raises:
+        TouchlineError: there is no such rule book, it is not TOML, or it extends itself.
+    """
+    return FILES.tables(name)
+
+
+def unversioned_tables(name: str) -> dict[str, Any]:
+    """The tables of a shipped rule book as they were before rule books had versions.
+
+    Recordings of that time embed the text of their rule book alone, without the one that it extends.
+
+    Raises:
+        TouchlineError: there was no such rule book.
+    """
+    return UNVERSIONED_FILES.tables(name)

@@ -116,6 +116,17 @@ class Ball:
         float, Quantity("1", "lift over the same, of a ball that spins as if it rolled; proportional to the spin", 0, 2)
     ] = 0.0
     rolling_drag_coefficient: Annotated[float, Quantity("1", "drag over the same, of a ball on the ground", 0, 2)] = 0.0
+    touch_order: Annotated[
+        str,
+        Choice(
+            "which of several robots at the ball in one physics step touches it last: with force, the one that presses "
+            "hardest; with roster, any within reach of a contact, by order of the roster",
+            ("force", "roster"),
+        ),
+    ] = "roster"
+    touch_tie: Annotated[
+        float, Quantity("1", "touches of one step are level if their forces differ by this share of the larger", 0, 0.9)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,6 +193,10 @@ class Dribble:
     damping: Annotated[float, Quantity("N·s/m", "method `force`: damping of motion relative to the gap", 0, 50)] = 0.0
     max_pull: Annotated[float, Quantity("N", "method `force`: largest force along the kick axis", 0, 100)] = 0.0
     max_side: Annotated[float, Quantity("N", "method `force`: largest force across the kick axis", 0, 100)] = 0.0
+    contest: Annotated[
+        str,
+        Choice("method `force`: which of several robots that reach the ball draw it to themselves", ("nearest", "all")),
+    ] = "nearest"
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,6 +210,10 @@ class Kicker:
     loft: Annotated[float, Quantity("rad", "angle above the ground of a kick with fixed loft", 0.01, 1.5)] = 0.6435
     charge_time: Annotated[float, Quantity("s", "time to charge for the next kick, after the cooldown", 0, 60)] = 0.0
     cooldown: Annotated[float, Quantity("s", "time after a kick before charging begins", 0, 60)] = 0.0
+    kick_spin: Annotated[
+        float,
+        Quantity("1", "share of the spin of rolling that a kick along the ground gives; 1: it rolls at once", 0, 1),
+    ] = 1.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -165,6 +165,9 @@ class RefereeAction(Message):
     """Place of the action in the field frame, from which a restart takes its spot; by default where the ball lies."""
     source: Source = "coach"
     """Name of the sender, for display."""
+    referee: Name | None = None
+    """Name of the referee that sends it, which no other referee has; None for clients that are older than this field.
+    One referee officiates at a time."""
 
 
 class ActionReply(Message):

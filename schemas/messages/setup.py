@@ -5,12 +5,23 @@ from typing import Any, Self
 
 from pydantic import Field
 
-from schemas.config.foul_book import Areas, Fouls, Handling, Scoring
+from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig
+from schemas.config.number_files import UNVERSIONED
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
-from schemas.config.rule_book import Periods, Restarts, RuleBook
+from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
+from schemas.config.rule_book import (
+    Discipline,
+    People,
+    Periods,
+    Restarts,
+    RuleBook,
+    Stall,
+    rule_book_of,
+    unversioned_tables,
+)
 from schemas.config.sections import Ball, CameraView, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
 from schemas.game import OfficiatingMode
 from schemas.messages.parameters import ParameterName, Setting
@@ -46,8 +57,12 @@ class Setup(Message):
     """`lockstep`, `realtime`, or `x4` for four times real time."""
     profile: str
     """Name of the profile: the physical numbers of the match."""
+    profile_version: int = UNVERSIONED
+    """Version of these numbers; 0 for a file without one, and in recordings that are older than versions."""
     rules: str
     """Name of the rule book: the numbers that the referee applies."""
+    rules_version: int = UNVERSIONED
+    """Version of these numbers; 0 for a file without one, and in recordings that are older than versions."""
     time: TimeSteps
     """Lengths of the physics step and the control tick."""
     pitch: Pitch
@@ -83,6 +98,16 @@ class Setup(Message):
     areas: Areas | None = None
     """Which robots may be in goal areas and penalty areas, and for how long; None in recordings that are older than
     this field."""
+    discipline: Discipline | None = None
+    """Cards and their consequences; None in recordings that are older than this field."""
+    people: People | None = None
+    """Repairs, substitutions and forfeits; None in recordings that are older than this field."""
+    stall: Stall | None = None
+    """When a ball that no robot moves is dropped; None in recordings that are older than this field."""
+    scrum: Scrum | None = None
+    """When a ball that both sides contest is dropped; None in recordings that are older than this field."""
+    contact: Contact | None = None
+    """How robots may touch each other; None in recordings that are older than this field."""
     teams: dict[Side, TeamSetup]
     """Side → its team."""
     models: dict[Name, RobotModel] = Field(default_factory=dict)
@@ -110,7 +135,9 @@ class Setup(Message):
             match=config.name,
             pace=config.pace,
             profile=profile.name,
+            profile_version=profile.version,
             rules=book.name,
+            rules_version=book.version,
             time=profile.time,
             pitch=profile.field,
             robot=profile.robot,
@@ -119,20 +146,30 @@ class Setup(Message):
             dribble=profile.dribble,
             kicker=profile.kicker,
             camera=profile.camera,
-            periods=book.periods,
-            restarts=book.restarts,
-            handling=book.handling,
-            scoring=book.scoring,
-            fouls=book.fouls,
             officiating=config.referee.mode,
             duration=config.duration,
             referee=config.referee,
-            areas=book.areas,
             teams={side: _team(config, side) for side in Side},
             models=types_of(profile.with_types(config.types, f'match "{config.name}"')),
             engine=dict(engine),
             parameters=dict(parameters),
+            **{name: getattr(book, name) for name in RULE_SECTIONS},
         )
+
+    def rule_book(self) -> RuleBook:
+        """The rule book of the match; sections that an older recording lacks are those of then.
+
+        Raises:
+            TouchlineError: there was no such rule book.
+        """
+        sections: dict[str, Any] = {name: getattr(self, name) for name in RULE_SECTIONS}
+        missing = [name for name, section in sections.items() if section is None]
+        if missing and self.rules_version == UNVERSIONED:
+            then = rule_book_of(self.rules, unversioned_tables(self.rules), recorded=True)
+            sections |= {name: getattr(then, name) for name in missing}
+        elif missing:  # the sections are newer than the recording, and all their numbers have defaults
+            sections |= {name: RULE_SECTIONS[name]() for name in missing}
+        return RuleBook(name=self.rules, origins={}, version=self.rules_version, **sections)
 
     def for_robot(self, robot: str) -> Self:
         """The same setup with this robot's own parts in place of the standard robot's.

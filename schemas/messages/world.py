@@ -86,6 +86,8 @@ class World(Message):
     """The robot that holds the ball; None while no robot does."""
     touches: list[Name] = Field(default_factory=list)
     """Robots that touched, held or kicked the ball since the tick before, in order of time; omitted while empty."""
+    level: list[Name] = Field(default_factory=list)
+    """The last robots of `touches`, if they touched the ball at the same time and equally hard; omitted while empty."""
     kicked: Name | None = None
     """The robot whose kick was carried out in this tick; omitted without one."""
     clock: float = 0.0

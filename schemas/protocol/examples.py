@@ -2,7 +2,6 @@
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
-from schemas.config.rule_book import load_rule_book
 from schemas.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.claim import AgentClaim, AgentClaimReply
@@ -15,6 +14,7 @@ from schemas.messages.parameters import Parameter, ParameterOperation, Parameter
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderOperation, RecorderProgress, RecorderReply, RecorderRequest
+from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
@@ -118,6 +118,8 @@ def _game() -> tuple[WireMessage, ...]:
         ),
         RefereeAction(action=ActionName.FREE_KICK, side=Side.MAGENTA, place=Point(x=2.0, y=-3.5)),
         ActionReply(accepted=False, reason="free_kick: no half is being played, the phase is half_time"),
+        SeatRequest(operation=SeatOperation.TAKE, referee="gateway_5f0c6e1d", source="referee's page"),
+        SeatReply(accepted=True, holder="referee's page (gateway_5f0c6e1d)"),
     )
 
 
@@ -207,5 +209,5 @@ def _parameters() -> tuple[WireMessage, ...]:
 def _setup() -> Setup:
     """The setup of the default match, which is played without a match file."""
     config = MatchConfig()
-    profile, book = config.load_profile(), load_rule_book(config.rules)
+    profile, book = config.load_profile(), config.load_rule_book()
     return Setup.of(config, profile, book, {"engine": "pybullet 3.2.7, api 202010061"})

@@ -11,6 +11,7 @@ from sim_host.actuation.carrying import METHODS, HeldBall
 from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers
 from sim_host.actuation.possession import can_hold, holder, why_not_held
+from sim_host.actuation.touches import TOUCH_ORDERS, StepTouches
 from sim_host.physics.body_state import BallContacts, BodyState
 from sim_host.physics.engine import Engine
 from sim_host.physics.free_ball import FreeBall
@@ -30,7 +31,16 @@ class BallReport:
     refused: dict[int, str] = field(default_factory=dict)
     """Robot → why its kick could not be carried out."""
     touches: list[int] = field(default_factory=list)
+    """In the order of time."""
+    level: tuple[int, ...] = ()
+    """The last robots of them, if several were equally late and pressed equally hard."""
     kicked: int | None = None
+
+    def add(self, step: StepTouches) -> None:
+        """Add the touches of a step after the earlier ones."""
+        if step.robots:
+            self.touches += step.robots
+            self.level = step.level
 
 
 class BallHandling:
@@ -40,11 +50,16 @@ class BallHandling:
         self._profile = profile
         self._models = models
         self._dribbles = [model.dribble for model in models]
+        self._contests = [one.method == "force" and one.contest == "all" for one in self._dribbles]
         self._engine = engine
         self._step = profile.time.physics_step
         self._free = FreeBall(profile.ball, profile.field, self._step)
         self._kickers = Kickers([model.kicker for model in models], profile.time.tick)
+        self._touches_of_step = TOUCH_ORDERS[profile.ball.touch_order]
+        self._tie = profile.ball.touch_tie
         self.holder: int | None = None
+        self._contestants: list[int] = []
+        """Robots other than the holder that draw the ball to themselves in this tick."""
         self._ball_leaving: int | None = None
         """The robot whose kicked ball has not left its hull yet."""
 
@@ -92,7 +107,16 @@ class BallHandling:
             self._kickers.kicked(index, tick)
             report.kicked = index
             report.touches.append(index)
+        self._contestants = [] if report.kicked is not None else self._contestants_among(claims, robots, ball)
         return report
+
+    def _contestants_among(self, claims: Sequence[int], robots: tuple[RobotState, ...], ball: BallState) -> list[int]:
+        """The robots among `claims` that draw the ball to themselves although they do not hold it."""
+        return [
+            index
+            for index in claims
+            if index != self.holder and self._contests[index] and can_hold(robots[index], ball, self._dribbles[index])
+        ]
 
     def before_step(self, drives: Sequence[FieldTwist]) -> BodyState | None:
         """Move the ball with its holder, or by ground and air; the state of a free ball, None for a held one."""
@@ -100,6 +124,9 @@ class BallHandling:
         position, _, velocity, spin = now
         if self.holder is not None and self._is_overrun(self.holder, position):
             self.set_holder(None)
+        for index in self._contestants:
+            if not self._is_overrun(index, position):
+                self._carry(index, drives[index], BallState(*position, *velocity))
         if self.holder is not None:
             self._carry(self.holder, drives[self.holder], BallState(*position, *velocity))
             if not self._is_carried(self.holder):
@@ -123,11 +150,10 @@ class BallHandling:
         contacts: BallContacts = self._engine.ball_contacts(self.holder)
         if self._ball_leaving is not None:
             self._end_kick(self._ball_leaving)
-        if self.holder is not None:
-            report.touches.append(self.holder)
-            if contacts.depth > _MAX_PRESSED_DEPTH:
-                self.set_holder(None)
-        report.touches.extend(contacts.robots)
+        if contacts.forces or self.holder is not None:
+            report.add(self._touches_of_step(contacts.forces, self.holder, self._tie))
+        if self.holder is not None and contacts.depth > _MAX_PRESSED_DEPTH:
+            self.set_holder(None)
 
     def release_lost_ball(self, robots: tuple[RobotState, ...], ball: BallState) -> bool:
         """At the end of a tick, release a ball that has left its holder; returns whether it was released."""
@@ -151,9 +177,10 @@ class BallHandling:
         return launch(applied.kick.mode, PlannedKick(applied.kick.speed, ball, robot.heading, kicker, self._profile))
 
     def _apply_launch(self, index: int, velocity: Launch) -> None:
-        """Set the velocity of a kicked ball; along the ground it rolls at once, and so keeps its speed."""
+        """Set the velocity of a kicked ball; along the ground it gets the kicker's share of the spin of rolling."""
         vx, vy, vz = velocity
-        self._engine.set_ball_motion((vx, vy, vz), self._free.rolling_spin(vx, vy) if vz == 0.0 else (0.0, 0.0, 0.0))
+        share = self._models[index].kicker.kick_spin if vz == 0.0 else 0.0
+        self._engine.set_ball_motion((vx, vy, vz), self._free.rolling_spin(share * vx, share * vy))
         self._engine.ignore_ball_contacts(index)
         self.holder, self._ball_leaving = None, index
 

@@ -3,7 +3,7 @@
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
-from schemas.config.rule_book import RuleBook, load_rule_book
+from schemas.config.rule_book import RuleBook
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.start_poses import start_poses
 from sim_host.match.start_scene import opening_layout
@@ -38,7 +38,7 @@ def opening_state(config: MatchConfig) -> RefereeState:
     Raises:
         TouchlineError: the profile, the rule book or the scene of the match file is invalid.
     """
-    live_parameters, book = LiveParameters.of(config), load_rule_book(config.rules)
+    live_parameters, book = LiveParameters.of(config), config.load_rule_book()
     start, began = opening_layout(config, live_parameters, book)
     roster = Roster.of_entries(began.layout.robots, live_parameters.types)
     referee = make_referee(book, live_parameters.profile, roster, config.duration, config.referee)

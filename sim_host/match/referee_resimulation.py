@@ -12,7 +12,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
-from schemas.config.rule_book import RuleBook, load_rule_book
+from schemas.config.rule_book import RuleBook
 from schemas.game import EventKind
 from schemas.messages.applied import Applied
 from schemas.messages.game import GameEvent, GameState
@@ -23,7 +23,7 @@ from sim_host.match.state_schedule import StateSchedule
 from sim_host.match.world_fields import Fields
 from sim_host.referee.core import Referee
 from sim_host.referee.game.referee_state import RefereeState
-from sim_host.referee.game.state_json import state_from_json
+from sim_host.referee.game.state_json import state_from_json, without_newer_fields
 from sim_host.snapshot import Roster, Snapshot
 
 CHANGED_BY_LAYOUT = ("participation", "evidence", "set_piece", "proposal", "advantage")
@@ -43,12 +43,12 @@ class OfficiatingSettings(NamedTuple):
         """The settings from a match file, or else from the host's setup; None if neither has them.
 
         Raises:
-            TouchlineError: the rule book is not one of this version.
+            TouchlineError: the numbers of the rule book are not recorded.
         """
         if config is not None:
-            return cls(load_rule_book(config.rules), config.duration, config.referee)
+            return cls(config.load_rule_book(), config.duration, config.referee)
         if setup is not None and setup.referee is not None:
-            return cls(load_rule_book(setup.rules), setup.duration, setup.referee)
+            return cls(setup.rule_book(), setup.duration, setup.referee)
         return None
 
 
@@ -113,11 +113,11 @@ class RefereeResimulation:
         conflicts = [] if by_scene else self._unlike_the_ruling(applied)
         if recorded is not None:
             if not by_scene:
-                conflicts += _conflicts(recorded, self._state)
+                conflicts += _conflicts(recorded, self._state, applied.referee)
             elif applied.episode == self._episode:
                 # an operator who moves bodies or robots changes what has been seen, and who takes part; nothing else
                 expected = self._state._replace(**{name: getattr(recorded, name) for name in CHANGED_BY_LAYOUT})
-                conflicts += _conflicts(recorded, expected)
+                conflicts += _conflicts(recorded, expected, applied.referee)
             self._state = recorded
         if applied.episode != self._episode and (not by_scene or applied.episode < self._episode):
             conflicts.append(StateConflict("episode", applied.episode, self._episode))
@@ -195,9 +195,11 @@ def _recorded_state(applied: Applied) -> RefereeState | None:
         ) from None
 
 
-def _conflicts(recorded: RefereeState, simulated: RefereeState) -> list[StateConflict]:
+def _conflicts(recorded: RefereeState, simulated: RefereeState, text: str) -> list[StateConflict]:
+    """The fields that differ, among those in the recorded text: the text of an older version has fewer."""
     if recorded == simulated:
         return []
+    simulated = without_newer_fields(simulated, recorded, text)
     pairs = zip(RefereeState._fields, recorded, simulated, strict=True)
     return [StateConflict(name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
 

@@ -11,7 +11,7 @@ from msgspec import Raw
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
-from schemas.config.rule_book import RuleBook, load_rule_book
+from schemas.config.rule_book import RuleBook
 from schemas.game import Phase
 from schemas.messages.applied import AppliedInput, OperatorChange, chained_part
 from schemas.messages.coach import CoachOrder
@@ -26,6 +26,7 @@ from schemas.wire.struct import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
+from sim_host.match.program_versions import program_versions
 from sim_host.match.sights import Send
 from sim_host.match.start_scene import opening_layout
 from sim_host.match.subsystems import Subsystems
@@ -71,8 +72,8 @@ class Simulation:
     def __init__(self, config: MatchConfig) -> None:
         self.config = config
         live_parameters = LiveParameters.of(config)
-        self.book: RuleBook = load_rule_book(config.rules)
-        self._engine = {**fingerprint(), "referee": referee_fingerprint()}
+        self.book: RuleBook = config.load_rule_book()
+        self._engine = {**fingerprint(), "referee": referee_fingerprint(), **program_versions()}
         start, began = opening_layout(config, live_parameters, self.book)
         self._subsystems = Subsystems(config, self.book, live_parameters, began.layout.robots)
         self._operator = OperatorRequests(live_parameters, self._subsystems, self.book, start, began)

@@ -38,9 +38,9 @@ class World:
         self._roster = roster
         self._tick_s = profile.time.tick
         self._engine = engine or Engine(profile, roster)
-        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
+        self._chassis = Chassis(profile.time, roster.models, self._engine)
         self._ball = BallHandling(profile, roster.models, self._engine)
-        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field)
+        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field, profile.ball.radius)
         self._collision = ContinuousCollision(profile, self._engine)
         self.tick = 0
         self._obstacles: tuple[ObstacleState, ...] = ()
@@ -98,12 +98,12 @@ class World:
         self._engine = Engine(profile, roster)
         for obstacle in obstacles:
             self._engine.put_obstacle(ObstacleState.of(obstacle))
-        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field)
+        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field, profile.ball.radius)
         self._collision = ContinuousCollision(profile, self._engine)
         self._update_obstacles()
         new_states = self._engine.robot_states(None)
         self._roster = roster
-        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
+        self._chassis = Chassis(profile.time, roster.models, self._engine)
         self._ball = BallHandling(profile, roster.models, self._engine)
         robots = [kept.get(name, state) for name, state in zip(roster.names, new_states, strict=True)]
         self._engine.rebuild(robots, ball)
@@ -124,9 +124,9 @@ class World:
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
         report = ball.decide_possession_and_kick(self.tick, self._robots, self._ball_state, ordered)
-        pairs, fixed, hits = self._candidates.find(self._robots)
+        pairs, fixed, touching, meeting, hits = self._candidates.find(self._robots, self._ball_state)
         impacts = ImpactDetector(engine, self._robots, hits) if hits else None
-        for drives in self._chassis.plan(self._robots, ordered):
+        for drives in self._chassis.plan(self._robots, ordered, touching):
             free_ball = ball.before_step(drives)
             if pairs or fixed:
                 self._collision.advance_robots(pairs, fixed, drives)
@@ -134,6 +134,8 @@ class World:
             if free_ball is not None:
                 self._collision.advance_ball(free_ball)
             engine.step()
+            if meeting:
+                engine.note_robot_contacts()
             ball.after_step(report)
             if impacts is not None:
                 impacts.after_step()
@@ -150,7 +152,7 @@ class World:
         )
 
     def snapshot(self, report: BallReport = _NOTHING, impacts: tuple[Impact, ...] = ()) -> Snapshot:
-        """The present state of all bodies; `touches` and `kicked` come from the report of the tick."""
+        """The present state of all bodies; `touches`, `level` and `kicked` come from the report of the tick."""
         names, holding = self._roster.names, self._ball.holder
         last_touches = dict.fromkeys(reversed(report.touches))  # each robot once, where it touched last
         return Snapshot(
@@ -161,6 +163,7 @@ class World:
             ball=self._ball_state,
             possession=None if holding is None else names[holding],
             touches=tuple([names[place] for place in reversed(last_touches)]),
+            level=tuple([names[place] for place in report.level]),
             kicked=None if report.kicked is None else names[report.kicked],
             contacts=self._engine.robot_contacts,
             impacts=impacts,

@@ -39,10 +39,10 @@ def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Diffe
     return found
 
 
-_OWN = ("tick", "time", "possession", "touches", "kicked")
+_OWN = ("tick", "time", "possession", "touches", "level", "kicked")
 _OFFICIATED = ("clock", "episode")
 """Fields of the world that referee and operator determine; compared where the referee is simulated, too."""
-_ABSENT: dict[str, object] = {"touches": []}
+_ABSENT: dict[str, object] = {"touches": [], "level": []}
 """Value of a field of the world that is left out of a message; None for other fields."""
 
 

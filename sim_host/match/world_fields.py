@@ -41,6 +41,8 @@ def bodies_fields(snapshot: Snapshot, stuck: list[bool]) -> Fields:
     }
     if snapshot.touches:
         fields["touches"] = list(snapshot.touches)
+    if snapshot.level:
+        fields["level"] = list(snapshot.level)
     if snapshot.kicked is not None:
         fields["kicked"] = snapshot.kicked
     if snapshot.obstacles:

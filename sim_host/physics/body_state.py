@@ -1,5 +1,6 @@
 """The reports of the engine: the state of a body, the gap between two bodies, and the contacts of the ball."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from sim_host.physics.vectors import Quaternion, Vector
@@ -28,13 +29,13 @@ class Gap(NamedTuple):
 
 
 class BallContacts(NamedTuple):
-    """Robots that touch the ball, in the order of the roster, and the depth in m to which it is pressed into a body.
+    """The ball's contacts in one step, other than with the ground."""
 
-    Depth in the ground, and in the robot that holds the ball, does not count.
-    """
-
-    robots: list[int]
+    forces: Mapping[int, float]
+    """Robot, in the order of the roster → normal force in N between its hull and the ball; 0 for a hull that is near
+    enough for a contact and does not press."""
     depth: float
+    """m; depth to which the ball is pressed into a body other than the robot that holds it."""
 
 
-NO_CONTACTS = BallContacts([], 0.0)
+NO_CONTACTS = BallContacts({}, 0.0)

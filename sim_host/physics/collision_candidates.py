@@ -1,28 +1,55 @@
-"""Finds robots that could sink too deep into another body in one physics step, for `continuous_collision`."""
+"""Finds robots that may meet another body within the next tick, once a tick.
+
+Those that could sink too deep into it in one physics step are for `continuous_collision`. Those that may touch anything
+at all are for drives that are as strong as their grip only.
+"""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import Pitch, TimeSteps
 from sim_host.physics.pitch import fixed_boxes
-from sim_host.snapshot import ObstacleState, RobotState
+from sim_host.snapshot import BallState, ObstacleState, RobotState
 
 MAX_DEPTH = 0.01
 """m that a body may sink into another in one step: the engine's contacts undo this depth in a few steps."""
 MIN_IMPACT = 0.5
 """m/s; robots that meet more slowly lean on each other, rather than hit each other."""
 
+_MARGIN = 0.02
+"""m; bodies this much farther apart may still touch: the engine's contacts begin at such a gap."""
+
 IndexPairs = list[tuple[int, int]]
 _Moving = tuple[float, float, float, float, float, float, int]
 """x, y, vx, vy of a robot; the speed it may gain in the tick, m/s; how far it may reach, m; its index in the roster."""
 
 
-class CollisionCandidates:
-    """Finds robots that approach another body fast, once a tick; the cost grows with their number."""
+class Candidates(NamedTuple):
+    """Robots that may meet another body within the tick, by their indices in the roster."""
 
-    def __init__(self, time: TimeSteps, models: Sequence[RobotModel], pitch: Pitch) -> None:
+    robots: IndexPairs
+    """Pairs of robots that approach each other fast."""
+    fixed: IndexPairs
+    """Pairs of a robot and a fixed body that it approaches fast: first the boxes of the pitch, then the obstacles."""
+    touching: list[int]
+    """Robots that may touch a robot, a fixed body or the ball, at any speed, sorted; of those whose drive yields."""
+    meeting: bool
+    """Whether one of these may touch another robot."""
+    hits: IndexPairs
+    """Pairs of robots that may hit each other, those that approach each other fast among them."""
+
+
+class CollisionCandidates:
+    """Finds robots that may meet another body; the cost grows with their number."""
+
+    def __init__(self, time: TimeSteps, models: Sequence[RobotModel], pitch: Pitch, ball_radius: float) -> None:
         self._tick = time.tick
+        self._ball_radius = ball_radius
+        self._yields = [model.drive.model == "traction" for model in models]
+        """Per robot: its drive is no stronger than its grip where the robot touches something."""
+        self._any_yields = any(self._yields)
         self._fast = MAX_DEPTH / time.physics_step
         self._reaches = [model.body.reach for model in models]
         self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
@@ -37,14 +64,10 @@ class CollisionCandidates:
         """Set the obstacles on the pitch."""
         self._obstacles = [(obstacle.x, obstacle.y, obstacle.radius) for obstacle in obstacles]
 
-    def find(self, robots: Sequence[RobotState]) -> tuple[IndexPairs, IndexPairs, IndexPairs]:
-        """Pairs that may meet within the tick: of robots, too fast; of a robot and a fixed body, too fast; of robots.
-
-        Fixed bodies are numbered: first the boxes of the pitch, then the obstacles. The last are all pairs of robots
-        that may hit each other, those that are too fast among them.
-        """
+    def find(self, robots: Sequence[RobotState], ball: BallState) -> Candidates:
+        """The robots that may meet another body within the tick."""
         fast, tick = self._fast, self._tick
-        moving, fixed = [], []
+        moving, fixed, touching = [], [], set()
         for place, (x, y, _, _, vx, vy, omega, _) in enumerate(robots):
             extra = self._gains[place] + abs(omega) * self._strikes[place]
             speed = math.hypot(vx, vy) + extra
@@ -52,13 +75,22 @@ class CollisionCandidates:
             moving.append((x, y, vx, vy, extra, travel, place))
             if speed > fast:
                 fixed += self._fixed(place, x, y, travel)
-        fast_pairs, hits = self._robots(moving)
-        return fast_pairs, fixed, hits
+            if self._yields[place] and self._fixed(place, x, y, travel + _MARGIN):
+                touching.add(place)
+        if not moving:
+            return Candidates([], fixed, [], False, [])
+        pairs, hits, meeting = self._robots(moving)
+        touching |= meeting
+        if self._any_yields:
+            touching.update(self._near_ball(moving, ball))
+        return Candidates(pairs, fixed, sorted(touching), bool(meeting), hits)
 
-    def _robots(self, moving: list[_Moving]) -> tuple[IndexPairs, IndexPairs]:
-        widest = max([travel for *_, travel, _ in moving])
+    def _robots(self, moving: list[_Moving]) -> tuple[IndexPairs, IndexPairs, set[int]]:
+        """Pairs of robots that approach each other fast, pairs that may hit each other, and the robots that yield."""
+        widest, yields = max([travel for *_, travel, _ in moving]) + _MARGIN, self._yields
         pairs: IndexPairs = []
         hits: IndexPairs = []
+        touching: set[int] = set()
         moving.sort()
         for number, (x, y, vx, vy, extra, travel, one) in enumerate(moving, 1):
             for other_x, other_y, other_vx, other_vy, other_extra, other_way, other in moving[number:]:
@@ -67,6 +99,9 @@ class CollisionCandidates:
                     break
                 dy = other_y - y
                 apart = math.hypot(dx, dy)
+                if apart > travel + other_way + _MARGIN:
+                    continue
+                touching.update([place for place in (one, other) if yields[place]])
                 if apart > travel + other_way:
                     continue
                 approach = ((vx - other_vx) * dx + (vy - other_vy) * dy) / max(apart, 1e-9)
@@ -76,9 +111,19 @@ class CollisionCandidates:
                     hits.append(pair)
                     if approach > self._fast:
                         pairs.append(pair)
-        return sorted(pairs), sorted(hits)
+        return sorted(pairs), sorted(hits), touching
+
+    def _near_ball(self, moving: list[_Moving], ball: BallState) -> Iterator[int]:
+        """The yielding robots that may touch the ball, which another robot may press against them."""
+        ball_x, ball_y, _, vx, vy, _ = ball
+        room = self._ball_radius + math.hypot(vx, vy) * self._tick + _MARGIN
+        for x, y, _, _, _, travel, place in moving:
+            near = travel + room
+            if abs(ball_x - x) < near and abs(ball_y - y) < near and self._yields[place]:
+                yield place
 
     def _fixed(self, place: int, x: float, y: float, travel: float) -> IndexPairs:
+        """Fixed bodies that a robot may reach."""
         found = []
         if abs(x) + travel > self._free_x or abs(y) + travel > self._free_y:
             for number, (at_x, at_y, half_x, half_y) in enumerate(self._boxes):

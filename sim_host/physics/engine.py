@@ -51,6 +51,7 @@ class Engine:
         self._lift = GRAVITY * profile.time.physics_step
         self._ball_now: BodyState | None = None
         """The state of the ball; None when it has to be read again."""
+        self._noted_contacts: set[tuple[int, int]] = set()
         self._obstacles: dict[str, tuple[ObstacleState, int]] = {}
         """Name → the obstacle and its body, in the order in which they were added."""
         self._build()
@@ -145,7 +146,9 @@ class Engine:
         """Read the state of all bodies; a robot that was lifted or tipped is put upright first."""
         self._states = [self.state(body) for body in (*self.robots, self.ball)]
         self._ball_now = self._states[-1]
-        self.robot_contacts = self._robot_contacts()
+        self.robot_contacts = tuple(sorted(self._noted_contacts | self._robot_contacts()))
+        """Pairs of robots that touched in the last step or in a noted one; sorted, the smaller index first."""
+        self._noted_contacts.clear()
         for place, (body, height) in enumerate(zip(self.robots, self._heights, strict=True)):
             position, (qx, qy, qz, qw), velocity, spin = self._states[place]
             if abs(qx) > _UPRIGHT or abs(qy) > _UPRIGHT or abs(position[2] - height) > _UPRIGHT:
@@ -188,6 +191,11 @@ class Engine:
     def robot_now(self, place: int) -> RobotState:
         """The state of a robot between two steps, as one that holds the ball."""
         return _robot_state(self.state(self.robots[place]), True)
+
+    def robot_twist(self, place: int) -> FieldTwist:
+        """The velocity of a robot between two steps."""
+        (vx, vy, _), (_, _, omega) = pybullet.getBaseVelocity(self.robots[place], physicsClientId=self.client)
+        return vx, vy, omega
 
     def ball_now(self) -> BodyState:
         """The state of the ball between two steps."""
@@ -253,11 +261,17 @@ class Engine:
         contacts = pybullet.getContactPoints(self.ball, physicsClientId=self.client)
         if len(contacts) < 2 and (not contacts or contacts[0][2] == self._ground):
             return NO_CONTACTS
-        depth = {contact[2]: -contact[8] for contact in contacts if contact[2] != self._ground}
-        robots = [place for place, body in enumerate(self.robots) if body in depth]
+        depth: dict[int, float] = {}
+        force: dict[int, float] = {}
+        for contact in contacts:
+            body = contact[2]
+            if body != self._ground:
+                depth[body] = -contact[8]
+                force[body] = force.get(body, 0.0) + contact[9]
+        forces = {place: force[body] for place, body in enumerate(self.robots) if body in force}
         if holder is not None:
             depth.pop(self.robots[holder], None)
-        return BallContacts(robots, max(depth.values(), default=0.0))
+        return BallContacts(forces, max(depth.values(), default=0.0))
 
     def contact_direction(self, one: int, other: int) -> tuple[float, float] | None:
         """The unit vector on the ground from one robot to another at their contact in the last step; None without one.
@@ -272,15 +286,19 @@ class Engine:
                 return sign * x / length, sign * y / length
         return None
 
-    def _robot_contacts(self) -> tuple[tuple[int, int], ...]:
-        """Pairs of robots that touched each other in the last step, in roster order."""
+    def note_robot_contacts(self) -> None:
+        """Note the robots that touched each other in the last step: after a rebound they no longer do."""
+        self._noted_contacts |= self._robot_contacts()
+
+    def _robot_contacts(self) -> set[tuple[int, int]]:
+        """Pairs of robots that touched each other in the last step, the smaller index first."""
         bodies = self._robot_of
         found = [
             (bodies[contact[1]], bodies[contact[2]])
             for contact in pybullet.getContactPoints(physicsClientId=self.client)
             if contact[8] <= _TOUCHING and contact[1] in bodies and contact[2] in bodies
         ]
-        return tuple(sorted({(min(pair), max(pair)) for pair in found})) if found else ()
+        return {(min(pair), max(pair)) for pair in found}
 
 
 def _pack(obstacle: ObstacleState) -> bytes:

@@ -33,7 +33,7 @@ def game_views(state: RefereeState, roster: Roster, episode: int = 1) -> dict[Si
             clock=timing.clock,
             our_score=ours,
             their_score=theirs,
-            spot=None if spot is None else Point(x=attack * spot[0], y=attack * spot[1]),
+            spot=None if spot is None else Point(x=attack * spot[0] + 0.0, y=attack * spot[1] + 0.0),  # 0, never -0
             stage=state.stage,
             left=timing.left,
             robots=participation.disciplinary_records(mine),

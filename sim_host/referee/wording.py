@@ -1,5 +1,7 @@
 """Texts for places, restarts and touches in the referee's events."""
 
+from collections.abc import Sequence
+
 from schemas.game import ActionName, Phase
 from sim_host.referee.game.restart import Restart, Spot
 
@@ -27,3 +29,8 @@ def restart_text(restart: Restart) -> str:
 def last_touch_text(robot: str | None) -> str:
     """The robot that touched the ball last, as the end of a sentence."""
     return f"last touched by {robot}" if robot is not None else "touched by no robot since START"
+
+
+def level_touch_text(robots: Sequence[str]) -> str:
+    """Robots that touched the ball last at the same time, as the end of a sentence."""
+    return f"last touched by {' and '.join(robots)} at the same time and equally hard"

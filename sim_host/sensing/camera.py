@@ -8,7 +8,7 @@ import numpy as np
 
 from schemas.config.sections import Sensing
 from schemas.messages.sight import Obstacle
-from sim_host.sensing.digits import DIGITS
+from sim_host.sensing.digits import DIGITS, rounded
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.pair_draws import pair_draws
 from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId, Vectors
@@ -20,6 +20,8 @@ from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Rost
 
 _NO_DISTANCE = np.array(1e-9)
 """m; avoids a division by zero for the distance of a robot from itself, which is not used."""
+_LATER = 1e-9
+"""m by which an opponent seems farther than a teammate; without it, equally far bodies would be in roster order."""
 
 
 class Picture(NamedTuple):
@@ -86,6 +88,9 @@ class Camera:
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
         self._is_other = np.arange(-1, bodies) != np.arange(robots)[:, None]
         self._draws = pair_draws(s, self._streams, self._shutter, roster.names, names)
+        sides = [*roster.sides, *[None] * len(obstacles)]
+        self._later = np.array([[_LATER * (its is not side) for its in sides] for side in roster.sides])
+        """Per robot and body: m added to the distance, so that of two equally far bodies a teammate is first."""
         self._view = View.of([model.camera for model in roster.models])
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
@@ -140,15 +145,15 @@ class Camera:
         np.multiply(draws[1:], sigma, out=seen[3:])
         seen[3] += velocity.real
         seen[4] += velocity.imag
-        numbers: list[list[float]] = seen.T.round(DIGITS).tolist()
+        numbers: list[list[float]] = rounded(seen.T).tolist()
         return numbers
 
     def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
         """The bodies that were found, in the order of their distance, which does not reveal their names."""
         robot, body = found.nonzero()
-        order = np.lexsort((away[found], robot))
+        order = np.lexsort(((away + self._later)[found], robot))
         place = places[found].take(order)
-        x, y = place.real.round(DIGITS).tolist(), place.imag.round(DIGITS).tolist()
+        x, y = rounded(place.real).tolist(), rounded(place.imag).tolist()
         bodies = list(map(Obstacle, x, y, self._radius.take(body.take(order)).tolist()))
         ends = robot.searchsorted(self._ends).tolist()
         return [bodies[start:end] for start, end in pairwise((0, *ends))]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from schemas.config.sections import Sensing
-from sim_host.sensing.digits import DIGITS
+from sim_host.sensing.digits import rounded
 from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import RobotMotions, Roster
@@ -36,7 +36,7 @@ class OwnMotion:
         self._heading[...], self._omega[...] = robots.heading, robots.omega
         seen += self._noise.at(tick)
         _rotate(self._heading, frames.angle)
-        numbers: list[list[float]] = seen.round(DIGITS).tolist()
+        numbers: list[list[float]] = rounded(seen).tolist()
         return numbers
 
     def _draw(self, ticks: range) -> list[Floats]:

@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable
+from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
@@ -19,6 +20,7 @@ from sim_host.server.manual_control import ManualControl
 from sim_host.server.outbox import Outbox
 from sim_host.server.pace import Lockstep, Pace, Realtime
 from sim_host.server.presence_tracker import PresenceTracker
+from sim_host.server.referee_seat import RefereeSeat
 from sim_host.server.services import Services
 
 log = logging.getLogger("sim_host")
@@ -44,7 +46,8 @@ class Host:
         self._first = self.simulation.now, self.simulation.state
         self._config = config
         self._clock = bus.clock
-        self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self.presence.has_referee_box)
+        self._seat = RefereeSeat()
+        self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self._seat)
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
@@ -144,6 +147,9 @@ class Host:
 
     def _process_requests(self) -> None:
         """Process requests, and apply a roster that an operator has changed."""
+        self._seat.update_box(self.presence.has_referee_box())
+        for referee in self.presence.pop_gone_referees():
+            self._seat.forget(referee)
         self._services.process()
         roster = self.simulation.roster
         if (roster.names, roster.sides, roster.still) != (self._roster.names, self._roster.sides, self._roster.still):
@@ -194,26 +200,24 @@ class Host:
             self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
 
     def _report_refusals(self, tick: TickResult) -> None:
-        """Publish an event for each agent that was refused."""
+        """Publish an event for each agent that was refused, and for each change of the referee's seat."""
         for refusal in self.presence.pop_refusals():
             log.warning(refusal.text)
             self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
+        for text in self._seat.pop_changes():
+            log.warning(text)
+            self._publish_report(tick, "referee_seat", text)
 
     def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
         if name not in self._roster.names:
             return
-        self._outbox.publish_event(
-            GameEvent(
-                tick=tick.tick,
-                time=tick.time,
-                clock=self.simulation.state.clock,
-                kind=EventKind.AGENT,
-                rule=rule,
-                side=self._roster.side_of(name),
-                robot=name,
-                text=text,
-            )
-        )
+        self._publish_report(tick, rule, text, side=self._roster.side_of(name), robot=name)
+
+    def _publish_report(self, tick: TickResult, rule: str, text: str, **about: Any) -> None:
+        """Publish an event that is the host's own report, and none of the referee's decisions."""
+        time, clock = tick.time, self.simulation.state.clock
+        event = GameEvent(tick=tick.tick, time=time, clock=clock, kind=EventKind.AGENT, rule=rule, text=text, **about)
+        self._outbox.publish_event(event)
 
     def _report(self, tick: TickResult) -> None:
         """Publish the host's health when a report is due, and at most one invalid payload: a flood is not echoed."""

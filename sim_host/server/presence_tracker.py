@@ -36,6 +36,8 @@ class PresenceTracker:
         """Name → whether the process is present, once it has joined."""
         self.recorders: dict[str, int] = {}
         """Recorder → the newest tick it has read; a recorder with a broken link stays until it is dropped."""
+        self._gone_referees: list[str] = []
+        """Names of referees whose gateway has gone since the last `pop_gone_referees`."""
         self._sight_recorders: set[str] = set()
         """Recorders that request sights."""
         self._lost: dict[str, float] = {}
@@ -57,6 +59,8 @@ class PresenceTracker:
             elif presence.kind is PresenceKind.SESSION:
                 robot = self._claims.set_session(presence.name, presence.alive)
                 changed += [robot] if robot is not None else []
+            elif presence.kind is PresenceKind.REFEREE and not presence.alive:
+                self._gone_referees.append(presence.name)
             presence = self._watch.receive(0.0)
         changed += self._claim_handler.decide()
         self.receive_progress(0.0)
@@ -73,6 +77,11 @@ class PresenceTracker:
         handler = self._claim_handler
         refusals, handler.refusals = handler.refusals, []
         return refusals
+
+    def pop_gone_referees(self) -> list[str]:
+        """Referees that have gone since the last call."""
+        gone, self._gone_referees = self._gone_referees, []
+        return gone
 
     def _refresh(self, robot: str) -> Presence | None:
         """Update the statistics of a robot's agent; None for a robot that does not take part."""

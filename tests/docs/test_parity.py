@@ -30,6 +30,24 @@ def test_every_feature_and_defect_has_a_status_and_what_works_is_tested(parity: 
     assert [row for row in tested if not any(one.startswith("test_") for one in row["shown"])] == []
 
 
+def test_every_feature_names_where_it_is_found_and_what_is_not_whole_says_what_is_missing(parity: ModuleType) -> None:
+    features = parity.load()["feature"]
+    sources = {"paper", "simatch", "league", "simatch lacks it", "league wants it"}
+    assert [row["feature"] for row in features if not row["from"] or set(row["from"]) - sources] == []
+    assert [row["feature"] for row in features if row["status"] != "works" and not row.get("note")] == []
+    assert len({row["feature"] for row in features}) == len(features)
+
+
+@pytest.mark.parametrize("word", ["the seed", "row 3", "reference 9", "house.md", "findings"])
+def test_the_page_is_understood_without_the_history_of_the_project(parity: ModuleType, word: str) -> None:
+    assert word not in parity.page()
+
+
+def test_every_row_of_the_page_has_its_number(parity: ModuleType) -> None:
+    numbers = [line.split(" | ")[0] for line in parity.page().splitlines() if line.startswith("| ")]
+    assert [number for number in numbers if number[2:].isdecimal()] == [f"| {number}" for number in range(1, 55)]
+
+
 def test_the_page_is_fresh(parity: ModuleType, root: Path) -> None:
     written = (root / "docs" / "parity.md").read_text("utf-8")
     assert written == parity.page(), "run: .venv/bin/python docs/parity.py > docs/parity.md"

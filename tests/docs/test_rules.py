@@ -6,10 +6,12 @@ from pathlib import Path
 import pytest
 
 from schemas.config.rule_book import SECTIONS, SHIPPED, load_rule_book
-from sim_host.referee.document import DECIDED_BY_PEOPLE, LABELS, PROCEDURES, page, parts_of_module, parts_of_rule
+from sim_host.referee.document import DECIDED_BY_PEOPLE, PROCEDURES, page
 from sim_host.referee.rules import RULES, SHOOT_OUT
+from sim_host.referee.ruling_table import LABELS, clause, not_judged, parts_of_module, parts_of_rule, rows
 
-TEXT = (Path(__file__).parents[2] / "docs" / "rules.md").read_text("utf-8")
+TEXT_ROOT = Path(__file__).parents[2]
+TEXT = (TEXT_ROOT / "docs" / "rules.md").read_text("utf-8")
 ALL = (*RULES, *SHOOT_OUT)
 
 
@@ -51,3 +53,32 @@ def test_every_number_of_every_book_stands_on_the_page_with_its_origin(book):
 
 def test_what_people_decide_is_listed():
     assert all(f"**{matter}.**" in TEXT for matter, _ in DECIDED_BY_PEOPLE)
+
+
+@pytest.mark.parametrize("row", [*rows()], ids=lambda row: row.rule)
+def test_every_situation_has_its_clause_its_event_its_restart_and_a_test_that_shows_it(row):
+    assert row.situation and row.clause and row.events and row.restart
+    path, _, name = row.test.partition("::")
+    assert path, f"no test in tests/sim_host/referee names the rule: compare `event.rule` with {row.rule!r} in one"
+    assert name in (TEXT_ROOT / path).read_text("utf-8")
+    assert f"| {row.situation} | {row.clause} |" in TEXT
+
+
+def test_what_rules_leave_open_stands_in_the_table():
+    assert [rule for _, rule in not_judged()] == [rule.name for rule in ALL]
+    assert all(f"| {matter} | `{rule}` |" in TEXT for matter, rule in not_judged())
+
+
+@pytest.mark.parametrize(
+    ("section", "named"),
+    [
+        ("play, scoring.", "play, scoring (FIFA 10)"),
+        ("play, pushing.", "play, pushing (FIFA 12)"),
+        ("restarts, throw-in.", "restarts, throw-in (FIFA 15)"),
+        ("match.", "match (FIFA 7)"),
+        ("ours.", "ours"),
+        ("none; ours, since only a simulation can.", "none; ours, since only a simulation can"),
+    ],
+)
+def test_a_clause_is_the_law_on_its_subject_or_ours(section, named):
+    assert clause(section) == named

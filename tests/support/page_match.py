@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from coach_gateway.match.host_client import HostClient
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
@@ -14,10 +15,11 @@ from schemas.game import ActionName
 from schemas.messages.command import Command
 from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.radio import Radio
+from schemas.messages.referee_seat import SeatOperation
 from schemas.messages.sight import Sight
 from schemas.process.clock import WallClock
 from schemas.side import Side
-from schemas.topics import ACTION, EVENT, Topic
+from schemas.topics import EVENT, Topic
 from sim_host.server.host import Host
 from support.page_gateway import SOON
 
@@ -77,9 +79,11 @@ class Match:
 
     def signal_kick_off(self) -> None:
         """The referee signals the kick-off of the half; in manual officiating people have to give START."""
-        start = RefereeAction(action=ActionName.START)
-        reply = self.medium.open_bus("friendly", WallClock()).query(ACTION, start, SOON).result(SOON)
-        assert reply.accepted, reply.reason
+        with self.medium.open_bus("friendly", WallClock()) as bus:
+            starter = HostClient(bus, SOON)
+            reply = starter.act(RefereeAction(action=ActionName.START))
+            assert reply.accepted, reply.reason
+            assert starter.referee_seat(SeatOperation.LEAVE).accepted
 
     def stop(self) -> None:
         """The host goes."""

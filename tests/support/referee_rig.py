@@ -102,10 +102,12 @@ class RefereeRig:
         contacts: Sequence[tuple[str, str]] = (),
         impacts: Sequence[tuple[str, str]] = (),
         spin: tuple[float, float] | None = None,
+        level: Sequence[str] = (),
     ) -> Snapshot:
         """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots.
 
         `impacts`: pairs that hit each other along the line between their centres, with their motions of this tick.
+        `level`: the last robots of `touches`, if they touched the ball at the same time.
         A ball without another `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
@@ -137,6 +139,7 @@ class RefereeRig:
             contacts=tuple((first, second) for first, second in pairs),
             impacts=tuple(_impact(robots, first, second) for first, second in hits),
             ball_spin=self._turned(*turning),
+            level=tuple(self.robot(name) for name in level),
             obstacles=self.obstacles,
         )
 

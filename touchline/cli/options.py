@@ -13,9 +13,9 @@ from schemas.bus.settings import ListenSettings
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import SHIPPED as PROFILES
+from schemas.config.profile import load_profile
 from schemas.config.robot_model import models_of
 from schemas.config.rule_book import SHIPPED as RULE_BOOKS
-from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.missing_engine import missing_engine_text
@@ -31,7 +31,7 @@ Scene = Annotated[str | None, typer.Option(help="Start in this scene, by name or
 Profile = Annotated[
     str | None, typer.Option(help=f"Field, bodies and limits: {', '.join(PROFILES)}, or the path of a file.")
 ]
-Rules = Annotated[str | None, typer.Option(help=f"Rule book: {', '.join(RULE_BOOKS)}.")]
+Rules = Annotated[str | None, typer.Option(help=f"Rule book: {', '.join(RULE_BOOKS)}, or the path of a file.")]
 Include = Annotated[
     list[str] | None,
     typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable."),
@@ -65,7 +65,10 @@ class MatchOptions:
         """
         officiating = {f"referee__{key}": value for key, value in self.officiating.items()}
         named = {"scene": self.scene, "profile": self.profile, "rules": self.rules}
-        return read_match(self.file, **named, **self.changes, **officiating, **flags)
+        config = read_match(self.file, **named, **self.changes, **officiating, **flags)
+        if note := pitch_note(config):
+            typer.echo(f"note: {note}", err=True)
+        return config
 
     def endpoint(self) -> str | None:
         """The endpoint to listen on; see `endpoint_of`.
@@ -87,13 +90,27 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     given = {key.replace("__", "."): value for key, value in flags.items() if value is not None}
     config = load_match(file, given)
     models_of(config, config.load_profile())
-    book = load_rule_book(config.rules)
+    book = config.load_rule_book()
     need_pybullet()
     from sim_host.match.live_parameters import LiveParameters
     from sim_host.match.start_scene import opening_layout
 
     opening_layout(config, LiveParameters.of(config), book)
     return config
+
+
+def pitch_note(config: MatchConfig) -> str | None:
+    """Which profile has the pitch that the rule book describes, if the match is played on one of another size."""
+    book, pitch = config.load_rule_book(), config.load_profile().field
+    if book.profile is None:
+        return None
+    described = load_profile(book.profile).field
+    if (described.length, described.width) == (pitch.length, pitch.width):
+        return None
+    return (
+        f"the rules {book.name} are for a pitch of {described.length:g} × {described.width:g} m, profile "
+        f"{config.profile} has {pitch.length:g} × {pitch.width:g} m; --profile {book.profile} fits"
+    )
 
 
 def need_pybullet() -> None:

@@ -7,11 +7,13 @@ from typing import Annotated, NamedTuple
 import typer
 
 from coach_gateway import run
+from coach_gateway.access.referee_name import terminal_name
 from coach_gateway.settings import GatewaySettings
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
+from schemas.messages.referee_seat import SeatOperation
 from touchline.cli import options
 from touchline.cli.bus_client import PATIENCE, bus_client
 from touchline.cli.option_groups import from_options, with_option_groups
@@ -137,6 +139,41 @@ for _group, _name in ((app, "coach"), (referee, "referee")):
         )(_command(_row))
 
 
+class SeatCommand(NamedTuple):
+    """One command on the seat of the referee."""
+
+    operation: SeatOperation
+    help: str
+
+
+SEAT_COMMANDS: dict[str, SeatCommand] = {
+    "seat": SeatCommand(SeatOperation.SHOW, "Print who officiates: one referee at a time."),
+    "take-over": SeatCommand(
+        SeatOperation.TAKE, "Officiate in place of the referee that does, or before anybody does."
+    ),
+    "leave": SeatCommand(SeatOperation.LEAVE, "Stop officiating: the next one that decides is the referee."),
+}
+"""Command → what it does with the seat."""
+
+
+def _seat_command(row: SeatCommand) -> Callable[..., None]:
+    def command(connection: ClientSettings) -> None:
+        from coach_gateway.match.host_client import HostClient
+
+        with bus_client(connection) as bus:
+            reply = HostClient(bus, referee=terminal_name()).referee_seat(row.operation)
+        if not reply.accepted:
+            raise MatchFailedError(f"refused: {reply.reason}")
+        typer.echo(f"{reply.holder} officiates" if reply.holder is not None else "the referee's seat is free")
+
+    return with_option_groups(command)
+
+
+for _group, _name in ((app, "coach"), (referee, "referee")):
+    for _word, _seat in SEAT_COMMANDS.items():
+        _group.command(_word, help=f"{_seat.help}\n\nExample: touchline {_name} {_word}")(_seat_command(_seat))
+
+
 app.command("order")(orders.order)
 app.command("test")(orders.test)
 
@@ -184,7 +221,7 @@ def _send(connection: ClientSettings, action: RefereeAction) -> None:
     from coach_gateway.match.host_client import HostClient
 
     with bus_client(connection) as bus:
-        reply = HostClient(bus).act(action)
+        reply = HostClient(bus, referee=terminal_name()).act(action)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")
     typer.echo(f"{action.action.value} accepted")

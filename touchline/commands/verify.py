@@ -61,6 +61,7 @@ def _lines(verdict: "Verdict") -> list[str]:
     ]
     if verdict.difference is not None:
         lines += _of_difference(verdict.difference)
+        lines += [verdict.other_program] if verdict.other_program else []
         lines.append(f"identical before that: {verdict.ticks} ticks")
     else:
         lines.append(

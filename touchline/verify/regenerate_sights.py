@@ -7,6 +7,7 @@ pitch are not repeated: later sights would differ from the original ones, so the
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
+from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
@@ -17,7 +18,7 @@ from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.topics import APPLIED, ORDER
 from sim_host.match.simulation import Simulation
-from touchline.verify.resim_start import config_of, need_scene
+from touchline.verify.resim_start import need_scene
 
 
 @dataclass

@@ -3,13 +3,12 @@
 from collections.abc import Iterable
 from typing import Any
 
-from pydantic_core import from_json, to_json
+from pydantic_core import to_json
 
-from recordings.container.attachments import PROFILE
+from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
 from recordings.reading.tick_index import Segment
 from recordings.reading.tick_records import TickRecord
-from schemas.config.match_config import MatchConfig
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import STANDARD
 from schemas.config.roster import RosterEntry
@@ -69,21 +68,6 @@ def opening_conflict(recording: Recording, state: RefereeState) -> list[Detail]:
     expected = opening_state(config)
     pairs = zip(RefereeState._fields, state, expected, strict=True)
     return [Detail("referee", name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
-
-
-def config_of(recording: Recording) -> MatchConfig | None:
-    """The config of a recording with its attached profile; None if the config was not recorded.
-
-    Raises:
-        TouchlineError: the attached profile is damaged.
-    """
-    config, tables = recording.manifest.config, recording.attachments.get(PROFILE)
-    if config is None or tables is None:
-        return config
-    try:
-        return config.model_copy(update={"profile_tables": from_json(tables)})
-    except ValueError:
-        raise TouchlineError(f"{recording.path}: the attached {PROFILE} is damaged; use another copy") from None
 
 
 def need_scene(recording: Recording) -> None:

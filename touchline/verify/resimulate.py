@@ -13,11 +13,13 @@ from pathlib import Path
 
 from recordings.container.manifest import KeyCount
 from recordings.inspection.contradictions import contradictions, record_faults
+from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.topics import WORLD
+from sim_host.match.program_versions import program_versions
 from sim_host.match.referee_resimulation import OfficiatingSettings
 from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.fingerprint import referee_fingerprint
@@ -57,7 +59,8 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, ref
     verdict = Verdict(
         kick_offs=len(index.kick_offs),
         processes=min(processes, len(segments)),
-        other_machine=_other_machine(recording, referee=not why_no_referee),
+        other_machine=_other_machine(recording),
+        other_program=_other_program(recording, referee=not why_no_referee),
         left_out=list(index.skipped(since)),
         referee=not why_no_referee,
         contradictions=[*contradictions(recording), *record_faults(recording)],
@@ -100,20 +103,37 @@ def _missing_worlds(recording: Recording, missing: int) -> list[str]:
 
 def _why_no_referee(recording: Recording, segments: list[Segment]) -> str:
     """Why the referee cannot be simulated; empty if it can."""
-    if OfficiatingSettings.of(recording.manifest.config, recording.manifest.setup) is None:
+    if OfficiatingSettings.of(config_of(recording), recording.manifest.setup) is None:
         return "the recording has neither its match file nor a setup with the referee's settings"
     if not all(segment.start.has_referee for segment in segments):
         return "the recording does not hold the states of its referee, as it is from an older version"
     return ""
 
 
-def _other_machine(recording: Recording, *, referee: bool) -> dict[str, tuple[str, str]]:
+def _other_machine(recording: Recording) -> dict[str, tuple[str, str]]:
     """The parts of the fingerprint that differ between the recording's machine and this one."""
     setup = recording.manifest.setup
     theirs, ours = setup.engine if setup is not None else {}, fingerprint()
-    if referee:
-        ours["referee"] = referee_fingerprint()
     return {part: (value, ours[part]) for part, value in theirs.items() if part in ours and value != ours[part]}
+
+
+def _other_program(recording: Recording, *, referee: bool) -> str:
+    """What differs between the program that recorded the match and this one; empty if nothing does."""
+    manifest = recording.manifest
+    theirs, ours = manifest.setup.engine if manifest.setup is not None else {}, program_versions()
+    found = [
+        f"its {part} has version {theirs[key]}, this program's has version {ours[key]}"
+        if key in theirs
+        else f"it is older than versions of the {part}"
+        for part, key in (("world", "world_version"), ("referee", "referee_version"))
+        if (referee or part == "world") and theirs.get(key) != ours[key]
+    ]
+    if not found and referee and theirs.get("referee") != referee_fingerprint():
+        found = ["its referee's program is another one, of the same version"]
+    if not found:
+        return ""
+    program = f"touchline {manifest.versions.get('touchline', 'of then')}"
+    return f"recorded by another program: {' and '.join(found)}; {program} of {manifest.started[:10]} verifies it"
 
 
 def _all(path: Path, segments: list[Segment], verdict: Verdict) -> Iterable[SegmentResult]:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from recordings.reading.command_check import CommandMismatch
 from recordings.reading.record_order import RecordOrder
+from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment
 from recordings.reading.tick_records import TickRecord, command_check_of, tick_records
@@ -40,7 +41,7 @@ class SegmentCheck:
         self._recording, self._segment = recording, segment
         self._tick_s = tick_length(recording)
         self._world: Resimulation | None = None
-        settings = OfficiatingSettings.of(recording.manifest.config, recording.manifest.setup) if referee else None
+        settings = OfficiatingSettings.of(config_of(recording), recording.manifest.setup) if referee else None
         self._referee = RefereeResimulation(settings, self._tick_s) if settings is not None else None
         self._states, self._events = is_recorded(recording, STATE.key), is_recorded(recording, EVENT.key)
 

@@ -47,6 +47,9 @@ class Verdict:
     processes: int = 1
     other_machine: dict[str, tuple[str, str]] = field(default_factory=dict)
     """Part of the fingerprint → recorded value, value here; only parts that differ."""
+    other_program: str = ""
+    """How the program that recorded the match differs from this one, and which one would verify it; empty if it does
+    not differ."""
     difference: Discrepancy | None = None
     left_out: list[SkippedTicks] = field(default_factory=list)
     without_world: int = 0

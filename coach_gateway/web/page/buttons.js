@@ -15,8 +15,8 @@ const FOR_SIDES = [...RESTARTS, ["goal", "Goal +"], ["cancel_goal", "Goal −"]]
 const sided = ([action, text]) => ["cyan", "magenta"].map((side) => ({ text, action, side }));
 
 /**
- * Title → rows of buttons: `text`, the referee's `action` or an `order`, its `side`, `robot` if it is about one, and
- * `press` if one press is not enough.
+ * Title → rows of buttons: `text`, the referee's `action`, an `order` or what to do with the referee's `seat`, its `side`,
+ * `robot` if it is about one, and `press` if one press is not enough.
  */
 const GROUPS = [
   [
@@ -60,6 +60,10 @@ const GROUPS = [
     "Match",
     [
       [
+        { text: "Take over", seat: "take" },
+        { text: "Leave", seat: "leave" },
+      ],
+      [
         { text: "End half", action: "end_half", press: onSecondPress },
         { text: "End match", action: "end_game", press: onHold },
       ],
@@ -69,6 +73,8 @@ const GROUPS = [
 
 /** What people may do while a referee box commands the match. */
 const BESIDE_A_BOX = ["stop", "name_robot"];
+
+const deedOf = ({ action, seat }) => (seat ? "referee_seat" : (action ?? "order"));
 
 export class Buttons {
   #buttons = [];
@@ -91,16 +97,17 @@ export class Buttons {
   }
 
   /** Why a button cannot be pressed; null when it can. */
-  why({ action, order, side, robot }) {
+  why(row) {
+    const { action, seat, side, robot } = row;
     const { match, selection } = this;
     if (!match.live) return "this is a recording";
-    const deed = action ?? "order";
+    const deed = deedOf(row);
     const of = side ?? (robot && selection.robot ? match.sideOf(selection.robot) : null);
     if (!match.may(deed, of)) {
       return match.role === "spectator" ? "spectators watch; a token lets you command" : `not for the coach of ${match.role}`;
     }
     if (!match.hostThere) return "the host is away";
-    if (action && !BESIDE_A_BOX.includes(action) && match.refbox.connected) return "the referee box commands the match";
+    if ((seat || (action && !BESIDE_A_BOX.includes(action))) && match.refbox.connected) return "the referee box commands the match";
     return robot && !selection.robot ? "choose a robot first" : null;
   }
 
@@ -111,7 +118,7 @@ export class Buttons {
       const why = this.why(row);
       button.disabled = why !== null;
       button.title = why ?? (row.press === onHold ? "hold it down for a second" : "");
-      show(button, match.may(row.action ?? "order", row.side ?? null));
+      show(button, match.may(deedOf(row), row.side ?? null));
     }
     for (const group of this.#groups) show(group, [...group.querySelectorAll("[data-action]")].some((button) => !button.hidden));
     if (match.setup !== null) {
@@ -154,7 +161,7 @@ export class Buttons {
       {
         type: "button",
         class: [row.side, row.looks].filter(Boolean).join(" "),
-        data: { action: row.action ?? `${row.order}_order`, side: row.side ?? "" },
+        data: { action: row.action ?? (row.seat ? `${row.seat}_seat` : `${row.order}_order`), side: row.side ?? "" },
         aria: row.side ? { label: `${row.text}, ${row.side}` } : {},
       },
       row.text,
@@ -164,7 +171,8 @@ export class Buttons {
     return button;
   }
 
-  #ask(source, { text, action, order, side = null, robot }) {
+  #ask(source, { text, action, order, seat, side = null, robot }) {
+    if (seat) return this.requests.ask(source, text, "referee_seat", { operation: seat });
     if (order) return this.requests.ask(source, `${text}, ${side}`, "order", { side, order: { mode: order } });
     const asked = { action };
     if (side) asked.side = side;

@@ -1,4 +1,4 @@
-// The health of the host, its recorders and each robot's program, and how fast this page draws.
+// The numbers of the match, the health of the host, its recorders and each robot's program, and how fast this page draws.
 
 import { byId, element, setText } from "./elements.js";
 
@@ -22,20 +22,28 @@ const LINES = [
   ["commands missed, of all robots", ({ health }) => String(sum(Object.values(health.robots).map(({ missed }) => missed)))],
 ];
 
+/** Label → its text, from the setup. */
+const NUMBERS = [
+  ["profile", ({ profile, profile_version: version }) => versionedName(profile, version)],
+  ["rules", ({ rules, rules_version: version }) => versionedName(rules, version)],
+];
+
 export class HealthPanel {
   #values = [];
 
   constructor(match, pitchCanvas) {
     Object.assign(this, { match, pitchCanvas });
     this.#values = LINES.map(([word, text]) => ({ text, ...this.#line(word) }));
+    this.numbers = NUMBERS.map(([word, text]) => ({ text, ...this.#line(word) }));
     this.drawing = this.#line("this page draws");
-    byId("health").append(...this.#values.map(({ row }) => row), this.drawing.row);
+    byId("health").append(...[...this.numbers, ...this.#values].map(({ row }) => row), this.drawing.row);
     match.on("health welcome", () => this.update());
     setInterval(() => setText(this.drawing.value, `${pitchCanvas.rate} frames per second`), EVERY_MS);
   }
 
   update() {
-    const { health } = this.match;
+    const { health, setup } = this.match;
+    for (const { text, value } of this.numbers) setText(value, setup ? text(setup) : "–");
     for (const { text, value } of this.#values) setText(value, health ? text({ health }) : "–");
     const table = byId("programs");
     const names = Object.keys(health?.robots ?? {});
@@ -66,5 +74,8 @@ function recorderWords(recorders) {
   if (all.length === 0) return "none, so nothing is recorded";
   return all.map(([name, behind]) => (behind > 5 ? `${name} is ${behind} ticks behind` : `${name} keeps up`)).join(", ");
 }
+
+/** Name and version of a profile or a rule book; a file of the user has no version unless it states one. */
+const versionedName = (name, version) => (version ? `${name} (version ${version})` : name);
 
 const sum = (values) => values.reduce((all, value) => all + value, 0);

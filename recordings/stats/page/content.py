@@ -14,6 +14,7 @@ from recordings.stats.page.game_history import GameHistory
 from recordings.stats.page.shot_lines import end_of_shot
 from recordings.stats.table import ROBOT_HEADINGS, remarks, robot_rows, side_rows
 from recordings.stats.tracks import Tracks
+from schemas.config.number_files import versioned_name
 from schemas.game import EventKind
 from schemas.messages.game import GameEvent
 from schemas.messages.setup import Setup
@@ -62,7 +63,9 @@ def content_of(
 def _about(manifest: Manifest, setup: Setup) -> list[str]:
     """Profile, rules, pace and seed of the match, for display."""
     seed = f"seed {manifest.config.seed}" if manifest.config is not None else None
-    facts = (f"profile {setup.profile}", f"rules {setup.rules}", f"pace {setup.pace}", seed)
+    profile = versioned_name(setup.profile, setup.profile_version)
+    rules = versioned_name(setup.rules, setup.rules_version)
+    facts = (f"profile {profile}", f"rules {rules}", f"pace {setup.pace}", seed)
     return [fact for fact in facts if fact is not None]
 
 

@@ -52,8 +52,8 @@ _TURNS = 4.0
 """m before the dribble point, where the robot begins to turn to the goal; until then its body shields the ball."""
 _BALL_ROOM = 0.1
 """m of air to opponents, for the ball before the robot."""
-_RESTART_SPEED = 3.0
-"""m/s of the ball kicked at a restart, at most."""
+_RESTART_ROLLS = 8.0
+"""m that the ball of a restart rolls, at most, if no robot takes it before."""
 _KICK_OFF_TO = (0.2, -1.0)
 """m; target of a kick-off: softly to the side, and the taker follows."""
 _KICK_OFF_ROLLS = 2.5
@@ -217,9 +217,10 @@ class NuBot(Player):
         if not belief.holding:
             motion = step_in(belief.me, ball.now[:2], target, self.setup, self.limits)
             return Action(PLAYS, "step in", motion, dribble=True)
-        mode, speed = KickMode.GROUND, min(pass_speed(math.dist(spot, target), self.setup), _RESTART_SPEED)
+        slowly = pass_speed(_RESTART_ROLLS, self.setup, arriving=0.0)
+        mode, speed = KickMode.GROUND, min(pass_speed(math.dist(spot, target), self.setup), slowly)
         if belief.game.phase is TeamPhase.OUR_KICK_OFF:
-            speed = self._rolling.speed_to_arrive(0.0, _KICK_OFF_ROLLS)
+            speed = pass_speed(_KICK_OFF_ROLLS, self.setup, arriving=0.0)
         if belief.game.phase is TeamPhase.OUR_PENALTY:
             mode, speed = KICK.mode, KICK.speed
         motion, kick = kick_at(belief.me, target, speed, _RESTART_ERROR, self.limits, mode)

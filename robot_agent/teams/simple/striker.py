@@ -10,12 +10,11 @@ from robot_agent.skills.dribble_to import dribble_to
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.keep_off import inside
 from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import EASE, best_receiver, is_open, pass_to
+from robot_agent.skills.pass_to import EASE, best_receiver, is_open, pass_speed, pass_to
 from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.teams.action import Action
 from robot_agent.teams.simple.roles import Role
 from robot_agent.world_model import Teammate, places_of
-from schemas.config.rolling import Rolling
 from schemas.config.sections import Pitch
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.setup import Setup
@@ -125,7 +124,7 @@ def _can_knock_on(situation: StrikerSituation, ball: Point, setup: Setup) -> boo
 
 def _knock_on(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
     """Leave a duel: kick the ball past the opponent, and follow it."""
-    speed = Rolling.of(setup.ball).speed_to_arrive(0.0, 2.0 * KNOCK_ON)
+    speed = pass_speed(2.0 * KNOCK_ON, setup, arriving=0.0)
     motion = drive(situation.me, situation.me.vx, situation.me.vy, 0.0, limits)
     kick = Kick(mode=KickMode.GROUND, speed=speed)
     return Action(Role.STRIKER, "knock on", motion, dribble=True, kick=kick)

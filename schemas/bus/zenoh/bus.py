@@ -112,7 +112,8 @@ class ZenohBus(Bus):
 
     def declare_alive(self, kind: PresenceKind, name: str) -> None:
         key = self._context.prefix + TOPICS["alive"].fill(kind=kind, name=name)
-        self._tokens[key] = self._open().session.liveliness().declare_token(key)
+        if key not in self._tokens:
+            self._tokens[key] = self._open().session.liveliness().declare_token(key)
 
     def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         self._open()

@@ -1,7 +1,8 @@
 """The play since START: touches of the ball, the side in control, and received passes.
 
-A touch is a contact, a hold or a kick, as the world reports it. A side gains control when one of its robots holds or
-kicks the ball, or touches it while no side has control. A ball that bounces off an opponent does not change control.
+A touch is a contact, a hold or a kick, as the world reports it, in the order of time and force. A side gains control
+when one of its robots holds or kicks the ball, or touches it while no side has control. A ball that bounces off an
+opponent does not change control.
 """
 
 import math
@@ -43,6 +44,8 @@ class Play(NamedTuple):
     """Since then, a teammate has received a pass in the opponents' half, after the free roll that the book requires."""
     rolled: float = 0.0
     """m; straight free roll of the last pass that a teammate has received, in either half."""
+    level: tuple[str, ...] = ()
+    """Robots of both sides whose last touches were at the same time and equally hard; empty if one was the last."""
 
     def of(self, side: Side) -> Touch | None:
         """The last touch of a side."""
@@ -62,6 +65,8 @@ def play_after(match: MatchConstants, before: Play, cyan_attacks: int, snapshot:
     now = before
     for name in snapshot.touches:
         now = _touched(match, now, cyan_attacks, snapshot, name)
+    if snapshot.level and len({match.roster.side_of(name) for name in snapshot.level}) > 1:
+        return now._replace(level=snapshot.level)
     return now
 
 

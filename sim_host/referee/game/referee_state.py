@@ -75,6 +75,11 @@ class RefereeState(NamedTuple):
         return touch.robot if touch is not None else None
 
     @property
+    def level_touches(self) -> tuple[str, ...]:
+        """Robots of both sides that last touched the ball at the same time; empty if one of them was the last."""
+        return self.evidence.play.level
+
+    @property
     def clock(self) -> float:
         """Playing time of this half and those before it."""
         return self.timing.clock

@@ -13,6 +13,7 @@ from schemas.config.obstacle import Shape
 from schemas.frames import rotate
 from schemas.game import Phase
 from sim_host.referee.areas import in_a_penalty_area
+from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.restart import Restart, Spot
 from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import ObstacleState, Snapshot
@@ -33,16 +34,22 @@ _LINES: Mapping[Phase, tuple[float, ...]] = {
     Phase.PENALTY: _ALONG_Y,
     Phase.THROW_IN: _ALONG_X,
 }
-"""Restart → the bearings along which its spot is moved if possible, rad in the field frame."""
+"""Restart → the bearings along which its spot is moved if possible, rad, as the restart's side sees the field."""
 
 
-def clear_restart(match: MatchConstants, snapshot: Snapshot, restart: Restart) -> Restart:
-    """The restart, moved to the nearest spot without an obstacle if necessary."""
+def clear_restart(match: MatchConstants, state: RefereeState, snapshot: Snapshot, restart: Restart) -> Restart:
+    """The restart, moved to the nearest spot without an obstacle if necessary.
+
+    Of two equally near spots it is the one that comes first as the restart's side sees the field, and at a drop ball
+    the side that kicked off this half (ours).
+    """
     if has_room(match, snapshot, restart.spot):
         return restart
-    lines = _LINES.get(restart.phase, ())
+    is_turned = match.book.restarts.ties == "fair" and state.attack(restart.side or state.kick_off) < 0
+    forward = math.pi if is_turned else 0.0
+    lines = tuple([bearing + forward for bearing in _LINES.get(restart.phase, ())])
     for room in (match.ball.radius + 2.0 * max(match.reaches, default=0.0), match.ball.radius):
-        for bearings in (lines, _all_bearings(restart.spot)):
+        for bearings in (lines, _all_bearings(restart.spot, forward)):
             for spot in _around(match, restart.spot, bearings):
                 if clearance(snapshot, spot) >= room:
                     return restart._replace(spot=spot)
@@ -68,9 +75,12 @@ def _to_hull(obstacle: ObstacleState, spot: Spot) -> float:
     return math.hypot(max(away_x, 0.0), max(away_y, 0.0))
 
 
-def _all_bearings(spot: Spot) -> tuple[float, ...]:
-    """All bearings, beginning with the one toward the centre of the field, alternately to both sides."""
-    inward = math.atan2(-spot[1], -spot[0]) if spot != (0.0, 0.0) else 0.0
+def _all_bearings(spot: Spot, forward: float) -> tuple[float, ...]:
+    """All bearings, beginning with the one toward the centre of the field, alternately to both sides.
+
+    From the centre itself, they begin with `forward`.
+    """
+    inward = math.atan2(-spot[1], -spot[0]) if spot != (0.0, 0.0) else forward
     turns = [(step + 1) // 2 * (1 if step % 2 else -1) for step in range(_BEARINGS)]
     return tuple([inward + turn * math.tau / _BEARINGS for turn in turns])
 

@@ -3,8 +3,8 @@
 Yellow cards of one robot add up to a suspension, and then to a red card. A robot off the field stands beyond the
 boundary, and its commands have no effect. Suspensions count in playing time, repairs and substitutions also while the
 clock is stopped. When the time is up, the robot comes back by itself at the next stoppage, at its side's right touch
-line, where there is room. A robot whose agent does not answer is taken off the field, and comes back when the agent
-answers again. A robot that people have parked comes back when they request it.
+line, where there is room, one of each side in a tick. A robot whose agent does not answer is taken off the field, and
+comes back when the agent answers again. A robot that people have parked comes back when they request it.
 
 Section: misconduct; repair and substitution.
 Measures: cards of each robot, red cards of each side, the time off the field, and the time for which an agent has not
@@ -153,14 +153,15 @@ def advance(draft: RulingDraft) -> None:
                 take_out(draft, RULE, name, Absence(OffField.SILENT))
     if not draft.state.participation.absences or draft.state.running:
         return
-    arrived = False
-    for name in draft.match.roster.names:
+    each_side = draft.book.restarts.ties == "fair"
+    arrived: set[Side] = set()  # one in a tick: the next snapshot shows where it is, and where there is room
+    for name, side in zip(draft.match.roster.names, draft.match.roster.sides, strict=True):
         absence = draft.state.participation.absences.get(name)
-        if absence is None or absence.why in WAITS_FOR_PEOPLE or arrived:
+        if absence is None or absence.why in WAITS_FOR_PEOPLE or side in arrived:
             continue
         if why_stays_out(draft, name) is None:
             bring_back(draft, RULE, name)
-            arrived = True  # one in a tick: the next snapshot shows where it is, and where there is room
+            arrived |= {side} if each_side else {*Side}
 
 
 def for_next_half(participation: Participation, book: Discipline) -> Participation:

@@ -14,6 +14,7 @@ Not judged: which side wasted the time.
 """
 
 import math
+from collections.abc import Sequence
 
 from schemas.config.rule_book import Restarts
 from schemas.game import Card, EventKind, GameStage, OfficiatingMode, Phase
@@ -21,11 +22,13 @@ from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.referee.game import set_piece
 from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.clear_ground import clear_restart
 from sim_host.referee.placement.legal_poses import legal_poses
 from sim_host.referee.placement.positions import PositionFault, is_spot_covered, position_faults
 from sim_host.referee.procedures import advantage, discipline, offences
 from sim_host.referee.ruling_draft import RulingDraft
+from sim_host.referee.situation import Situation
 from sim_host.referee.wording import restart_text
 
 RULE = "restart"
@@ -59,7 +62,7 @@ def signal(draft: RulingDraft, restart: Restart) -> None:
     placed beside it.
     """
     state, meant = draft.state, restart
-    restart = clear_restart(draft.match, draft.snapshot, meant)
+    restart = clear_restart(draft.match, draft.state, draft.snapshot, meant)
     if not is_spot_covered(draft.match, state, restart.spot, draft.snapshot):
         draft.place_ball(restart.spot)
     draft.state = state._replace(
@@ -128,7 +131,7 @@ def from_spot(draft: RulingDraft, restart: Restart) -> float:
 def _before_start(draft: RulingDraft, restart: Restart) -> None:
     """Between signal and START: keep the ball on its spot, and give START as soon as all positions are legal."""
     numbers, timer = draft.book.restarts, draft.state.timing.timer
-    if clear_restart(draft.match, draft.snapshot, restart) != restart:
+    if clear_restart(draft.match, draft.state, draft.snapshot, restart) != restart:
         signal(draft, restart)  # again, beside an obstacle that was added meanwhile
         return
     on_spot = from_spot(draft, restart) <= numbers.drift
@@ -152,9 +155,9 @@ def _latest_start(numbers: Restarts) -> float:
     return earliest + numbers.positions_limit
 
 
-def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[PositionFault, ...]) -> None:
+def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: Sequence[PositionFault]) -> None:
     """START when the positions limit is over: name robots in wrong positions, move them or show them a card."""
-    numbers = draft.book.restarts
+    numbers, wrong = draft.book.restarts, _nearest_last(draft, wrong)
     poses = legal_poses(draft.match, draft.state, restart, draft.snapshot, wrong) if numbers.moves_offenders else []
     for place, fault in enumerate(wrong):
         robot = draft.snapshot.robots[draft.match.roster.names.index(fault.robot)]
@@ -177,6 +180,18 @@ def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[Positi
         if is_card and draft.match.mode is OfficiatingMode.AUTOMATIC:
             discipline.show_card(draft, POSITIONS, fault.robot, Card.YELLOW)
     start(draft, restart, f", although {wrong[0].text}" if wrong else "")
+
+
+def _nearest_last(draft: RulingDraft, wrong: Sequence[PositionFault]) -> Sequence[PositionFault]:
+    """The faults in an order that is the same for both sides: the robot nearest to the ball is the last offender."""
+    places, robots, ball = draft.match.roster.names, draft.snapshot.robots, draft.snapshot.ball
+    indices = {fault: places.index(fault.robot) for fault in wrong}
+
+    def away(fault: PositionFault) -> float:
+        robot = robots[indices[fault]]
+        return (robot.x - ball.x) ** 2 + (robot.y - ball.y) ** 2
+
+    return worst_first(Situation(draft.match, draft.state, draft.snapshot, None), wrong, away, indices.__getitem__)
 
 
 def _before_play(draft: RulingDraft, restart: Restart) -> None:

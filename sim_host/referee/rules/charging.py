@@ -18,6 +18,7 @@ from schemas.game import Card, Phase
 from sim_host.referee.areas import in_penalty_area
 from sim_host.referee.evidence.shoves import own_speed
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.situation import Situation
 from sim_host.snapshot import Impact
@@ -45,11 +46,14 @@ def judge(situation: Situation) -> Decision | None:
     """A free kick or a penalty for the other side, or None."""
     if not is_called(situation, "charging"):
         return None
-    for impact in situation.snapshot.impacts:
-        charge = _charge(situation, impact)
-        if charge is not None and not _plays_ball(situation, charge):
-            return _decision(situation, charge)
-    return None
+    charges = [
+        charge
+        for impact in situation.snapshot.impacts
+        if (charge := _charge(situation, impact)) is not None and not _plays_ball(situation, charge)
+    ]
+    if not charges:
+        return None
+    return _decision(situation, worst_first(situation, charges, lambda one: one.speed, lambda one: one.offender)[0])
 
 
 def _charge(situation: Situation, impact: Impact) -> Charge | None:

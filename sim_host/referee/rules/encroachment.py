@@ -14,6 +14,7 @@ Not judged: penalties, which have positions of their own; whether the encroachme
 from schemas.game import EventKind
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.set_piece import Intrusion
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.positions import distance_violations
 from sim_host.referee.rules.foul import CARDS, exceeds
 from sim_host.referee.rules.set_piece_foul import being_taken, given_away
@@ -26,7 +27,7 @@ def judge(situation: Situation) -> Decision | None:
     if piece is None or not piece.intrusions or not is_encroachment_judged(situation.match, situation.state):
         return None
     roster, numbers = situation.match.roster, situation.match.book.restarts
-    for intrusion in piece.intrusions:
+    for intrusion in worst_first(situation, piece.intrusions, lambda one: one.depth, lambda one: one.robot):
         if not _encroaches(intrusion, numbers.encroach_margin, numbers.encroach_retreat):
             continue
         name, side = roster.names[intrusion.robot], roster.sides[intrusion.robot]

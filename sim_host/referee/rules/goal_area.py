@@ -11,6 +11,7 @@ Not judged: whether it was pushed there; a hull that reaches over the line.
 """
 
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.situation import Situation
 
@@ -18,7 +19,7 @@ from sim_host.referee.situation import Situation
 def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side, at the restart spot nearest to the area, or None."""
     stays, limit = situation.state.evidence.stays.robots, situation.match.book.areas.goal_area_duration
-    for stay in stays:
+    for stay in worst_first(situation, stays, lambda stay: stay.lasted, lambda stay: stay.robot):
         if stay.inside and exceeds(stay.lasted, limit) and is_called(situation, "goal_area"):
             roster, robot = situation.match.roster, situation.snapshot.robots[stay.robot]
             defends = situation.state.attack(roster.sides[stay.robot]) != stay.end

@@ -3,8 +3,9 @@
 A ball that the attackers kicked from their own half and that grazes a defender on its way out is also a goal kick.
 
 Section: restarts, corner and goal kick; play, scoring.
-Measures: the place where the whole ball had passed the line, the robot that touched it last, and the place of the ball
-at the last touch of the side that held or kicked it last.
+Measures: the place where the whole ball had passed the line, the robot that touched it last, by time and force, and the
+place of the ball at the last touch of the side that held or kicked it last. A ball that both sides touched at the same
+time and equally hard (ours), or no robot since START, is dropped.
 Not judged: whether a defender intended to touch the ball; one that held or kicked it did.
 """
 
@@ -18,11 +19,11 @@ from sim_host.referee.situation import Line, Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A corner, a goal kick, a drop ball if no robot has touched the ball, or None."""
+    """A corner, a goal kick, a drop ball if neither side touched the ball last, or None."""
     crossing, robot = situation.crossing, situation.state.last_touch
     if crossing is None or crossing.line is not Line.GOAL or is_in_goal(situation, crossing):
         return None
-    if robot is None:
+    if robot is None or situation.state.level_touches:
         return ball_out(situation, crossing, Phase.DROP_BALL, None)
     side = situation.match.roster.side_of(robot)
     if situation.state.attack(side) * crossing.x > 0:

@@ -8,6 +8,7 @@ Not judged: why it left, and whether it was pushed out; robots that are off the 
 
 from sim_host.referee.evidence.zones import is_outside
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.situation import Situation
 
@@ -15,7 +16,8 @@ from sim_host.referee.situation import Situation
 def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side where the ball is, or None."""
     limit = situation.match.book.contact.outside_duration
-    for index, lasted in situation.state.evidence.outside:
+    outside = situation.state.evidence.outside
+    for index, lasted in worst_first(situation, outside, lambda one: one[1], lambda one: one[0]):
         name, robot = situation.match.roster.names[index], situation.snapshot.robots[index]
         if (
             exceeds(lasted, limit)

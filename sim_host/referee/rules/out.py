@@ -5,18 +5,21 @@ from schemas.side import Side
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.situation import Crossing, Situation
-from sim_host.referee.wording import last_touch_text, place_text
+from sim_host.referee.wording import last_touch_text, level_touch_text, place_text
 
 
 def ball_out(situation: Situation, crossing: Crossing, phase: Phase, taker: Side | None) -> Decision:
     """The decision on a ball that is out: a restart of `taker`, or of neither side if it is None."""
-    robot = situation.state.last_touch
+    level = situation.state.level_touches
+    robot = situation.state.last_touch if not level else None
     place = (crossing.x, crossing.y)
+    touched = level_touch_text(level) if level else last_touch_text(robot)
     return Decision(
         kind=EventKind.BALL_OUT,
-        text=f"ball out over the {crossing.line.value} at {place_text(place)}, {last_touch_text(robot)}",
+        text=f"ball out over the {crossing.line.value} at {place_text(place)}, {touched}",
         restart=restart_at(situation.match, situation.state, phase, taker, place),
         side=situation.match.roster.side_of(robot) if robot is not None else None,
         robot=robot,
+        robots=level,
         place=place,
     )

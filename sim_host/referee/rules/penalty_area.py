@@ -12,9 +12,11 @@ Not judged: whether a robot was pushed there.
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 from sim_host.referee.evidence.stays import Crowd, Stay
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.situation import Situation
 
@@ -33,7 +35,12 @@ def _first(situation: Situation, crowds: Sequence[Crowd]) -> Crowd:
     """The crowd to call: where each robot has a clock, the oldest; of two as old, that nearer to the ball, attackers
     before defenders, so that neither colour is preferred."""
     if not situation.match.book.areas.penalty_area_stay:
-        return crowds[0]
+        return worst_first(
+            situation,
+            crowds,
+            lambda crowd: crowd.lasted,
+            lambda crowd: min(crowd.robots, key=partial(_from_ball, situation)),
+        )[0]
     ball = situation.snapshot.ball
     return min(
         crowds, key=lambda crowd: (-crowd.lasted, -crowd.end * ball.x, _defends(situation, crowd.robots[0], crowd.end))
@@ -57,7 +64,8 @@ def _too_many(situation: Situation, crowd: Crowd) -> Decision:
 
 def _too_long(situation: Situation, visits: Sequence[Stay]) -> Decision:
     limit = situation.match.book.areas.penalty_area_stay
-    visit = max(visits, key=lambda visit: (visit.lasted, _from_ball(situation, visit.robot)))
+    in_order = worst_first(situation, visits, lambda visit: visit.lasted, lambda visit: visit.robot)
+    visit = max(in_order, key=lambda visit: (visit.lasted, _from_ball(situation, visit.robot)))
     name = situation.match.roster.names[visit.robot]
     text = (
         f"{_offence(situation, visit.robot, visit.end)}: {name} in a penalty area for {visit.lasted:.1f} s, "

@@ -39,7 +39,7 @@ def judge(situation: Situation) -> Decision | None:
     sides = {sign: [stray for stray in piece.strays if _side(situation, stray) is sign] for sign in Side}
     attackers, defenders = sides[side], sides[side.opponent]
     if attackers and defenders:
-        return _decision(situation, piece.strays, "it is taken again", piece.restart, card=False)
+        return _decision(situation, [*attackers, *defenders], "it is taken again", piece.restart, card=False)
     if defenders:
         return None if scored else _decision(situation, defenders, "no goal, the penalty is taken again", piece.restart)
     if scored:

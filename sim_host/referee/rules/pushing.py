@@ -10,7 +10,9 @@ Not judged: intent, and the right to the ball; the robot that moves the other is
 
 from schemas.game import Phase
 from sim_host.referee.areas import in_penalty_area
+from sim_host.referee.evidence.pushes import Push
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.situation import Situation
 
@@ -18,11 +20,13 @@ from sim_host.referee.situation import Situation
 def judge(situation: Situation) -> Decision | None:
     """A free kick or a penalty for the other side, or None."""
     limit = situation.match.book.contact.push_distance
-    for push in situation.state.evidence.pushes:
+    pushes = situation.state.evidence.pushes
+    for push in worst_first(situation, pushes, lambda push: abs(push.way), _offender):
         if not exceeds(abs(push.way), limit) or not is_called(situation, "pushing"):
             continue
         roster, way = situation.match.roster, abs(push.way)
-        offender, victim = (push.first, push.second) if push.way > 0 else (push.second, push.first)
+        offender = _offender(push)
+        victim = push.second if offender == push.first else push.first
         robot = situation.snapshot.robots[offender]
         own_end = -situation.state.attack(roster.sides[offender])
         inside = in_penalty_area(situation.match.pitch, own_end, robot.x, robot.y)
@@ -42,3 +46,8 @@ def judge(situation: Situation) -> Decision | None:
             phase=Phase.PENALTY if inside else Phase.FREE_KICK,
         )
     return None
+
+
+def _offender(push: Push) -> int:
+    """The robot that moves the other."""
+    return push.first if push.way > 0 else push.second

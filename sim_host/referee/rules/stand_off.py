@@ -6,7 +6,9 @@ Not judged: which of them began.
 """
 
 from schemas.game import EventKind, Phase
+from sim_host.referee.evidence.pushes import Push
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.situation import Situation
 
@@ -14,7 +16,8 @@ from sim_host.referee.situation import Situation
 def judge(situation: Situation) -> Decision | None:
     """A drop ball where the ball is, in a penalty area at the nearest restart spot outside it, or None."""
     limit = situation.match.book.contact.stand_off_duration
-    for push in situation.state.evidence.pushes:
+    pushes = situation.state.evidence.pushes
+    for push in worst_first(situation, pushes, lambda push: push.lasted, lambda push: _nearer_to_ball(situation, push)):
         if push.lasted < limit:
             continue
         names, ball = situation.match.roster.names, situation.snapshot.ball
@@ -31,3 +34,11 @@ def judge(situation: Situation) -> Decision | None:
             unit="s",
         )
     return None
+
+
+def _nearer_to_ball(situation: Situation, push: Push) -> int:
+    """The robot of the two that is nearer to the ball."""
+    robots, ball = situation.snapshot.robots, situation.snapshot.ball
+    return min(
+        (push.first, push.second), key=lambda index: (robots[index].x - ball.x) ** 2 + (robots[index].y - ball.y) ** 2
+    )

@@ -2,8 +2,9 @@
 
 Section: restarts, throw-in.
 Measures: the place where the whole ball had passed the line, in the air or on the ground, on the straight way between
-two ticks; and the robot that touched it last. A ball that no robot has touched since START is dropped.
-Not judged: which of two robots that touched the ball in the same step intended to play it.
+two ticks; and the robot that touched it last, by time and force: in the same physics step the one that pressed harder.
+A ball that both sides touched at the same time and equally hard (ours), or no robot since START, is dropped.
+Not judged: which of two robots intended to play the ball.
 """
 
 from schemas.game import Phase
@@ -13,10 +14,10 @@ from sim_host.referee.situation import Line, Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A throw-in at the crossing point, a drop ball there if no robot has touched the ball, or None."""
+    """A throw-in at the crossing point, a drop ball there if neither side touched the ball last, or None."""
     crossing, robot = situation.crossing, situation.state.last_touch
     if crossing is None or crossing.line is not Line.TOUCH:
         return None
-    if robot is None:
+    if robot is None or situation.state.level_touches:
         return ball_out(situation, crossing, Phase.DROP_BALL, None)
     return ball_out(situation, crossing, Phase.THROW_IN, situation.match.roster.side_of(robot).opponent)

@@ -1,13 +1,14 @@
 """The services of the host on the bus: one handler for each kind of request, all processed between two ticks."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
 from schemas.messages.game import ActionReply, RefereeAction
-from schemas.topics import PARAMETERS, SCENE, SETUP
+from schemas.topics import PARAMETERS, REFEREE_SEAT, SCENE, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.referee_seat import RefereeSeat
 from sim_host.server.services.action_handler import ActionHandler
 from sim_host.server.services.order_handler import OrderHandler
 from sim_host.server.services.query_handler import QueryHandler
@@ -25,15 +26,15 @@ class Services:
         simulation: Simulation,
         invalid_log: InvalidLog,
         batches: BatchPublisher,
-        has_referee_box: Callable[[], bool],
+        seat: RefereeSeat,
     ) -> None:
-        """`has_referee_box` returns whether a league's referee box is connected, which then officiates alone."""
         self._batches = batches
         self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup().model_copy(update=_CLAIMS), invalid_log)
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
+        self._seat = QueryHandler(bus, REFEREE_SEAT, seat.handle, invalid_log)
         self._orders = OrderHandler(bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches)
-        self._actions = ActionHandler(bus, invalid_log, has_referee_box)
+        self._actions = ActionHandler(bus, invalid_log, seat)
 
     @property
     def actions(self) -> Sequence[RefereeAction]:
@@ -45,7 +46,7 @@ class Services:
 
         Orders come first: a client that queries the setup after sending an order sees the order in the reply.
         """
-        for handler in (self._orders, self._parameters, self._scene, self._setup, self._actions):
+        for handler in (self._orders, self._parameters, self._scene, self._setup, self._seat, self._actions):
             handler.process()
         self._batches.process()
 

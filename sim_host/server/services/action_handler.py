@@ -1,34 +1,25 @@
 """The handler of referee actions: each is queued, decided in the next tick, and replied to after that tick."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from schemas.bus.contract import Bus, Query
-from schemas.game import REFBOX, ActionName
 from schemas.messages.game import ActionReply, RefereeAction
 from schemas.topics import ACTION
 from schemas.wire.message import BadMessageError
 from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.referee_seat import RefereeSeat
 
-REFEREE_BOX_DECIDES = ActionReply(
-    accepted=False,
-    reason="a league's referee box is connected and officiates; only stop, and name robot when it is asked for, are "
-    "accepted",
-)
-_UNLOCKED = (ActionName.STOP, ActionName.NAME_ROBOT)
-"""Actions of other clients while a referee box officiates."""
+_UNNAMED = {"referee": None}
+"""What the referee is given of its senders, and recordings with it: their names for display alone."""
 
 
 class ActionHandler:
-    """Queues requested actions.
+    """Queues requested actions of the referee that holds the seat, and those that need no seat."""
 
-    While a league's referee box officiates, other clients may only stop the game, and name robots that it asks for.
-    """
-
-    def __init__(self, bus: Bus, invalid_log: InvalidLog, has_referee_box: Callable[[], bool]) -> None:
-        """`has_referee_box` returns whether a referee box is connected."""
+    def __init__(self, bus: Bus, invalid_log: InvalidLog, seat: RefereeSeat) -> None:
         self._server = bus.serve(ACTION)
         self._invalid_log = invalid_log
-        self._has_referee_box = has_referee_box
+        self._seat = seat
         self._pending: list[Query] = []
         self.actions: list[RefereeAction] = []
         """Requested actions, which the referee decides on in the next tick."""
@@ -42,10 +33,11 @@ class ActionHandler:
                 self._invalid_log.add(query.key, str(error), query.payload)
                 query.fail(str(error))
                 continue
-            if self._has_referee_box() and action.source != REFBOX and action.action not in _UNLOCKED:
-                query.reply(REFEREE_BOX_DECIDES)
+            reason = self._seat.refusal(action)
+            if reason is not None:
+                query.reply(ActionReply(accepted=False, reason=reason))
             else:
-                self.actions.append(action)
+                self.actions.append(action.model_copy(update=_UNNAMED))
                 self._pending.append(query)
 
     def reply(self, replies: Sequence[ActionReply]) -> None:

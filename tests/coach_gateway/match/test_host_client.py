@@ -4,7 +4,7 @@ import pytest
 
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
-from schemas.bus.contract import Bus
+from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
@@ -69,6 +69,23 @@ def test_an_action_reaches_the_referee_and_its_answer_comes_back(
     assert [(action.action, action.side) for action in host] == [
         (ActionName.STOP, None),
         (ActionName.CORNER, Side.MAGENTA),
+    ]
+
+
+def test_all_requests_of_one_connection_are_of_one_referee_that_is_present_with_it(
+    medium: SharedState, host: list[RefereeAction]
+) -> None:
+    watch, first, second = seat(medium).watch_alive(), seat(medium), seat(medium)
+    for client in (HostClient(first), HostClient(first), HostClient(second)):
+        client.act(RefereeAction(action=ActionName.STOP))
+    page, program, other = (action.referee for action in host)
+    assert page == program != other
+    first.close()
+    seen = [presence for _ in range(3) if (presence := watch.receive()) is not None]
+    assert [(one.kind, one.name, one.alive) for one in seen] == [
+        (PresenceKind.REFEREE, page, True),
+        (PresenceKind.REFEREE, other, True),
+        (PresenceKind.REFEREE, page, False),
     ]
 
 

@@ -557,7 +557,7 @@ def test_match_file_profile_rules_and_whole_schemas_are_attached(recorded):
         "match.json",
         "message_schemas.json",
         "profile.json",
-        "rules.toml",
+        "rules.json",
     ]
     assert b'"$defs"' in recorded.attachments["message_schemas.json"]
     assert b'"seed":7' in recorded.attachments["match.json"]

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from recordings.stats.aim import GRAVITY, NEAR_MISS_M, Aim, aim
+from schemas.config.kicked import Kicked
 from schemas.messages.world import BallTruth
 
 HALF_GOAL_LINE = 11.0
@@ -40,13 +41,17 @@ def test_away_from_the_goal_and_behind_the_line_is_elsewhere(aimed) -> None:
 
 
 def test_a_ball_that_comes_to_rest_before_the_line_is_not_aimed_at_it(aimed, script) -> None:
-    """A ball that loses a + k·v² in m/s² rolls ln(1 + k·v²/a) / 2k."""
+    """A ball that flies first and loses a + k·v² in m/s² rolls ln(1 + k·v²/a) / 2k; a kicked one slides first."""
     ball, distance = script.setup.ball, script.setup.pitch.goal_line
     area = math.pi * ball.radius**2
     k = 0.5 * ball.air_density * ball.rolling_drag_coefficient * area / (ball.mass + ball.inertia / ball.radius**2)
     enough = math.sqrt(ball.rolling_deceleration * (math.exp(2 * k * distance) - 1) / k)
-    assert aimed(vx=1.01 * enough) is Aim.AT_GOAL
-    assert aimed(vx=0.99 * enough) is Aim.ELSEWHERE
+    assert aimed(vx=1.01 * enough, vz=0.5) is Aim.AT_GOAL
+    assert aimed(vx=0.99 * enough, vz=0.5) is Aim.ELSEWHERE
+    slides = Kicked.of(ball, script.setup.kicker).speed_to_arrive(0.0, distance)
+    assert slides > 1.5 * enough
+    assert aimed(vx=1.01 * slides) is Aim.AT_GOAL
+    assert aimed(vx=0.99 * slides) is Aim.ELSEWHERE
 
 
 def test_a_lob_is_over_the_bar_while_it_flies_and_below_it_when_it_has_landed(aimed, pitch) -> None:

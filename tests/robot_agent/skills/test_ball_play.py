@@ -13,6 +13,7 @@ from robot_agent.skills.line_up import behind, line_up
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_speed
 from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.skills.take_ball import front_of_holder, take_ball
+from schemas.config.kicked import Kicked
 from schemas.config.rolling import Rolling
 
 GAP = 0.35
@@ -116,11 +117,10 @@ def test_a_kick_is_aimed_with_the_heading_of_the_next_tick(limits):
 
 
 def test_a_pass_arrives_with_the_speed_it_is_meant_to(setup):
-    start = Ball(0.0, 0.0, pass_speed(5.0, setup), 0.0)
-    time = 0.0
-    while start.after(time, Rolling.of(setup.ball)).x < 5.0:
+    kicked, speed, time = Kicked.of(setup.ball, setup.kicker), pass_speed(5.0, setup), 0.0
+    while kicked.after(speed, time)[1] < 5.0:
         time += 0.001
-    assert start.after(time, Rolling.of(setup.ball)).vx == pytest.approx(ARRIVING, abs=0.01)
+    assert kicked.after(speed, time)[0] == pytest.approx(ARRIVING, abs=0.01)
     assert pass_speed(1000.0, setup) == setup.kicker.max_ground_speed
 
 

@@ -307,6 +307,21 @@ def test_who_withdraws_its_token_is_seen_to_go_and_may_come_again(buses: Buses) 
         assert seen is not None and (seen.kind, seen.name, seen.alive) == ("refbox", "cyan", alive)
 
 
+def test_a_token_that_is_declared_twice_is_one_token(buses: Buses) -> None:
+    watch = buses.host.watch_alive()
+    bus = buses.join()
+    for _ in range(2):
+        bus.declare_alive("referee", "gateway_a")
+    bus.withdraw_alive("referee", "gateway_a")
+    seen = [watch.receive(SOON) for _ in range(2)]
+    assert [one.alive for one in seen if one is not None] == [True, False]
+    assert watch.is_empty()
+
+
+def test_connections_have_different_names(buses: Buses) -> None:
+    assert len({buses.host.name, buses.join().name, buses.join().name}) == 3
+
+
 def test_a_watch_begins_with_the_processes_that_are_present(buses: Buses) -> None:
     bus = buses.join()
     bus.declare_alive("recorder", "main")

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from pytest import approx
 
-from schemas.config.profile import SHIPPED, load_profile
+from schemas.config.profile import SHIPPED, load_profile, profile_of, profile_tables
 from schemas.config.quantity import Quantity, meanings
 from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.config.rule_book import SHIPPED as RULE_BOOKS
@@ -122,3 +122,53 @@ def test_an_unknown_profile_is_no_other() -> None:
         load_profile("papr")
     with pytest.raises(TouchlineError, match='did you mean "friendly"'):
         load_rule_book("freindly")
+
+
+def test_the_rule_books_of_2016_and_of_today_differ_in_what_the_sources_say() -> None:
+    then, today = load_rule_book("msl-2016"), load_rule_book("msl")
+    assert (then.discipline.suspension, today.discipline.suspension) == (120.0, 90.0)
+    assert (then.people.repair, today.people.repair) == (30.0, 20.0)
+    assert (then.people.substitutions, today.people.substitutions) == (0, 3)
+    assert then.origins["discipline.suspension"].startswith("rule book 2016")
+    assert load_rule_book("msl-2019").origins["restarts.drag_distance"].startswith("rule book 2019")
+
+
+@pytest.mark.parametrize("name", ["msl", "msl-2016", "msl-2019"])
+def test_an_origin_of_the_leagues_rule_books_names_its_source_or_is_ours(name: str) -> None:
+    sources = (
+        "rule book",
+        "the rule book",
+        "the league's referee box",
+        "ours",
+        "simatch",
+        "China simulation league 2020",
+        "Small Size League",
+        "Laws of the Game",
+    )
+    for number, origin in load_rule_book(name).origins.items():
+        assert origin.startswith(sources), number
+
+
+def test_the_pitch_of_the_rule_book_of_2016_is_in_its_profile() -> None:
+    book = load_rule_book("msl-2016")
+    assert book.profile == "msl-2016" and load_rule_book("msl-2019").profile is None
+    pitch = load_profile("msl-2016").field
+    assert (pitch.length, pitch.width, pitch.goal_width, pitch.penalty_mark) == (18.0, 12.0, 2.0, 3.0)
+    assert pitch.penalty_area_width == approx(6.5) and pitch.goal_area_width == approx(3.5)
+    assert load_profile("msl-2016").robot == load_profile("msl").robot
+
+
+@pytest.mark.parametrize("text", ["profile = 3", "profile = true"])
+def test_the_profile_of_a_rule_book_is_a_name(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(f'extends = "msl"\n{text}\n')
+    with pytest.raises(TouchlineError, match=r"mine\.toml: profile is .*; write the name of a profile"):
+        load_rule_book(str(path))
+
+
+def test_a_recorded_profile_without_an_order_of_touches_has_that_of_the_roster() -> None:
+    tables = profile_tables("msl")
+    ball = {key: number for key, number in tables["ball"].items() if not key.startswith("touch_")}
+    older = profile_of("msl", tables | {"ball": ball}, recorded=True)
+    assert (older.ball.touch_order, older.ball.touch_tie) == ("roster", 0.0)
+    assert load_profile("msl").ball.touch_order == load_profile("paper").ball.touch_order == "force"

@@ -433,6 +433,7 @@ def test_straight_from_the_own_restart_into_the_own_goal_is_a_corner(new_rig, to
     ruling = rig.tick((-rig.pitch.goal_line - 0.2, 0.5))
     assert ruling.events[0].kind is kind
     if kind is EventKind.NO_GOAL:
+        assert ruling.events[0].rule == "own_goal_kick"
         assert (rig.state.pending.phase, rig.state.pending.side) == (Phase.CORNER, MAGENTA)
 
 

@@ -105,7 +105,8 @@ def test_a_level_match_goes_to_penalties_from_the_mark_and_the_clock_stands(pena
 def test_sides_alternate_and_a_goal_of_the_shoot_out_is_none_of_the_match(penalties):
     first = penalties.state.side
     ruling = attempt(penalties, True)
-    assert ruling.events[0].kind is EventKind.SHOT and ruling.events[0].score.of(first) == 1
+    assert ruling.events[0].kind is EventKind.SHOT and ruling.events[0].rule == "shoot_out"
+    assert ruling.events[0].score.of(first) == 1
     assert penalties.state.score == Score() and penalties.state.shoot_out.goals.of(first) == 1
     assert penalties.state.pending.side is first.opponent
 

@@ -188,3 +188,37 @@ def test_a_ball_stalled_in_a_penalty_area_is_dropped_at_the_nearest_restart_spot
     rig.run(rig.book.stall.still_duration)
     expected = (end * (rig.pitch.goal_line - rig.pitch.penalty_mark), rig.pitch.touch_line / 2)
     assert rig.state.pending.spot == pytest.approx(expected)
+
+
+LEVEL = ("cyan2", "magenta3")
+
+
+@pytest.mark.parametrize("order", [LEVEL, LEVEL[::-1]])
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_a_ball_that_both_sides_touched_last_at_the_same_time_is_dropped_whatever_their_order(rig, axis, order):
+    far = (beyond(rig, "x", 0.01), 4.0) if axis == "x" else (3.0, beyond(rig, "y", 0.01))
+    rig.playing()
+    rig.tick((far[0] - 0.2 * (axis == "x"), far[1] - 0.2 * (axis == "y")), order, level=order)
+    out = rig.tick(far).events[0]
+    assert (out.kind, out.side, out.robot, out.robots) == (EventKind.BALL_OUT, None, None, list(order))
+    assert "at the same time" in out.text
+    rig.until(lambda state: state.phase not in (Phase.PLAY, Phase.STOPPED))
+    assert rig.state.phase is Phase.DROP_BALL and rig.state.side is None
+
+
+def test_a_touch_after_a_level_one_is_the_last(rig):
+    rig.playing()
+    rig.tick((3.0, beyond(rig, "y", -0.4)), LEVEL, level=LEVEL)
+    rig.tick((3.0, beyond(rig, "y", -0.2)), ["cyan2"])
+    out = rig.tick((3.0, beyond(rig, "y", 0.01))).events[0]
+    assert (out.side, out.robot) == (CYAN, "cyan2")
+    rig.until(lambda state: state.phase not in (Phase.PLAY, Phase.STOPPED))
+    assert (rig.state.phase, rig.state.side) == (Phase.THROW_IN, MAGENTA)
+
+
+def test_level_touches_of_two_mates_are_touches_of_their_side(rig):
+    rig.playing()
+    mates = ("magenta3", "magenta4")
+    rig.tick((3.0, beyond(rig, "y", -0.2)), mates, level=mates)
+    out = rig.tick((3.0, beyond(rig, "y", 0.01))).events[0]
+    assert (out.side, out.robot) == (MAGENTA, "magenta4")

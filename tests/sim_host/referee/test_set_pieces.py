@@ -187,7 +187,7 @@ def test_who_stands_wrong_at_the_limit_is_named_carded_and_moved(rig):
     assert {foul.robot: foul.measured for foul in fouls(rig)} == pytest.approx(near, abs=1e-3)
     assert {foul.limit for foul in fouls(rig)} == {3.0}
     cards = [(event.robot, event.card) for event in rig.events if event.kind is EventKind.CARD]
-    assert cards == [("magenta2", Card.YELLOW), ("magenta3", Card.YELLOW)]
+    assert sorted(cards) == [("magenta2", Card.YELLOW), ("magenta3", Card.YELLOW)]
     for name in near:
         x, y = rig.robots[name]
         assert ((x - SPOT[0]) ** 2 + (y - SPOT[1]) ** 2) ** 0.5 - rig.hull >= 3.0

@@ -230,3 +230,12 @@ def test_as_many_pictures_are_taken_in_a_second_as_ticks_allow(rate, tick, taken
     assert [shutter.tick_of(number) for number in range(len(pictures))] == pictures
     assert max(np.diff(pictures), default=1) - min(np.diff(pictures), default=1) <= 1
     assert taken in (0, round(len(pictures) / 1000))
+
+
+def test_of_two_equally_far_bodies_either_side_sees_its_teammate_first(scenery):
+    """In roster order it would be cyan's robot for both."""
+    here = scenery([(-2.0, 0.0), (0.0, 2.0), (0.0, -2.0), (2.0, 0.0)], (0.0, 5.0), 2).look()
+    to_mate = {0: (0.0, 2.0), 1: (-2.0, 0.0), 2: (-2.0, 0.0), 3: (0.0, 2.0)}
+    """Robot → its teammate in the frame of its side."""
+    for robot, place in to_mate.items():
+        assert here[robot].obstacles[0][:2] == place

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 import pytest
 from typer.testing import CliRunner, Result
 
+from coach_gateway.access.referee_name import terminal_name
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
@@ -13,7 +14,8 @@ from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from schemas.topics import ACTION, HEALTH, STATE
+from schemas.topics import ACTION, HEALTH, REFEREE_SEAT, STATE
+from sim_host.server.referee_seat import RefereeSeat
 from support.fake_host import FakeHost
 from touchline.command_line import app
 from touchline.commands import coach
@@ -34,7 +36,8 @@ class Host(FakeHost):
 
     def __init__(self) -> None:
         self.says: list[GameState | Health] = []
-        super().__init__(SharedState(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
+        answers = {ACTION: self._act, REFEREE_SEAT: RefereeSeat().handle}
+        super().__init__(SharedState(), answers=answers, clock=SteppedClock(), in_threads=True)
 
     def speak(self) -> None:
         for message in self.says:
@@ -98,7 +101,29 @@ def test_the_referees_commands_can_be_given_to_the_referee(host: Host) -> None:
     result = CliRunner().invoke(app, ["referee", "corner", "magenta"], prog_name="touchline")
     assert (result.exit_code, result.stdout) == (0, "corner accepted\n")
     assert [(action.action, action.side) for action in host.asked] == [(ActionName.CORNER, Side.MAGENTA)]
-    assert [command.name for command in coach.referee.registered_commands] == list(coach.REFEREE_COMMANDS)
+    assert [command.name for command in coach.referee.registered_commands] == [
+        *coach.REFEREE_COMMANDS,
+        *coach.SEAT_COMMANDS,
+    ]
+
+
+def test_a_terminal_keeps_its_name_as_referee_from_one_command_to_the_next(host: Host) -> None:
+    touchline("corner", "magenta")
+    touchline("stop")
+    assert {action.referee for action in host.asked} == {terminal_name()}
+
+
+def test_a_terminal_takes_shows_and_leaves_the_seat_of_the_referee(host: Host) -> None:
+    holder = f"coach ({terminal_name()}) officiates\n"
+    commands = ("seat", "take-over", "seat", "leave", "seat")
+    results = [touchline(command) for command in commands]
+    free = "the referee's seat is free\n"
+    assert [(one.exit_code, one.stdout) for one in results] == [
+        (0, output) for output in (free, holder, holder, free, free)
+    ]
+    left_again = touchline("leave")
+    assert left_again.exit_code == 1
+    assert left_again.stderr == f"touchline: refused: the seat is not held by coach ({terminal_name()})\n"
 
 
 def test_every_action_has_one_word() -> None:

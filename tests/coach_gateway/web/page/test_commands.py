@@ -4,9 +4,10 @@ import math
 
 import pytest
 
-from schemas.game import Phase
+from coach_gateway.match.host_client import HostClient
+from schemas.game import ActionName, Phase
 from schemas.messages.command import Kick, KickMode
-from schemas.messages.game import DisciplinaryRecord
+from schemas.messages.game import DisciplinaryRecord, RefereeAction
 from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import MANUAL
@@ -329,3 +330,34 @@ def test_while_a_referee_box_commands_all_buttons_are_locked_but_stop(match, vis
     tab.wait_for_log("Stop accepted")
     box.close()
     tab.until("!document.querySelector('[data-action=corner]').disabled")
+
+
+def test_a_page_takes_over_from_another_referee_and_leaves_the_seat(match, visit) -> None:
+    tab = visit(match, "referee")
+    with match.medium.open_bus("friendly", WallClock()) as bus:
+        other = HostClient(bus)
+        assert other.act(RefereeAction(action=ActionName.DROP_BALL, source="another page")).accepted
+        tab.button("corner", "cyan").click()
+        tab.wait_for_log(f"Corner, cyan refused: another page (gateway_{bus.name}) officiates; press Take over")
+        tab.button("take_seat").click()
+        tab.wait_for_log("Take over accepted")
+        tab.button("goal_kick", "cyan").click()  # another button: a second press right after the first does not count
+        tab.wait_for_log("Goal kick, cyan accepted")
+        match.until(lambda: match.state.phase is Phase.GOAL_KICK)
+        refused = other.act(RefereeAction(action=ActionName.DROP_BALL, source="another page"))
+        assert refused.reason.startswith("referee's page (gateway_")
+        tab.button("leave_seat").click()
+        tab.wait_for_log("Leave accepted")
+        assert other.act(RefereeAction(action=ActionName.DROP_BALL, source="another page")).accepted
+
+
+def test_a_coach_has_no_buttons_for_the_seat_of_the_referee(match, visit) -> None:
+    tab = visit(match, "cyan")
+    assert not tab.button("take_seat").is_visible() and not tab.button("leave_seat").is_visible()
+
+
+def test_the_host_panel_names_the_numbers_of_the_match_with_their_versions(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.open("host")
+    tab.until("document.querySelector('#health').textContent.includes('profilemsl (version ')")
+    tab.until("/rules[a-z]+ \\(version \\d+\\)/.test(document.querySelector('#health').textContent)")

@@ -54,6 +54,51 @@ def test_over_scenes_and_their_mirror_images_both_sides_have_the_ball_as_often(b
     assert abs(totals["cyan1"] - totals["magenta1"]) < 0.1 * both
 
 
+def last_touches(rig, tell, cyan, magenta, seconds=1.0):
+    """Per robot: ticks in which both touch the ball and it is the last; and the ticks in which neither is."""
+    rig.place(cyan1=cyan, magenta1=magenta, ball=(0, 0, 0))
+    rig.world.make_checkpoint()
+    last = {"cyan1": 0, "magenta1": 0, None: 0}
+    for _ in range(round(seconds / rig.profile.time.tick)):
+        told = tell(1.5, dribble=True)
+        snapshot = rig.tick(cyan1=told, magenta1=told)
+        if len(snapshot.touches) == 2:
+            last[None if snapshot.level else snapshot.touches[-1]] += 1
+    return last
+
+
+@pytest.mark.parametrize(
+    "order", [("cyan1", "cyan2", "magenta1", "magenta2"), ("magenta2", "magenta1", "cyan2", "cyan1")]
+)
+def test_in_ticks_in_which_both_touch_the_ball_each_side_is_the_last_as_often(build, tell, order):
+    """Over scenes and their mirror images; by the order of the roster, one of them would always be."""
+    rig = build(order=order)
+    totals = {"cyan1": 0, "magenta1": 0, None: 0}
+    for number in range(SCENES):
+        first, second = scene(number)
+        for cyan, magenta in ((first, second), (turned(second), turned(first))):
+            for name, ticks in last_touches(rig, tell, cyan, magenta).items():
+                totals[name] += ticks
+    decided = totals["cyan1"] + totals["magenta1"]
+    assert decided > 2 * SCENES and totals[None] > 0
+    assert abs(totals["cyan1"] - totals["magenta1"]) < 0.4 * decided
+
+
+def test_two_robots_that_press_a_ball_from_both_ends_alike_are_level(build, tell):
+    rig = build()
+    cyan = (-0.5, 0.0, 0.0)
+    last = last_touches(rig, tell, cyan, turned(cyan))
+    assert last[None] > 10 and last["cyan1"] == last["magenta1"] == 0
+
+
+def test_a_recording_without_an_order_of_touches_has_that_of_the_roster(build, tell):
+    """The order was missing in the profiles of older recordings, and the later robot was always the last."""
+    rig = build(ball={"touch_order": "roster", "touch_tie": 0.0})
+    cyan = (-0.5, 0.0, 0.0)
+    last = last_touches(rig, tell, cyan, turned(cyan))
+    assert last[None] == 0 and last["magenta1"] > 5 * last["cyan1"] > 0
+
+
 def test_a_first_touch_belongs_to_the_same_robot_in_any_order_of_the_roster(build, tell):
     """In simatch the last writer has the ball."""
     orders = [("cyan1", "cyan2", "magenta1", "magenta2"), ("magenta2", "magenta1", "cyan2", "cyan1")]
@@ -89,3 +134,56 @@ def test_two_worlds_alike_decide_a_contest_alike_to_the_last_bit(build, tell):
     for rig in rigs:
         who_has_it(rig, tell, *scene(3))
     assert rigs[0].engine.packed() == rigs[1].engine.packed()
+
+
+def head_on(rig, tell, cyan, magenta, seconds=0.6):
+    """cyan1 holds the ball and magenta1 comes head-on; their speeds in m/s, and the ball's x after that."""
+    rig.give("cyan1", 0)
+    rig.place(magenta1=(2 * rig.profile.dribble.gap + 0.02, 0, math.pi))
+    start = rig.world.snapshot().ball.x
+    return rig.run(seconds, cyan1=tell(cyan, dribble=True), magenta1=tell(magenta, dribble=True)).ball.x - start
+
+
+@pytest.mark.parametrize("order", [None, ("magenta2", "magenta1", "cyan2", "cyan1")])
+def test_a_held_ball_that_is_contested_head_on_goes_the_way_of_the_stronger_robot(build, tell, order):
+    """Two that are equal stand off; one of 55 kg pushes back one of 30 kg, whichever the roster names first."""
+    assert head_on(build(order=order), tell, 2.0, 2.0) == pytest.approx(0.0, abs=0.03)
+    ways = []
+    for masses in ({"cyan1": 55.0, "magenta1": 30.0}, {"cyan1": 30.0, "magenta1": 55.0}):
+        rig = build(order=order, robots={name: {"body": {"mass": mass}} for name, mass in masses.items()})
+        ways.append(head_on(rig, tell, 2.0, 2.0))
+    assert ways[0] > 0.1
+    assert ways[1] == pytest.approx(-ways[0], abs=0.03)
+
+
+@pytest.mark.parametrize("stronger", ["cyan1", "magenta1"])
+def test_of_two_dribblers_that_draw_at_one_ball_the_stronger_keeps_it(build, tell, stronger):
+    """Both back off at 0.5 m/s: the ball follows the dribbler of 5 N, although cyan1 held it first."""
+    rig = build(robots={stronger: {"dribble": {"max_pull": 5.0}}})
+    head_on(rig, tell, 0.5, 0.5, 0.5)
+    for _ in range(60):
+        snapshot = rig.tick(cyan1=tell(-0.5, dribble=True), magenta1=tell(-0.5, dribble=True))
+    assert snapshot.possession == stronger
+
+
+def test_two_equal_dribblers_leave_the_ball_between_them_when_they_back_off(build, tell):
+    """Their pulls cancel, so that neither gains it by the order of the roster."""
+    rig = build()
+    head_on(rig, tell, 0.5, 0.5, 0.5)
+    snapshot = rig.run(1.0, cyan1=tell(-0.5, dribble=True), magenta1=tell(-0.5, dribble=True))
+    assert snapshot.possession is None
+    assert snapshot.ball.x == pytest.approx(rig.profile.dribble.gap, abs=0.06)
+
+
+def test_in_profiles_of_before_only_the_nearest_robot_draws_the_ball(build, tell):
+    """`contest` is "nearest" in recordings that do not name it."""
+    ways = []
+    for contest in ("nearest", "all"):
+        rig = build(dribble={"contest": contest})
+        rig.give("cyan1", 0)
+        rig.place(magenta1=(rig.profile.dribble.gap + 0.39, 0, math.pi))
+        rig.run(0.2, cyan1=tell(dribble=True), magenta1=tell(dribble=True))
+        ways.append(rig.world.snapshot().ball.x)
+    touching = rig.profile.robot.radius + rig.profile.ball.radius
+    assert ways[0] == pytest.approx(touching, abs=0.001)
+    assert ways[1] > ways[0] + 0.005

@@ -124,7 +124,7 @@ class NotingEngine(Engine):
         for one, other, depth in contacts(self):
             if depth >= -TOUCHING and one in NAMES and other in NAMES:
                 self.met.update((one, other))
-        self.met.update(NAMES[place] for place in self.ball_contacts(None).robots)
+        self.met.update(NAMES[place] for place in self.ball_contacts(None).forces)
 
 
 @dataclass

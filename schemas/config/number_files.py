@@ -1,0 +1,87 @@
+"""Reads profiles and rule books from TOML: shipped ones by name, a user's own by path, merged where they extend.
+
+A file has an optional `extends`, the name of the file whose numbers it changes, and a `version`: a whole number that is
+raised with every change of a number, of the file or of one that it extends.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from schemas.config.quantity import merge_tables
+from schemas.errors import TouchlineError, did_you_mean
+
+VERSION_KEY = "version"
+PROFILE_KEY = "profile"
+"""In a rule book: the profile whose pitch it describes."""
+HEADER = (VERSION_KEY, PROFILE_KEY)
+"""Keys of a file that those which extend it do not get."""
+UNVERSIONED = 0
+"""The version of a file without one: a user's own, or one that is older than versions."""
+
+
+@dataclass(frozen=True, slots=True)
+class NumberFiles:
+    """The files of one kind."""
+
+    kind: str
+    """The key of the match file that names one."""
+    folder: str
+    """Folder of the shipped files, below `schemas`."""
+    shipped: tuple[str, ...]
+
+    def tables(self, name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
+        """The tables of a file, merged into those that it extends; `below` are the files that extend it.
+
+        Raises:
+            TouchlineError: there is no such file, it is not TOML, or it extends itself.
+        """
+        if name in below:
+            raise TouchlineError(f"{name}: extends itself through {' → '.join(below)}; break the circle")
+        try:
+            tables = tomllib.loads(self.text(name))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise TouchlineError(f"{name}: not TOML: {error}") from None
+        parent = tables.pop("extends", None)
+        if parent is None:
+            return tables
+        base = self.tables(str(parent), (*below, name))
+        inherited = {key: value for key, value in base.items() if key not in HEADER}
+        return merge_tables(inherited, tables)
+
+    def text(self, name: str) -> str:
+        """The TOML text of one file.
+
+        Raises:
+            TouchlineError: there is no such file.
+        """
+        if name in self.shipped:
+            return (resources.files("schemas") / self.folder / f"{name}.toml").read_text("utf-8")
+        if not name.endswith(".toml"):
+            known = did_you_mean(name, self.shipped)
+            raise TouchlineError(f'{self.kind} is "{name}"; {known} Or give a path that ends in .toml')
+        try:
+            return Path(name).read_text("utf-8")
+        except OSError as error:
+            given = ", ".join(self.shipped)
+            raise TouchlineError(f'{self.kind} is "{name}": {error.strerror}; give one of {given}') from None
+
+
+def version_of(tables: Mapping[str, Any], where: str) -> int:
+    """The version in the tables of a file; `UNVERSIONED` without one.
+
+    Raises:
+        TouchlineError: it is not a whole number from 1.
+    """
+    version = tables.get(VERSION_KEY, UNVERSIONED)
+    if VERSION_KEY in tables and (not isinstance(version, int) or isinstance(version, bool) or version < 1):
+        raise TouchlineError(f"{where}: version is {version!r}; write a whole number from 1")
+    return int(version)
+
+
+def versioned_name(name: str, version: int) -> str:
+    """Name and version for display: `msl (version 2)`."""
+    return f"{name} (version {version})" if version != UNVERSIONED else name

@@ -1,0 +1,124 @@
+"""The numbers of a shipped profile or rule book do not change without its version.
+
+A recording names the version of the numbers of its match. When the numbers that a file has in the end, its own and
+those of the files that it extends, are changed, `version` in the file is raised, and its row in `DIGESTS` replaced.
+"""
+
+import dataclasses
+from hashlib import blake2b
+from typing import Any
+
+import pytest
+
+from schemas.config import profile, rule_book
+from schemas.config.number_files import UNVERSIONED, versioned_name
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book, unversioned_tables
+from schemas.errors import TouchlineError
+
+DIGESTS = {
+    "profiles/ideal": (1, "312c32f4f1bf"),
+    "profiles/msl": (1, "da95d06dacd7"),
+    "profiles/msl-2016": (1, "4a88a1aa7672"),
+    "profiles/omni": (1, "a5f16b8b9d13"),
+    "profiles/omni3": (1, "5b474577beed"),
+    "profiles/paper": (1, "39db3364eb2f"),
+    "rule_books/china-sim-2020": (1, "96eb91155fb3"),
+    "rule_books/eleven": (1, "de78cf209b2f"),
+    "rule_books/friendly": (1, "a990e49b975c"),
+    "rule_books/msl": (1, "4abbe32fb0e0"),
+    "rule_books/msl-2016": (1, "bbd9c6bfae6c"),
+    "rule_books/msl-2019": (1, "bbd9c6bfae6c"),
+    "rule_books/paper": (1, "0dbbb4ed4e5f"),
+}
+"""File → its version, and a digest of its numbers."""
+UNVERSIONED_DIGESTS = {
+    "china-sim-2020": "1d61d61902b4",
+    "friendly": "ef3415066355",
+    "msl": "20c03bc34c0b",
+    "paper": "20e0df7b02d1",
+}
+"""The rule books from before versions, which never change: recordings of then are judged by them."""
+
+
+def values_of(tables: dict[str, Any]) -> dict[str, Any]:
+    """The value of each number, by the names of its tables; origins are prose, and do not count."""
+    found = {}
+    for key, table in tables.items():
+        if isinstance(table, dict):
+            inner = {"": table["value"]} if "value" in table else values_of(table)
+            found |= {f"{key}.{name}".rstrip("."): value for name, value in inner.items()}
+    return found
+
+
+def digest(tables: dict[str, Any]) -> str:
+    text = "\n".join(f"{key}={value!r}" for key, value in sorted(values_of(tables).items()))
+    return blake2b(text.encode(), digest_size=6).hexdigest()
+
+
+def shipped() -> dict[str, tuple[int, str]]:
+    found = {}
+    for files in (profile.FILES, rule_book.FILES):
+        for name in files.shipped:
+            tables = files.tables(name)
+            found[f"{files.folder}/{name}"] = (tables["version"], digest(tables))
+    return found
+
+
+@pytest.mark.parametrize("file", shipped())
+def test_numbers_do_not_change_without_their_version(file: str) -> None:
+    version, numbers = shipped()[file]
+    known_version, known_numbers = DIGESTS.get(file, (0, ""))
+    row = f'"{file}": ({max(version, known_version + (numbers != known_numbers))}, "{numbers}"),'
+    assert numbers == known_numbers, (
+        f"the numbers of {file} have changed: raise `version` in schemas/{file}.toml, and write {row} here"
+    )
+    assert version == known_version, f"write {row} here"
+
+
+def test_no_row_is_left_of_a_file_that_is_gone() -> None:
+    assert set(DIGESTS) == set(shipped())
+
+
+@pytest.mark.parametrize("name", UNVERSIONED_DIGESTS)
+def test_rule_books_from_before_versions_stay_as_they_were(name: str) -> None:
+    assert digest(unversioned_tables(name)) == UNVERSIONED_DIGESTS[name]
+
+
+def test_every_number_counts_and_no_origin_does() -> None:
+    tables = rule_book.FILES.tables("msl")
+    before = digest(tables)
+    tables["restarts"]["time_limit"]["origin"] = "another book"
+    assert digest(tables) == before
+    tables["restarts"]["time_limit"]["value"] = 8.0
+    assert digest(tables) != before
+    numbers = sum(len(dataclasses.fields(section)) for section in rule_book.SECTIONS.values())
+    assert len(values_of(tables)) == numbers
+
+
+def test_a_file_of_ones_own_has_its_own_version_or_none(tmp_path: Any) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('extends = "msl"\n')
+    assert load_rule_book(str(path)).version == load_profile(str(path)).version == UNVERSIONED
+    path.write_text('extends = "msl"\nversion = 4\n')
+    assert load_rule_book(str(path)).version == load_profile(str(path)).version == 4
+    assert versioned_name("mine.toml", 4) == "mine.toml (version 4)"
+    assert versioned_name("mine.toml", UNVERSIONED) == "mine.toml"
+
+
+@pytest.mark.parametrize("version", ["0", "-1", "1.5", '"2"', "true"])
+def test_a_version_is_a_whole_number_from_1(tmp_path: Any, version: str) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(f'extends = "msl"\nversion = {version}\n')
+    for load in (load_rule_book, load_profile):
+        with pytest.raises(TouchlineError, match=r"mine\.toml: version is .*; write a whole number from 1$"):
+            load(str(path))
+
+
+def test_a_rule_book_of_ones_own_names_what_is_wrong(tmp_path: Any) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('extends = "msl"\n[restart]\n')
+    with pytest.raises(TouchlineError, match=r'mine\.toml: section \[restart\] is not known; did you mean "restarts"'):
+        load_rule_book(str(path))
+    with pytest.raises(TouchlineError, match=r'rules is "gone\.toml": No such file or directory; give one of'):
+        load_rule_book("gone.toml")

@@ -1,0 +1,103 @@
+"""A mirrored match is the mirrored match: brains, kick-off and start poses exchanged, noise off.
+
+Until a robot touches the ball or another robot, both are equal to rounding. From then on they differ by what the
+engine leaves in its search for contact points, which depends on the direction in the field; contacts multiply it.
+"""
+
+import json
+import math
+from collections.abc import Iterator
+from itertools import combinations
+from typing import NamedTuple
+
+import pytest
+
+from schemas.config.match_config import MatchConfig, load_match
+from schemas.messages.game import GameEvent
+from schemas.side import Side
+from sim_host.match.world_fields import Fields
+from touchline.play import InProcessMatch
+
+TEAMS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
+ROUNDING = 1e-9
+"""m."""
+NEAR = 0.5
+"""m; robots whose centres are this near may touch: their hulls have a radius of 0.245 m."""
+AFTER_A_KICK_OFF = 2e-3
+"""m; between robots and balls of two matches 4 s after the start, with a handful of contacts."""
+
+
+def config(cyan: str, magenta: str, kick_off: Side) -> MatchConfig:
+    """A match without noise, jitter or loss, whose draws are keyed by the names of the robots."""
+    teams = {side.value: {"brain": TEAMS[team]} for side, team in zip(Side, (cyan, magenta), strict=True)}
+    exact = {"noise": {"preset": "perfect"}, "radio": {"jitter": 0.0, "loss": 0.0}}
+    return load_match(None, {"teams": teams, "referee": {"kick_off": kick_off.value}, **exact})
+
+
+def swapped(text: str) -> str:
+    """A text with the colours exchanged."""
+    return text.replace("cyan", "\0").replace("magenta", "cyan").replace("\0", "magenta")
+
+
+class Step(NamedTuple):
+    """One tick of both matches."""
+
+    time: float
+    apart: float
+    """m; greatest distance of a body from its mirrored counterpart."""
+    touched: bool
+    """A robot has touched the ball or another robot."""
+    events: tuple[list[GameEvent], list[GameEvent]]
+    sights: tuple[dict[str, bytes], dict[str, bytes]]
+
+
+def closest_robots(world: Fields) -> float:
+    """m between the centres of the two robots that are closest to each other."""
+    places = [(robot["x"], robot["y"]) for robot in world["robots"].values()]
+    return min(math.dist(one, other) for one, other in combinations(places, 2))
+
+
+def side_by_side(one: MatchConfig, other: MatchConfig, seconds: float) -> Iterator[Step]:
+    """Both matches tick by tick."""
+    matches = InProcessMatch(one), InProcessMatch(other)
+    touched = False
+    for _ in range(round(seconds / matches[0].simulation.profile.time.tick)):
+        here, there = (match.step() for match in matches)
+        bodies, counterparts = ({**tick.world["robots"], "ball": tick.world["ball"]} for tick in (here, there))
+        apart = max(
+            math.hypot(body["x"] + counterparts[swapped(name)]["x"], body["y"] + counterparts[swapped(name)]["y"])
+            for name, body in bodies.items()
+        )
+        touched = touched or bool(here.world.get("touches")) or closest_robots(here.world) < NEAR
+        yield Step(here.time, apart, touched, (list(here.events), list(there.events)), (here.sights, there.sights))
+    for match in matches:
+        match.simulation.close()
+
+
+@pytest.mark.parametrize("kick_off", Side)
+@pytest.mark.parametrize("teams", [("simple", "nubot"), ("nubot", "nubot")], ids=" – ".join)
+def test_with_sides_brains_and_kick_off_exchanged_a_match_is_the_mirrored_match(teams, kick_off: Side) -> None:
+    cyan, magenta = teams
+    events: tuple[list[GameEvent], list[GameEvent]] = ([], [])
+    for step in side_by_side(config(cyan, magenta, kick_off), config(magenta, cyan, kick_off.opponent), 4.0):
+        assert step.apart < (AFTER_A_KICK_OFF if step.touched else ROUNDING), f"at {step.time:.2f} s"
+        if not step.touched:
+            here, there = step.sights
+            assert {name: json.loads(sight) for name, sight in here.items()} == {
+                swapped(name): json.loads(swapped(sight.decode())) for name, sight in there.items()
+            }
+        for seen, new in zip(events, step.events, strict=True):
+            seen.extend(new)
+    assert step.touched and len(events[0]) >= 2
+    facts = [[(event.tick, event.kind, event.rule, event.side, event.robot) for event in seen] for seen in events]
+    assert facts[0] == [
+        (tick, kind, rule, side and side.opponent, robot and swapped(robot))
+        for tick, kind, rule, side, robot in facts[1]
+    ]
+
+
+def test_no_number_in_a_sight_has_the_sign_of_a_zero() -> None:
+    """A minus before a zero would tell a robot which half of the field it plays in."""
+    for step in side_by_side(config("simple", "nubot", Side.CYAN), config("nubot", "simple", Side.MAGENTA), 2.5):
+        for sights in step.sights:
+            assert not any(b":-0.0," in sight or b":-0.0}" in sight for sight in sights.values())

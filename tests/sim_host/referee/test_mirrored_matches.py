@@ -1,0 +1,231 @@
+"""A mirrored match has the mirrored decisions: real matches, and several robots that offend in the same tick.
+
+In a mirrored match each robot does what its counterpart of the other colour does, turned by π about the centre mark.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from schemas.config.match_config import load_match
+from schemas.config.obstacle import Shape
+from schemas.game import EventKind, Phase
+from schemas.messages.game import GameEvent
+from schemas.side import Side
+from sim_host.match.referee_factory import make_referee
+from sim_host.referee.core import Ruling
+from sim_host.referee.placement.spots import restart_at
+from sim_host.snapshot import BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from touchline.play import InProcessMatch
+
+NAMES = tuple(f"{side}{number}" for side in Side for number in range(1, 6))
+
+
+def counterpart(name: str) -> str:
+    """The robot of the other colour that has the same number."""
+    side, number = name.rstrip("12345"), name[-1]
+    return f"{Side(side).opponent}{number}"
+
+
+def mirrored(snapshot: Snapshot) -> Snapshot:
+    """The snapshot of the mirrored match; signs change exactly, without rounding."""
+    roster: Roster = snapshot.roster
+    places = [roster.names.index(counterpart(name)) for name in roster.names]
+    ball, (wx, wy) = snapshot.ball, snapshot.ball_spin
+
+    def turned(robot: RobotState) -> RobotState:
+        heading = robot.heading - math.copysign(math.pi, robot.heading)
+        return robot._replace(x=-robot.x, y=-robot.y, heading=heading, vx=-robot.vx, vy=-robot.vy)
+
+    return replace(
+        snapshot,
+        robots=RobotStates([turned(snapshot.robots[place]) for place in places]),
+        ball=BallState(-ball.x, -ball.y, ball.z, -ball.vx, -ball.vy, ball.vz),
+        possession=None if snapshot.possession is None else counterpart(snapshot.possession),
+        kicked=None if snapshot.kicked is None else counterpart(snapshot.kicked),
+        touches=tuple([counterpart(name) for name in snapshot.touches]),
+        level=tuple([counterpart(name) for name in snapshot.level]),
+        contacts=tuple(sorted([tuple(sorted([places[one], places[other]])) for one, other in snapshot.contacts])),
+        impacts=tuple(sorted([_impact(impact, places) for impact in snapshot.impacts])),
+        ball_spin=(-wx, -wy),
+        kickers_ready=tuple([snapshot.kickers_ready[place] for place in places]),
+    )
+
+
+def _impact(impact: Impact, places: list[int]) -> Impact:
+    """The mirrored impact, the smaller index first."""
+    (x, y), (vx, vy), (wx, wy) = impact.direction, impact.first_velocity, impact.second_velocity
+    first, second = places[impact.first], places[impact.second]
+    if first < second:
+        return Impact(first, second, (-x, -y), (-vx, -vy), (-wx, -wy))
+    return Impact(second, first, (x, y), (-wx, -wy), (-vx, -vy))
+
+
+def facts(ruling: Ruling, sign: int) -> tuple[list[tuple[object, ...]], list[tuple[object, ...]]]:
+    """Events and placements of a tick, as cyan of the match that is not mirrored sees them.
+
+    Events of one tick that are independent of each other, as those of two robots that return, have no order.
+    """
+    name = str if sign > 0 else counterpart
+    events = sorted([_event(event, sign) for event in ruling.events], key=str)
+    placed = [
+        ("ball" if one.body == "ball" else name(one.body), sign * one.x + 0.0, sign * one.y + 0.0)
+        for one in ruling.placements
+    ]
+    return events, sorted(placed)
+
+
+def _event(event: GameEvent, sign: int) -> tuple[object, ...]:
+    name = str if sign > 0 else counterpart
+    side = event.side if sign > 0 or event.side is None else event.side.opponent
+    place = None if event.place is None else (sign * event.place.x + 0.0, sign * event.place.y + 0.0)
+    robots = sorted(name(robot) for robot in event.robots)
+    score = None if event.score is None else [event.score.cyan, event.score.magenta][::sign]
+    robot = None if event.robot is None else name(event.robot)
+    return event.kind, event.rule, side, robot, robots, place, score, event.measured, event.card
+
+
+@pytest.mark.parametrize("rules", ["friendly", "china-sim-2020"])
+def test_the_referee_of_a_mirrored_match_makes_the_mirrored_rulings_in_every_tick(rules: str) -> None:
+    config = load_match(None, {"seed": 3, "rules": rules, "duration": 60.0})
+    match = InProcessMatch(config)
+    simulation = match.simulation
+    options = config.referee.model_copy(update={"kick_off": config.referee.kick_off.opponent})
+    other = make_referee(simulation.book, simulation.profile, simulation.roster, config.duration, options)
+    state, judge = other.begin(), simulation.referee.step
+    rulings: list[tuple[Ruling, Ruling]] = []
+
+    def both(own_state, snapshot, actions, dt):  # type: ignore[no-untyped-def]
+        nonlocal state
+        ruling, theirs = judge(own_state, snapshot, actions, dt), other.step(state, mirrored(snapshot), actions, dt)
+        state = theirs.state
+        rulings.append((ruling, theirs))
+        return ruling
+
+    simulation.referee.step = both  # type: ignore[method-assign]
+    while not simulation.over and simulation.now.time < 40.0:
+        match.step()
+    simulation.close()
+    for ruling, theirs in rulings:
+        assert facts(ruling, 1) == facts(theirs, -1), f"tick {ruling.state.timing}"
+    kinds = [event.kind for ruling, _ in rulings for event in ruling.events]
+    assert len(kinds) > 8 and len(set(kinds)) > 3
+
+
+Offences = dict[str, tuple[float, float]]
+POSES = st.tuples(st.sampled_from([9.5, 10.6, 12.0, -9.5, -10.6, -12.0]), st.sampled_from([-7.6, -1.0, 0.0, 1.0, 7.6]))
+
+
+@settings(max_examples=25)
+@given(
+    rules=st.sampled_from(["msl", "china-sim-2020"]),
+    places=st.dictionaries(st.sampled_from([name for name in NAMES if name[-1] != "1"]), POSES, min_size=2, max_size=6),
+    pushes=st.lists(st.sampled_from([("cyan2", "magenta3"), ("magenta4", "cyan5"), ("cyan3", "magenta2")]), max_size=3),
+    ball=st.sampled_from([(0.5, 0.3), (8.0, -2.0), (-9.0, 6.0)]),
+    kick_off=st.sampled_from(Side),
+)
+def test_of_several_offences_in_one_tick_the_mirrored_one_is_decided_in_the_mirrored_match(
+    new_rig, rules, places, pushes, ball, kick_off
+) -> None:
+    """Robots in goal areas, in crowds, outside the field and in pushes, all from the same tick on."""
+    told = []
+    for is_mirrored in (False, True):
+        rig = new_rig("msl", rules, dt=0.1, duration=60.0, mirrored=is_mirrored, kick_off=kick_off)
+        rig.playing(ball)
+        rig.robots |= places
+        seen = {"contacts": pushes, "motions": {name: (0.0, 0.3, 0.2) for pair in pushes for name in pair}}
+        for _ in range(150):
+            if rig.state.phase is not Phase.PLAY:
+                break
+            rig.tick(ball, **seen)
+        rig.run(5.0)
+        sign = -1 if is_mirrored else 1
+        told.append([(event.tick, *_event(event, sign)) for event in rig.events])
+    assert told[0] == told[1]
+
+
+def last_stop(rig) -> Iterator[GameEvent]:
+    return (event for event in reversed(rig.events) if event.kind in (EventKind.FOUL, EventKind.STALL))
+
+
+@pytest.mark.parametrize(("near", "blamed"), [("cyan", "cyan3"), ("magenta", "magenta3")])
+def test_of_two_robots_that_left_the_field_together_the_one_nearer_to_the_ball_is_blamed(new_rig, near, blamed) -> None:
+    rig = new_rig("msl", "msl", dt=0.1, duration=60.0)
+    rig.playing((0.0, 6.5))
+    rig.robots |= {"cyan3": (-0.5 if near == "cyan" else -0.9, 7.6), "magenta3": (0.7, 7.6)}
+    for _ in range(200):
+        rig.tick((0.0, 6.5))
+        if rig.state.phase is not Phase.PLAY:
+            break
+    assert next(last_stop(rig)).robot == blamed
+
+
+@pytest.mark.parametrize("kick_off", Side)
+def test_of_two_equal_offences_the_side_that_kicked_off_is_blamed_whichever_it_is(new_rig, kick_off) -> None:
+    rig = new_rig("msl", "msl", dt=0.1, duration=60.0, kick_off=kick_off)
+    rig.playing((0.0, 6.5))
+    rig.robots |= {"cyan3": (-0.7, 7.6), "magenta3": (0.7, 7.6)}
+    for _ in range(200):
+        rig.tick((0.0, 6.5))
+        if rig.state.phase is not Phase.PLAY:
+            break
+    assert next(last_stop(rig)).robot == f"{kick_off}3"
+
+
+def test_robots_of_both_sides_whose_time_is_up_come_back_in_the_same_tick(new_rig) -> None:
+    rig = new_rig("msl", "msl", dt=0.1, duration=60.0)
+    rig.playing()
+    for side in Side:
+        rig.ask("repair", robot=f"{side}3")
+    rig.run(rig.book.people.repair)
+    rig.ask("stop")
+    rig.run(1.0)
+    back = {event.robot: event.tick for event in rig.events if event.kind is EventKind.ON_FIELD}
+    assert set(back) == {"cyan3", "magenta3"} and len(set(back.values())) == 1
+
+
+@pytest.mark.parametrize("near", ["cyan3", "magenta3"])
+def test_of_robots_in_wrong_positions_the_last_offender_is_the_one_nearest_to_the_ball(new_rig, near) -> None:
+    """An unnamed card of a referee box goes to the last offender."""
+    rig = new_rig("msl", "msl", dt=0.1, duration=60.0)
+    rig.playing()
+    rig.ask("free_kick", Side.CYAN, (0.0, 0.0))
+    rig.robots |= {"cyan4": (-0.7, 0.0), "cyan3": (0.0, -1.2), "magenta3": (0.0, 1.2)} | {
+        near: (0.0, math.copysign(1.0, rig.robots[near][1]))
+    }
+    rig.until(lambda state: state.running)
+    faults = [event.robot for event in rig.events if event.rule == "positions" and event.kind is EventKind.FOUL]
+    assert set(faults) == {"cyan3", "magenta3"} and faults[-1] == near == rig.state.offender
+
+
+@pytest.mark.parametrize("name", ["kick_off", "penalty", "free_kick"])
+@pytest.mark.parametrize("side", Side)
+def test_a_restart_moves_from_an_obstacle_to_the_mirrored_place_in_the_mirrored_match(new_rig, name, side) -> None:
+    spots = []
+    for is_mirrored in (False, True):
+        rig = new_rig("msl", "msl", dt=0.1, duration=60.0, mirrored=is_mirrored)
+        rig.playing()
+        sign = -1 if is_mirrored else 1
+        mark = {"penalty": rig.state.attack(rig.side(side)) * (rig.pitch.goal_line - rig.pitch.penalty_mark)}
+        x = mark.get(name, 0.0)
+        rig.obstacles = (ObstacleState("crate", x, 0.0, 0.0, 0.3, 0.5, Shape.CYLINDER, 0.6, 0.6),)
+        rig.ask(name, side, (0.0, 0.0) if name == "free_kick" else None)
+        rig.until(lambda state: state.restart is not None)
+        spots.append((sign * rig.state.spot[0], sign * rig.state.spot[1]))
+    assert spots[0] == pytest.approx(spots[1]) and math.hypot(spots[0][0] - mark.get(name, 0.0), spots[0][1]) > 0.3
+
+
+@pytest.mark.parametrize("share", [0.25, 0.5, 0.75])
+def test_a_place_between_two_restart_spots_leads_to_the_mirrored_spot_in_the_mirrored_match(new_rig, share) -> None:
+    rig = new_rig("msl", "msl", dt=0.1)
+    mark = rig.pitch.goal_line - rig.pitch.penalty_mark
+    spots = []
+    for sign in (1, -1):
+        attack = {1: Side.MAGENTA, -1: Side.CYAN}[sign]
+        place = (sign * share * mark, 1.0 * sign)
+        spots.append(restart_at(rig.constants, rig.state, Phase.GOAL_KICK, attack, place).spot)
+    assert spots[0] == (-spots[1][0], -spots[1][1])
