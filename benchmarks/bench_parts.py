@@ -105,9 +105,8 @@ class PartsRig(TickRig):
             Command.decode(payload)
 
     def _send_radio(self, tick: int) -> None:
-        for place, name in enumerate(self.roster.names):
-            if (tick + place) % 5 == 0:
-                self.radio.send(tick, name, self.content)
+        senders = [name for place, name in enumerate(self.roster.names) if (tick + place) % 5 == 0]
+        self.radio.send(tick, dict.fromkeys(senders, self.content))
 
     def _write_messages(self) -> list[bytes]:
         world = world_fields(self.snapshot, self.advance.stuck, self.state, 1)

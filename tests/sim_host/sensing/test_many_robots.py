@@ -12,6 +12,7 @@ import pytest
 from schemas.config.obstacle import Shape
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
+from schemas.config.sections import CameraView
 from sim_host.sensing import hulls, pair_draws
 from sim_host.sensing.random_streams import RandomStreams, StreamId, name_words
 from sim_host.sensing.shadows import hulls_near_lines
@@ -21,7 +22,7 @@ from support.scenery import Scenery, Seen, roster_of
 MSL = load_profile("msl").sensing
 STANDARD = RobotModel.standard(load_profile("msl"))
 FRAMED = replace(STANDARD, body=replace(STANDARD.body, frame_width=0.6, frame_depth=0.08))
-LOW = replace(STANDARD, body=replace(STANDARD.body, height=0.4))
+LOW = replace(STANDARD, body=replace(STANDARD.body, height=0.4), camera=CameraView(field_of_view=2.0))
 OBSTACLES = (
     ObstacleState("wall", 1.0, 2.0, 0.3, 1.03, 0.8, Shape.BOX, 0.5, 2.0),
     ObstacleState("step", -3.0, 2.0, 0.0, 0.5, 0.3, Shape.CYLINDER, 1.0, 1.0),
