@@ -1,8 +1,8 @@
 """A recording is verified by the profile and the rule book that it embeds, whatever the shipped ones have become.
 
 `data/before_versions.mcap` was made before profiles and rule books had versions: half a match of 2 × 30 s by the rules
-of `msl`, three a side, with a ball out, a robot in a goal area and a goal from the own half. It is never made again: a change that
-breaks this test breaks the recordings of users.
+of `msl`, three a side, with a ball out, a robot in a goal area and a goal from the own half. It is never made again: a
+change that breaks this test breaks the recordings of users.
 """
 
 import json
