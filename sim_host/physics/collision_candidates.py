@@ -66,13 +66,16 @@ class CollisionCandidates:
 
     def find(self, robots: Sequence[RobotState], ball: BallState) -> Candidates:
         """The robots that may meet another body within the tick."""
-        fast, tick = self._fast, self._tick
+        fast, tick, obstacles = self._fast, self._tick, self._obstacles
+        free_x, free_y = self._free_x - _MARGIN, self._free_y - _MARGIN
         moving, fixed, touching = [], [], set()
         for place, (x, y, _, _, vx, vy, omega, _) in enumerate(robots):
             extra = self._gains[place] + abs(omega) * self._strikes[place]
             speed = math.hypot(vx, vy) + extra
             travel = self._reaches[place] + speed * tick
             moving.append((x, y, vx, vy, extra, travel, place))
+            if not (obstacles or abs(x) + travel > free_x or abs(y) + travel > free_y):
+                continue
             if speed > fast:
                 fixed += self._fixed(place, x, y, travel)
             if self._yields[place] and self._fixed(place, x, y, travel + _MARGIN):

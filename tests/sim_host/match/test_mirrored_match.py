@@ -1,4 +1,4 @@
-"""A mirrored match is the mirrored match: brains, kick-off and start poses exchanged, noise off.
+"""A mirrored match is the mirrored match: brains, kick-off, start poses and all random draws exchanged.
 
 Until a robot touches the ball or another robot, both are equal to rounding. From then on they differ by what the
 engine leaves in its search for contact points, which depends on the direction in the field; contacts multiply it.
@@ -6,7 +6,7 @@ engine leaves in its search for contact points, which depends on the direction i
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -15,7 +15,9 @@ import pytest
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.messages.game import GameEvent
 from schemas.side import Side
+from sim_host.match import subsystems
 from sim_host.match.world_fields import Fields
+from sim_host.sensing.random_streams import Floats, RandomStreams, StreamId, Words
 from touchline.play import InProcessMatch
 
 TEAMS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
@@ -28,15 +30,33 @@ AFTER_A_KICK_OFF = 2e-3
 
 
 def config(cyan: str, magenta: str, kick_off: Side) -> MatchConfig:
-    """A match without noise, jitter or loss, whose draws are keyed by the names of the robots."""
+    """A match of the profile `msl`, with its noise and its radio."""
     teams = {side.value: {"brain": TEAMS[team]} for side, team in zip(Side, (cyan, magenta), strict=True)}
-    exact = {"noise": {"preset": "perfect"}, "radio": {"jitter": 0.0, "loss": 0.0}}
-    return load_match(None, {"teams": teams, "referee": {"kick_off": kick_off.value}, **exact})
+    return load_match(None, {"teams": teams, "referee": {"kick_off": kick_off.value}})
 
 
 def swapped(text: str) -> str:
     """A text with the colours exchanged."""
     return text.replace("cyan", "\0").replace("magenta", "cyan").replace("\0", "magenta")
+
+
+class ExchangedStreams(RandomStreams):
+    """Random streams in which each robot has the draws of its counterpart: draws are keyed by the names of robots."""
+
+    def pairwise_uniforms(
+        self, stream: StreamId, robots: Sequence[str], others: Sequence[str], ticks: Sequence[int]
+    ) -> Floats:
+        return super().pairwise_uniforms(stream, robots, [swapped(name) for name in others], ticks)
+
+    def _uniforms(self, stream: StreamId, robots: Sequence[str], ticks: Sequence[int], index: Words) -> Floats:
+        return super()._uniforms(stream, [swapped(name) for name in robots], ticks, index)
+
+
+def with_exchanged_draws(config: MatchConfig) -> InProcessMatch:
+    """A match in which the colours have exchanged their draws."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(subsystems, "RandomStreams", ExchangedStreams)
+        return InProcessMatch(config)
 
 
 class Step(NamedTuple):
@@ -59,7 +79,7 @@ def closest_robots(world: Fields) -> float:
 
 def side_by_side(one: MatchConfig, other: MatchConfig, seconds: float) -> Iterator[Step]:
     """Both matches tick by tick."""
-    matches = InProcessMatch(one), InProcessMatch(other)
+    matches = InProcessMatch(one), with_exchanged_draws(other)
     touched = False
     for _ in range(round(seconds / matches[0].simulation.profile.time.tick)):
         here, there = (match.step() for match in matches)
@@ -96,8 +116,9 @@ def test_with_sides_brains_and_kick_off_exchanged_a_match_is_the_mirrored_match(
     ]
 
 
-def test_no_number_in_a_sight_has_the_sign_of_a_zero() -> None:
-    """A minus before a zero would tell a robot which half of the field it plays in."""
+def test_no_zero_that_a_robot_perceives_has_a_sign() -> None:
+    """A minus before a zero would tell a robot which half of the field it plays in. What teammates write is theirs."""
     for step in side_by_side(config("simple", "nubot", Side.CYAN), config("nubot", "simple", Side.MAGENTA), 2.5):
         for sights in step.sights:
-            assert not any(b":-0.0," in sight or b":-0.0}" in sight for sight in sights.values())
+            perceived = [json.loads(sight) | {"radio": None} for sight in sights.values()]
+            assert "-0.0," not in json.dumps(perceived) and "-0.0}" not in json.dumps(perceived)
