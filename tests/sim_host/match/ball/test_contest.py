@@ -80,7 +80,7 @@ def test_in_ticks_in_which_both_touch_the_ball_each_side_is_the_last_as_often(bu
             for name, ticks in last_touches(rig, tell, cyan, magenta).items():
                 totals[name] += ticks
     decided = totals["cyan1"] + totals["magenta1"]
-    assert decided > 2 * SCENES and totals[None] > 0
+    assert decided > SCENES and totals[None] > 0
     assert abs(totals["cyan1"] - totals["magenta1"]) < 0.4 * decided
 
 
@@ -96,7 +96,7 @@ def test_a_recording_without_an_order_of_touches_has_that_of_the_roster(build, t
     rig = build(ball={"touch_order": "roster", "touch_tie": 0.0})
     cyan = (-0.5, 0.0, 0.0)
     last = last_touches(rig, tell, cyan, turned(cyan))
-    assert last[None] == 0 and last["magenta1"] > 5 * last["cyan1"] > 0
+    assert last[None] == 0 and last["magenta1"] > 10 > 5 * last["cyan1"]
 
 
 def test_a_first_touch_belongs_to_the_same_robot_in_any_order_of_the_roster(build, tell):
