@@ -147,7 +147,7 @@ class Player(ABC):
             self._carry = carry_after(self._carry, belief)
         if self._rule_limits.passes_first:
             self.possession = possession_after(self.possession, belief, self.briefing.robot, self._rule_limits.roll)
-        action = self._obey(belief, order) or self._by_the_rules(belief, self._act(belief, order))
+        action = self._obey(belief, order) or self._by_the_rules(belief, self._act(belief, order), order)
         if not belief.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # the kick would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - belief.dt)
@@ -192,8 +192,8 @@ class Player(ABC):
         """Whether this robot has to give up the ball soon."""
         return self._carry is not None and self._carry.way > self._rule_limits.circle - PASS_BEFORE
 
-    def _by_the_rules(self, belief: WorldBelief, action: Action) -> Action:
-        """The same action within the rules in play."""
+    def _by_the_rules(self, belief: WorldBelief, action: Action, order: CoachOrder | None) -> Action:
+        """The same action within the rules in play; in a coach's test a robot spares opponents only where told to."""
         if action.kick is None and self._carry is not None:
             action = self._carry_on(belief, action, self._carry)
         if self.is_keeper:
@@ -206,7 +206,8 @@ class Player(ABC):
             outside = keep_out(belief.me, drive, self._penalty_area, self.limits)
             if must_be_out and outside is not drive:
                 drive = outside
-        if self._rule_limits.spares_opponents and not self._plays_ball(belief):
+        in_test = order is not None and order.mode is CoachMode.TEST
+        if self._rule_limits.spares_opponents and not in_test and not self._plays_ball(belief):
             drive = brake_before(belief.me, drive, belief.opponents, self.setup.robot.reach, self.limits)
         return action if drive is action.drive else action._replace(drive=drive)
 

@@ -12,7 +12,7 @@ from sim_host.sensing.shadows import hulls_near_lines
 from sim_host.sensing.sight_lines import Flags, Indices, through_boxes, through_circles
 from sim_host.snapshot import ObstacleState
 
-_MANY = 42
+MANY_HULLS = 42
 """From this number on, it costs less to find the hulls near each line of sight than to try all of them; with few, four
 times as much."""
 
@@ -57,7 +57,7 @@ class Hulls:
         bodies = np.arange(len(self._height))
         self._is_tall = np.concatenate((self._height[:, None] > 0.0, self._height[:, None] >= self._height), axis=1)
         self._is_tall[bodies, bodies + 1] = False
-        if len(bodies) < _MANY:
+        if len(bodies) < MANY_HULLS:
             self._is_others = bodies[:, None] != np.arange(eyes)
             self._may_hide = self._is_tall[:, None, :] & self._is_others[:, :, None]
             """Hull × eye × thing: whether also the hull is not the eye's own."""
@@ -71,7 +71,7 @@ class Hulls:
         if lower != self._lower:
             self._lower = lower
             self._is_tall[:, 0] = self._height >= height
-            if len(self._height) < _MANY:
+            if len(self._height) < MANY_HULLS:
                 self._may_hide[:, :, 0] = self._is_tall[:, :1] & self._is_others
 
     def places(self, ball: complex, robots: Vectors) -> Vectors:
@@ -88,7 +88,7 @@ class Hulls:
         """
         self._update_ball_height(ball_height)
         turned = np.exp(1j * np.concatenate((headings, self._headings))[self._owner]) if len(self._owner) else _NONE
-        if len(self._height) < _MANY:
+        if len(self._height) < MANY_HULLS:
             found &= ~self._hidden_by_any(places, distance, turned)
         else:
             found[found] = ~self._hidden_in_shadows(np.flatnonzero(found), places, distance, turned)

@@ -22,7 +22,7 @@ from sim_host.sensing.random_streams import (
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
 
-_MANY_PAIRS = 1800
+MANY_PAIRS = 1800
 """From this number on, `PairsInView` costs less. With few pairs, it costs six times as much: the overhead of numpy."""
 
 
@@ -41,7 +41,7 @@ def pair_draws(
     sensing: Sensing, streams: RandomStreams, shutter: Shutter, robots: Sequence[str], things: Sequence[str]
 ) -> PairDraws:
     """The cheaper draws for this number of pairs; the first of the things is the ball."""
-    kind = AllPairs if len(robots) * len(things) < _MANY_PAIRS else PairsInView
+    kind = AllPairs if len(robots) * len(things) < MANY_PAIRS else PairsInView
     return kind(sensing, streams, shutter, robots, things)
 
 

@@ -26,6 +26,7 @@ EVERY_REQUEST = {
     "parameters": request("parameters", request={"operation": "reset"}),
     "read_parameters": request("parameters", request={"operation": "list"}),
     "replay": request("replay", request={}),
+    "referee_seat": request("referee_seat", operation="take"),
 }
 """Deed → a message that asks for it."""
 

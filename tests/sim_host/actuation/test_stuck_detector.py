@@ -1,7 +1,7 @@
 """The stuck flag without a window: a timer for each robot, and what starts it in the velocity drive."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 from pytest import approx
@@ -57,7 +57,8 @@ def test_robots_with_and_without_a_window_have_the_flag_of_their_own_rule() -> N
 
 
 def test_a_recording_of_before_has_the_flag_of_before() -> None:
-    assert replace(MSL.drive, stuck_window=DriveLimits.__dataclass_fields__["stuck_window"].default) == TIMED.drive
+    (default,) = (field.default for field in fields(DriveLimits) if field.name == "stuck_window")
+    assert replace(MSL.drive, stuck_window=default) == TIMED.drive
 
 
 def held(told: tuple[float, float, float], measured: tuple[float, float, float]) -> list[bool]:

@@ -34,8 +34,8 @@ OBSTACLES = (
 def limits(least_hulls: int, least_pairs: int) -> Iterator[None]:
     """From how many hulls and pairs on only those that matter are computed."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(hulls, "_MANY", least_hulls)
-        patch.setattr(pair_draws, "_MANY_PAIRS", least_pairs)
+        patch.setattr(hulls, "MANY_HULLS", least_hulls)
+        patch.setattr(pair_draws, "MANY_PAIRS", least_pairs)
         yield
 
 
