@@ -40,7 +40,7 @@ class LogLimit:
         line = f"touchline: this log is limited to {limit}; later lines are left out here, except the newest\n".encode()
         with log.open("ab", buffering=0) as file:
             file.write(line)
-        self._kept[log] = begins + len(line)
+            self._kept[log] = file.tell()  # the process may have written before the line
         return (
             f"{log.stem} has written more than {limit} into {log}, which keeps these and the newest lines; print less"
         )

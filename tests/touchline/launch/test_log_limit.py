@@ -1,5 +1,6 @@
 """A log is cut while its process writes: it keeps its beginning and its newest lines."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -67,3 +68,22 @@ def test_each_log_has_a_limit_of_its_own(log: Path, tmp_path: Path) -> None:
         write(one, 0, 120)
         assert limit.check(one).startswith(one.stem)
         assert limit.check(one) == ""
+
+
+def test_the_line_stays_where_the_process_writes_in_the_moment_of_the_cut(
+    log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As seen once with a brain that prints 50 kB a tick: the line was gone after the next cut."""
+    truncate = os.truncate
+
+    def truncate_and_go_on(path: Path, length: int) -> None:
+        truncate(path, length)
+        write(path, 900, 30)
+
+    limit = LogLimit(1000, 500)
+    write(log, 0, 300)
+    monkeypatch.setattr(os, "truncate", truncate_and_go_on)
+    limit.check(log)
+    write(log, 300, 100)
+    limit.check(log)
+    assert log.read_text().splitlines().count(NOTICE) == 1
