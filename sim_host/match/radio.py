@@ -71,6 +71,12 @@ class RadioAir:
         self._budgets = {side: Budget() for side in Side}
         self._shared = SharedChannel()
         self._index = {name: index for index, name in enumerate(roster.names)}
+        names = [(name, index, roster.sides[index]) for name, index in self._index.items()]
+        self._mates = [
+            [(name, index) for name, index, its in names if its is side and index != own]
+            for own, side in enumerate(roster.sides)
+        ]
+        """Per robot: name and index of each teammate."""
         self._under_way: list[_Batch] = []
         count = len(roster.names)
         self._newest: Ticks = np.full((count, count), -1)
@@ -127,13 +133,12 @@ class RadioAir:
                 continue
             messages[index] = _RadioMessage(left, ReceivedRadio.of(content))
             ends[index] = end
-        senders = list(ends)
-        arrives = np.full(drawn.arrives.shape, NEVER)
         if self._air.model == "shared":
+            senders, arrives = list(ends), np.full(drawn.arrives.shape, NEVER)
             arrives[:, senders] = arrival_ticks(np.array([*ends.values()]) + drawn.flights[:, senders])
             self._under_way.append(_Batch(tick, messages, arrives, tick, int(last_arrival(arrives))))
         else:
-            arrives[:, senders] = drawn.arrives[:, senders]
+            arrives = np.where([index in ends for index in range(len(messages))], drawn.arrives, NEVER)
             self._under_way.append(_Batch(tick, messages, arrives, drawn.first, drawn.last))
         return refusals
 
@@ -159,12 +164,12 @@ class RadioAir:
             np.copyto(self._newest, batch.tick, where=arrived)
             np.copyto(self._held, batch.messages, where=arrived)
         self._under_way = [batch for batch in self._under_way if batch.last > tick]
-        names, tick_s = self._roster.names, self._tick_s
+        tick_s = self._tick_s
         return [
             {
                 name: message.received if message.at == tick else message.read_at(tick, tick_s)
-                for name, message in zip(names, of_robot, strict=True)
-                if message is not None
+                for name, sender in mates
+                if (message := of_robot[sender]) is not None
             }
-            for of_robot in self._held.tolist()
+            for mates, of_robot in zip(self._mates, self._held.tolist(), strict=True)
         ]
