@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import Any, NamedTuple, Self
 from uuid import uuid4
 
+from schemas.bus.refusals import Refusals
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
@@ -229,6 +230,8 @@ class Bus(ABC):
     clock: Clock
     name: str = field(default_factory=lambda: uuid4().hex[:8], init=False)
     """A name that no other connection has."""
+    refusals: Refusals = field(default_factory=Refusals, init=False)
+    """What was refused before any reader received it."""
     _closed: bool = field(default=False, init=False)
 
     @abstractmethod

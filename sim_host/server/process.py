@@ -13,9 +13,11 @@ from schemas.bus.contract import ReceivedMessage
 from schemas.bus.endpoint import is_loopback
 from schemas.bus.outcome_file import write_outcome
 from schemas.bus.zenoh.bus import open_host
+from schemas.bus.zenoh.router_limits import router_limits
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
+from schemas.side import Side
 from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
 
@@ -43,8 +45,9 @@ def _serve(settings: HostSettings) -> None:
     config, listen = settings.config, settings.listen
     if listen is not None and not settings.insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")
+    limits = router_limits(config.name, [robot for side in Side for robot in config.robots(side)])
     use_batch_scheduling(config.speed is None)
-    with open_host(config.name, WallClock(), listen) as bus, ExitStack() as announcements:
+    with open_host(config.name, WallClock(), listen, limits) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)
         log.info('match "%s" on %s, pace %s, seed %d', config.name, bus.endpoint, config.pace, config.seed)
         try:

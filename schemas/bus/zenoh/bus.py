@@ -2,6 +2,7 @@
 
 import atexit
 import weakref
+from collections.abc import Mapping
 from typing import Any
 
 import zenoh
@@ -33,16 +34,21 @@ from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import WireMessage
 
 
-def open_host(match: str, clock: Clock, listen: str | None = None) -> "ZenohBus":
+def open_host(
+    match: str, clock: Clock, listen: str | None = None, limits: Mapping[str, object] | None = None
+) -> "ZenohBus":
     """Open the host's bus: a router that listens on one endpoint, the bus's `endpoint`.
 
     Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
+
+    Args:
+        limits: further settings of the router.
 
     Raises:
         EndpointInUseError: another process listens on the endpoint.
         BusError: it cannot listen on the endpoint.
     """
-    session, endpoint = open_router(listen)
+    session, endpoint = open_router(listen, limits)
     return ZenohBus(match, clock, session, endpoint, is_client=False)
 
 

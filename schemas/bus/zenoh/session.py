@@ -5,6 +5,7 @@ Multicast scouting, gossip and shared memory are off; a process listens on the g
 
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import zenoh
@@ -16,6 +17,9 @@ from schemas.process.clock import Clock
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""
+_MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
+"""Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
+over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
 _CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
 """Fewer threads than by default, since a match has many small processes."""
 _HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
@@ -46,7 +50,7 @@ class SessionContext:
     """The bus, which must be closed before the interpreter ends, and exists as long as the session is in use."""
 
 
-def open_router(listen: str | None) -> tuple[zenoh.Session, str]:
+def open_router(listen: str | None, limits: Mapping[str, object] | None = None) -> tuple[zenoh.Session, str]:
     """The host's session, a router that listens on one endpoint, and that endpoint.
 
     Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
@@ -56,14 +60,14 @@ def open_router(listen: str | None) -> tuple[zenoh.Session, str]:
         BusError: it cannot listen on the endpoint.
     """
     if listen is not None:
-        return _listen_on(listen)
+        return _listen_on(listen, limits or {})
     try:
-        return _listen_on(DEFAULT_ENDPOINT)
+        return _listen_on(DEFAULT_ENDPOINT, limits or {})
     except EndpointInUseError:
-        return _listen_on(FREE_ENDPOINT)
+        return _listen_on(FREE_ENDPOINT, limits or {})
 
 
-def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
+def _listen_on(listen: str, more: Mapping[str, object]) -> tuple[zenoh.Session, str]:
     try:
         endpoint = with_free_port(listen)
     except OSError as error:
@@ -73,6 +77,7 @@ def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
         {
             "listen/endpoints": [endpoint],
             "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTION_TIMEOUT_US,
+            **more,
         },
     )
     try:
@@ -109,16 +114,17 @@ def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Sessio
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
     """Open a session with these threads, unless the environment sets others.
 
-    Zenoh reads the variable once, when the first session of a process is opened. The variable must not reach child
-    processes, which may need other settings.
+    Zenoh reads the variables once, when the first session of a process is opened. They must not reach child processes,
+    which may need other settings.
     """
-    if _THREADS in os.environ:
-        return zenoh.open(config)
-    os.environ[_THREADS] = threads
+    wanted = {_THREADS: threads, _MOST_AHEAD: _MOST_AHEAD_MS}
+    added = {name: value for name, value in wanted.items() if name not in os.environ}
+    os.environ.update(added)
     try:
         return zenoh.open(config)
     finally:
-        del os.environ[_THREADS]
+        for name in added:
+            del os.environ[name]
 
 
 def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
