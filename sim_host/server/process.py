@@ -56,7 +56,7 @@ def _serve(settings: HostSettings) -> None:
             if error.name != "pybullet":
                 raise
             raise TouchlineError(missing_engine_text()) from None
-        host = Host(config, bus, settings.launch_token)
+        host = Host(config, bus, settings.launch_token, recorders=settings.admit, forgiving=settings.forgiving)
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: host.stop())
         host.run()

@@ -200,7 +200,7 @@ def false_times(session: zenoh.Session, prefix: str, until: float) -> None:
     from datetime import datetime, timedelta  # the attack's alone
 
     def act(_: int) -> None:
-        ahead = zenoh.Timestamp(datetime.now(UTC) + timedelta(milliseconds=390), session.zid())
+        ahead = zenoh.Timestamp(datetime.now(UTC) + timedelta(milliseconds=390), session.new_timestamp().get_id())
         session.put(f"{prefix}robot/ghost/command", COMMAND, timestamp=ahead)
 
     _paced(until, 50, act)

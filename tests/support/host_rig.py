@@ -115,12 +115,16 @@ class HostRig:
     agents: dict[str, Agent] = field(default_factory=dict)
     idle: list[Callable[[], None]] = field(default_factory=list)
     launch_token: str | None = None
+    settings: dict[str, Any] = field(default_factory=lambda: {"recorders": ["recorder"]})
+    """Further arguments of the host."""
 
     def __post_init__(self) -> None:
         self.clock = SteppedClock()
         self.outside = self.seat()
         self._applied, self._events, self._health = self.listen(APPLIED), self.listen(EVENT), self.listen(HEALTH)
-        self.host = Host(self.config, self.medium.open_bus(self.config.name, self.clock), self.launch_token)
+        self.host = Host(
+            self.config, self.medium.open_bus(self.config.name, self.clock), self.launch_token, **self.settings
+        )
         if isinstance(self.host.pace, Lockstep):
             self.host.pace.step_agents = self._wait
 
