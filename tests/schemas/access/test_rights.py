@@ -22,18 +22,13 @@ def accounts_of(parties: tuple[Party, ...]) -> set[Account]:
 
 def accounts_with(name: str, kind: str) -> set[Account]:
     """The accounts that have a key of this topic in the list `kind` of their rights."""
-    topic = TOPICS[name]
-    return {
-        account
-        for account, rights in RIGHTS.items()
-        if any(topic.match(key) == chunks_of(name, key) for key in getattr(rights, kind) if topic.match(key))
-    }
+    return {account for account, rights in RIGHTS.items() if any(is_of(name, key) for key in getattr(rights, kind))}
 
 
-def chunks_of(name: str, key: str) -> dict[str, str] | None:
-    """The chunks of a key, unless a row without these chunks has it too: `world/ball` is no `world/{robot}`."""
-    literal = {topic.key for topic in TOPICS.values() if not topic.chunks}
-    return None if TOPICS[name].chunks and key in literal else TOPICS[name].match(key)
+def is_of(name: str, key: str) -> bool:
+    """Whether a key is one of this topic: `world/ball` is no `world/{robot}`."""
+    is_literal = any(topic.key == key for topic in TOPICS.values())
+    return TOPICS[name].key == key if is_literal else TOPICS[name].match(key) is not None
 
 
 @pytest.mark.parametrize("name", PUBLISHED)
