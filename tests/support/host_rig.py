@@ -25,6 +25,8 @@ from support.lossy_medium import LossyMedium
 
 LOOK_S = 0.001
 """Wall time that passes in each poll of a waiting host."""
+REPORT_NS = 50_000_000
+"""Wall time between two reports of a recorder that has nothing new to report."""
 TEAMS = {
     "cyan": {"name": "Cyan", "robots": ["cyan1", "cyan2"]},
     "magenta": {"name": "Magenta", "robots": ["magenta1"]},
@@ -93,6 +95,7 @@ class FakeRecorder:
         self.worlds = bus.subscribe(WORLD)
         self.seen = -1
         self.stands = False
+        self._reported, self._next_report_ns = -2, 0
         self._progress = bus.publisher(RECORDER_PROGRESS, name="recorder")
         bus.declare_alive("recorder", "recorder")
 
@@ -103,6 +106,11 @@ class FakeRecorder:
     def pump(self) -> None:
         while not self.stands and (received := self.worlds.receive()) is not None:
             self.seen = received.message().tick
+        if self.seen != self._reported or self.bus.clock.unix_ns() >= self._next_report_ns:
+            self._reported, self._next_report_ns = self.seen, self.bus.clock.unix_ns() + REPORT_NS
+            self.report()
+
+    def report(self) -> None:
         self._progress.put(RecorderProgress(tick=self.seen, messages=0, lost=0))
 
 

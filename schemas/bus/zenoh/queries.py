@@ -23,8 +23,8 @@ TOO_MANY = "too many queries wait"
 
 
 class ZenohQuery(Query):
-    def __init__(self, topic: Topic, query: zenoh.Query) -> None:
-        super().__init__(topic, topic.key, query.payload.to_bytes() if query.payload is not None else b"")
+    def __init__(self, topic: Topic, key: str, query: zenoh.Query) -> None:
+        super().__init__(topic, key, query.payload.to_bytes() if query.payload is not None else b"")
         self._query = query
 
     def reply(self, reply: WireMessage) -> None:
@@ -54,7 +54,7 @@ class ZenohServer(Server):
                 with query:
                     pass  # ends it without a reply
             else:
-                self.mailbox.put("", ZenohQuery(topic, query))
+                self.mailbox.put("", ZenohQuery(topic, asked, query))
 
         self._queryable = context.session.declare_queryable(
             context.prefix + key, zenoh.handlers.Callback(receive, indirect=False)
