@@ -3,9 +3,9 @@
 import threading
 from typing import NamedTuple
 
-_MAX_KEY = 120
+_MAX_KEY = 60
 """Most characters of a key that are kept for display."""
-_MAX_KEYS = 100
+_MAX_KEYS = 20
 """Keys that are counted separately; a flood of invented keys must not fill the memory."""
 
 

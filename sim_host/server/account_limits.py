@@ -20,8 +20,8 @@ MOST_PERIODS = 12
 """Periods in a row above the limit after which an account is cut off: 3 s at 4 Hz."""
 ORDER_WEIGHT = 5
 """An order counts as this many messages: it is sent rarely, and takes long to check."""
-_MAX_ACCOUNTS = 100
-"""Accounts and keys that are counted separately; a flood of invented keys must not fill the memory."""
+_MAX_OTHERS = 20
+"""Keys of no robot and of no side that are counted separately: reports on health must not grow with invented keys."""
 _OTHERS = "others"
 _SIDES = tuple(side.value for side in Side)
 
@@ -88,6 +88,7 @@ class AccountLimits:
         self._forgiving = forgiving
         self._accounts: dict[str, AccountTraffic] = {}
         self._by_key: dict[str, AccountTraffic] = {}
+        self._others = 0
 
     def of_key(self, key: str) -> AccountTraffic:
         """The account that a message on this key counts for."""
@@ -129,14 +130,23 @@ class AccountLimits:
 
     def _learn(self, key: str) -> AccountTraffic:
         name = self._name(key)
-        account = self._account(name)
-        if account.name == name and len(self._by_key) < _MAX_ACCOUNTS:
-            self._by_key[key] = account
-        return account
+        if self._is_known(key):
+            account = self._by_key[key] = self._accounts.setdefault(name, AccountTraffic(name))
+            return account
+        return self._account(name)
+
+    def _is_known(self, key: str) -> bool:
+        """Whether this is the key of a robot or of a side of the match."""
+        kind, who = (*key.split("/"), "")[:2]
+        return (kind == "robot" and who in self.sides) or (kind == "team" and who in _SIDES)
 
     def _account(self, name: str, *, may_be_cut_off: bool = True) -> AccountTraffic:
-        if name not in self._accounts and len(self._accounts) >= _MAX_ACCOUNTS:
-            name, may_be_cut_off = _OTHERS, False
+        """The account of a key that anybody may have invented."""
+        if name not in self._accounts:
+            if self._others >= _MAX_OTHERS or name.startswith("robot/"):
+                name, may_be_cut_off = _OTHERS, False
+            else:
+                self._others += 1
         return self._accounts.setdefault(name, AccountTraffic(name, may_be_cut_off))
 
     def _name(self, key: str) -> str:

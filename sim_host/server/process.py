@@ -14,6 +14,7 @@ from schemas.bus.contract import ReceivedMessage
 from schemas.bus.outcome_file import write_outcome
 from schemas.bus.settings import check_protected
 from schemas.bus.zenoh.bus import open_host
+from schemas.bus.zenoh.open_access import open_access
 from schemas.bus.zenoh.router_limits import router_limits
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
@@ -46,6 +47,8 @@ def _serve(settings: HostSettings) -> None:
     check_protected(settings)
     protection = Protection.from_file(settings.credentials, config)
     limits = router_limits(config.name, [robot for robots in robots_of(config).values() for robot in robots])
+    if protection is None:
+        limits["access_control"] = open_access(config.name)
     use_batch_scheduling(config.speed is None)
     with open_host(config.name, WallClock(), listen, protection, limits) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)

@@ -27,9 +27,11 @@ class ZenohPresenceWatch(PresenceWatch):
         def receive(sample: zenoh.Sample) -> None:
             key = str(sample.key_expr)[start:]
             chunks = row.match(key)
-            if chunks is None or not is_name(chunks["name"]):
-                context.owner.refusals.add(key, NO_NAME)
-            elif chunks["kind"] in _KINDS:
+            if chunks is None or chunks["kind"] not in _KINDS:
+                return  # of a kind that a newer program may know
+            if not is_name(chunks["name"]):
+                context.owner.refusals.add(row.fill(kind=chunks["kind"]), NO_NAME)
+            else:
                 alive = sample.kind == zenoh.SampleKind.PUT
                 self.mailbox.put("", Presence(PresenceKind(chunks["kind"]), chunks["name"], alive))
 

@@ -36,7 +36,7 @@ _HANDSHAKE_MS = 2000
 """Wall time for a handshake, in ms: half-open connections make room after that."""
 
 
-def router_limits(match: str, robots: Iterable[str]) -> Mapping[str, Any]:
+def router_limits(match: str, robots: Iterable[str]) -> dict[str, Any]:
     """Settings of the router of a match with these robots."""
     prefix = key_prefix(match)
     return {

@@ -142,7 +142,7 @@ class ZenohSubscription(ZenohReader):
         if key in _LITERAL_KEYS and key != self._topic.key:
             return False
         if not self._topic.has_key(key):
-            self._context.owner.refusals.add(key, NO_KEY, size)
+            self._context.owner.refusals.add(key or "**", NO_KEY, size)
             return False
         if len(self._known_keys) < _MAX_KNOWN_KEYS:
             self._known_keys.add(key)
