@@ -14,16 +14,11 @@ UNKNOWN_PER_S, UNKNOWN_AT_ONCE = 0.5, 30.0
 """Unknown tokens of a network per s of wall time, and at once, before it has to wait."""
 
 
-class TokenChecks:
-    """The tokens of one gateway, and which networks guess at them."""
+class GuessLimit:
+    """Which networks guess at tokens."""
 
-    def __init__(self, tokens: Tokens) -> None:
-        self._tokens = tokens
+    def __init__(self) -> None:
         self._unknown = NetworkLimits(UNKNOWN_PER_S, UNKNOWN_AT_ONCE)
-
-    def role_of(self, token: str) -> Role | None:
-        """The role of a token: spectator for an empty token, None for an unknown one."""
-        return self._tokens.role_of(token)
 
     def note_unknown(self, network: str | None, now: float) -> None:
         """Count an unknown token of a network."""
@@ -32,3 +27,15 @@ class TokenChecks:
     def pause(self, network: str | None, now: float) -> float:
         """s of wall time to wait before a token of this network is checked."""
         return PAUSE_S if self._unknown.is_spent(network, now) else 0.0
+
+
+class TokenChecks(GuessLimit):
+    """The tokens of one gateway, and which networks guess at them."""
+
+    def __init__(self, tokens: Tokens) -> None:
+        super().__init__()
+        self._tokens = tokens
+
+    def role_of(self, token: str) -> Role | None:
+        """The role of a token: spectator for an empty token, None for an unknown one."""
+        return self._tokens.role_of(token)
