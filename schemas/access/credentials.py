@@ -25,7 +25,7 @@ HOST_FILE = "host.json"
 
 Password = Annotated[str, Field(min_length=16, max_length=200, pattern=r"^[A-Za-z0-9_\-]+$")]
 """A password, which is in no representation of its owner."""
-C = TypeVar("C", bound="Credentials | HostCredentials")
+C = TypeVar("C", bound=Part)
 
 
 class Credentials(Part):
