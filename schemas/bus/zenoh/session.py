@@ -32,9 +32,9 @@ room. Zenoh closes a stalled link on the threads that read: if there were few, a
 that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876)."""
 _RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 _ATTEMPT_S = 0.9
-"""Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then repeats
-its packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the handshake
-of four round trips at 0.1 s of delay each way."""
+"""Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then
+repeats its packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the
+handshake of four round trips at 0.1 s of delay each way."""
 _TRY_S = (0.5, 2.0)
 """Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
 at once. Ctrl-C takes effect between attempts."""
