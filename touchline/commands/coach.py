@@ -174,9 +174,7 @@ for _group, _name in ((app, "coach"), (referee, "referee")):
     for _word, _seat in SEAT_COMMANDS.items():
         _group.command(_word, help=f"{_seat.help}\n\nExample: touchline {_name} {_word}")(_seat_command(_seat))
 
-    _group.command("admit")(admit.account)
-
-
+referee.command("admit")(admit.account)
 app.command("order")(orders.order)
 app.command("test")(orders.test)
 
