@@ -4,10 +4,12 @@ import os
 import secrets
 import socket
 
-from schemas.bus.contract import Bus, NoReplyError, PresenceKind
+from schemas.bus.contract import Bus, NoReplyError, PresenceKind, RefusedQueryError
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.setup import Setup
+from schemas.process.installed import installed_version
+from schemas.side import Side
 from schemas.topics import CLAIM
 
 _REPLY_S = 4.0
@@ -17,12 +19,23 @@ _REPLY_S = 4.0
 class Membership:
     """One agent in the match of its bus."""
 
-    def __init__(self, bus: Bus, robot: str, launch_token: str | None) -> None:
-        """`launch_token` is the secret of the launch; None without one."""
+    def __init__(
+        self, bus: Bus, robot: str, launch_token: str | None, match: str | None = None, side: Side | None = None
+    ) -> None:
+        """`launch_token` is the secret of the launch; None without one.
+
+        `match` and `side` are those that the agent was started for; None for any.
+        """
         self._bus = bus
         source = f"process {os.getpid()} on {socket.gethostname()}"[:80]
         self._claim = AgentClaim(
-            robot=robot, session=f"s{secrets.token_hex(12)}", launch_token=launch_token, source=source
+            robot=robot,
+            session=f"s{secrets.token_hex(12)}",
+            launch_token=launch_token,
+            match=match,
+            side=side,
+            program=f"touchline {installed_version('touchline')}",
+            source=source,
         )
         self._is_declared = False
 
@@ -53,6 +66,8 @@ class Membership:
         while True:
             try:
                 reply: AgentClaimReply = self._bus.query(CLAIM, self._claim, timeout=_REPLY_S).result(_REPLY_S + 0.5)
+            except RefusedQueryError as error:
+                raise TouchlineError(f"{self._claim.robot}: refused by the host: {error}") from None
             except NoReplyError as error:
                 if clock.now() >= deadline:
                     raise TouchlineError(

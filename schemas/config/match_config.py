@@ -39,6 +39,8 @@ from schemas.game import OfficiatingMode
 from schemas.side import Side
 from schemas.wire.message import Name, Part
 
+REMOTE = "remote"
+"""In place of a team: `magenta = "remote"` below [teams], short for `[teams.magenta]` with `remote = true`."""
 LOCKSTEP = "lockstep"
 """The pace at which the host waits for the answers of all robots."""
 
@@ -50,8 +52,8 @@ REMEDIES = {
     "scene": "the name of a scene, or a path that ends in .toml",
     **{f"scene.{key}": remedy for key, remedy in SCENE_REMEDIES.items()},
     "teams": "write [teams.cyan] and [teams.magenta]",
-    "teams.cyan": "write [teams.cyan], and below it the keys of the team",
-    "teams.magenta": "write [teams.magenta], and below it the keys of the team",
+    "teams.cyan": 'write [teams.cyan], and below it the keys of the team; or cyan = "remote" below [teams]',
+    "teams.magenta": 'write [teams.magenta], and below it the keys of the team; or magenta = "remote" below [teams]',
     "teams.cyan.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
@@ -162,6 +164,16 @@ class MatchConfig(Part):
         team = self.team(side)
         return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
 
+    @property
+    def remote_sides(self) -> tuple[Side, ...]:
+        """The sides whose robots are started elsewhere."""
+        return tuple(side for side in Side if self.team(side).remote)
+
+    @property
+    def longest_attendance(self) -> float:
+        """Longest wait for all robots before the first tick, in s of wall time."""
+        return max(self.patience.attendance, self.patience.remote if self.remote_sides else 0.0)
+
     def load_profile(self) -> Profile:
         """The profile that the match is played with.
 
@@ -245,7 +257,9 @@ def _validate(content: dict[str, Any], where: str) -> MatchConfig:
     for side, default in (("cyan", default_cyan()), ("magenta", default_magenta())):
         teams = content.get("teams")
         team = teams.get(side) if isinstance(teams, dict) else None
-        if isinstance(team, dict) and not {"brain", "command"} & set(team):
+        if isinstance(teams, dict) and team == REMOTE:
+            team = teams[side] = {"remote": True}
+        if isinstance(team, dict) and not {"brain", "command"} & set(team) and team.get("remote") is not True:
             team["brain"] = default.brain
             team.setdefault("name", default.name)
     return validate_tables(MatchConfig, content, where, REMEDIES)

@@ -1,11 +1,11 @@
 """The host of one match: steps the simulation on the bus, tick by tick, at the pace of the match."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
+from schemas.bus.contract import HEARTBEAT_S, Bus, Presence, PresenceKind, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import EventKind
@@ -13,6 +13,7 @@ from schemas.messages.game import GameEvent
 from schemas.recovery_window import PARTING_S
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
+from sim_host.server.admission import Admission
 from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
@@ -34,20 +35,23 @@ class Host:
     """Connects a simulation to agents, coaches, recorders and watchers."""
 
     def __init__(self, config: MatchConfig, bus: Bus, launch_token: str | None = None) -> None:
-        """With `launch_token`, only agents that know it may play."""
+        """With `launch_token`, only agents that know it may play for a side that is not remote."""
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
         self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches)
+        self._admission = Admission.of(config, launch_token)
         self.presence = PresenceTracker(
-            bus, self.inbox.agent_stats, config.patience.recorder, self._invalid_log, launch_token
+            bus, self.inbox.agent_stats, config.patience.recorder, self._invalid_log, self._admission
         )
         self._manual = ManualControl(bus, self._invalid_log)
         self._first = self.simulation.now, self.simulation.state
         self._config = config
         self._clock = bus.clock
         self._seat = RefereeSeat()
-        self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self._seat)
+        self._services = Services(
+            bus, self.simulation, self._invalid_log, self._batches, self._seat, self.presence.add_refusal
+        )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
@@ -81,11 +85,11 @@ class Host:
 
     def wait_for_all(self) -> None:
         """Wait until every robot has an agent, until patience runs out, or until a referee action is requested."""
-        deadline = self._clock.now() + self._config.patience.attendance
+        deadline = self._clock.now() + self._config.longest_attendance
         while not self.presence.all_present(self._config.record.wait) and self._clock.now() < deadline:
             if self.stopping:
                 return
-            self.presence.update(timeout=0.02)
+            self._log_changes(self.presence.update(timeout=0.02))
             self._process_requests()
             self._report_refusals(self.simulation.now)
             self._report(self.simulation.now)
@@ -106,7 +110,7 @@ class Host:
     def tick(self) -> TickResult:
         """One tick: collect commands, step the simulation, publish the result."""
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
-        self.presence.update()
+        self._log_changes(self.presence.update())
         self._process_requests()
         self._look_for_sight_recorders()
         self._set_sim_time(self.simulation.now.tick + 1)
@@ -153,6 +157,7 @@ class Host:
         self._services.process()
         roster = self.simulation.roster
         if (roster.names, roster.sides, roster.still) != (self._roster.names, self._roster.sides, self._roster.still):
+            self._admission.add_robots(dict(zip(roster.names, roster.sides, strict=True)))
             self.inbox.set_roster(roster)
             self.presence.refresh_agents()
             self._outbox.set_roster(roster)
@@ -199,11 +204,22 @@ class Host:
             text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
             self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
 
+    def _log_changes(self, changes: Sequence[Presence]) -> None:
+        """Log agents that have joined or left."""
+        for change in changes:
+            missing = self.presence.missing_agents()
+            still = f"; missing: {', '.join(missing)}" if missing else ""
+            joined = f"joined: {self.presence.agent_source(change.name)}" if change.alive else "left"
+            log.info("%s %s%s", change.name, joined, still)
+
     def _report_refusals(self, tick: TickResult) -> None:
         """Publish an event for each agent that was refused, and for each change of the referee's seat."""
         for refusal in self.presence.pop_refusals():
             log.warning(refusal.text)
-            self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
+            if refusal.robot in self._roster.names:
+                self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
+            else:
+                self._publish_report(tick, "claim", refusal.text)
         for text in self._seat.pop_changes():
             log.warning(text)
             self._publish_report(tick, "referee_seat", text)

@@ -3,6 +3,7 @@
 from schemas.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
+from sim_host.server.admission import Admission
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.claims import Claims
 from sim_host.server.invalid_log import InvalidLog
@@ -22,7 +23,7 @@ class PresenceTracker:
         agent_stats: dict[str, AgentStats],
         patience: float,
         invalid_log: InvalidLog,
-        launch_token: str | None = None,
+        admission: Admission,
     ) -> None:
         """`patience` is the wall time in s after which a recorder with a broken link is dropped."""
         self._clock = bus.clock
@@ -30,7 +31,7 @@ class PresenceTracker:
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(RECORDER_PROGRESS)
         self._agent_stats = agent_stats
-        self._claims = Claims(launch_token)
+        self._claims = Claims(admission)
         self._claim_handler = ClaimHandler(bus, self._claims, invalid_log)
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
         """Name → whether the process is present, once it has joined."""
@@ -77,6 +78,10 @@ class PresenceTracker:
         handler = self._claim_handler
         refusals, handler.refusals = handler.refusals, []
         return refusals
+
+    def add_refusal(self, text: str) -> None:
+        """Report a process that was refused before it made a claim."""
+        self._claim_handler.add_refusal(text)
 
     def pop_gone_referees(self) -> list[str]:
         """Referees that have gone since the last call."""
@@ -149,8 +154,15 @@ class PresenceTracker:
 
     def all_present(self, wait_for_recorder: bool) -> bool:
         """Whether every robot has an agent, and, with `wait_for_recorder`, a recorder is present."""
-        agents = all(stats.alive or stats.idle for stats in self._agent_stats.values())
-        return agents and (bool(self.recorders) or not wait_for_recorder)
+        return not self.missing_agents() and (bool(self.recorders) or not wait_for_recorder)
+
+    def missing_agents(self) -> list[str]:
+        """Robots that have a body to move and no agent."""
+        return [name for name, stats in self._agent_stats.items() if not (stats.alive or stats.idle)]
+
+    def agent_source(self, robot: str) -> str:
+        """Where the agent of a robot runs, as it has reported; empty for one that has made no claim."""
+        return self._claims.source(robot)
 
     def recorder_lags(self, tick: int) -> dict[str, int]:
         """How many ticks each recorder is behind."""

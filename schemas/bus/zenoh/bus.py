@@ -19,7 +19,7 @@ from schemas.bus.contract import (
     full_key,
 )
 from schemas.bus.mailbox import FifoMailbox
-from schemas.bus.zenoh.match_at import match_at
+from schemas.bus.zenoh.match_at import hosts_of, match_at, other_match
 from schemas.bus.zenoh.newest import ZenohNewest
 from schemas.bus.zenoh.presence import ZenohPresenceWatch
 from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer
@@ -46,8 +46,13 @@ def open_host(match: str, clock: Clock, listen: str | None = None) -> "ZenohBus"
     return ZenohBus(match, clock, session, endpoint, is_client=False)
 
 
-def open_client(match: str | None, clock: Clock, connect: str | None = None, patience: float = 10.0) -> "ZenohBus":
+def open_client(
+    match: str | None, clock: Clock, connect: str | None = None, patience: float = 10.0, *, any_match: bool = False
+) -> "ZenohBus":
     """Open a client's bus, with attempts for `patience` s of wall time.
+
+    With `any_match` it is the bus of the only match at the endpoint even if that has another name, for clients that the
+    host is to refuse.
 
     Without an endpoint it connects to the running match of this machine, without a name to the match at the endpoint.
 
@@ -62,7 +67,11 @@ def open_client(match: str | None, clock: Clock, connect: str | None = None, pat
     deadline = clock.now() + patience
     session = open_connection(connect, clock, patience)
     try:
-        name = match or match_at(session, connect, clock, deadline)
+        name = match_at(session, connect, clock, deadline) if match is None else match
+        if match is not None and match not in (others := hosts_of(session)) and others:
+            if not any_match or len(others) > 1:
+                raise BusError(other_match(connect, match, others))
+            (name,) = others
     except BaseException:
         session.close()  # type: ignore[no-untyped-call]
         raise

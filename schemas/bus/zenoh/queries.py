@@ -6,12 +6,16 @@ from schemas.bus.contract import (
     NoReplyError,
     PendingReply,
     Query,
+    RefusedQueryError,
     Server,
 )
 from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 from schemas.wire.message import WireMessage
+
+_EXPIRED = "Timeout"
+"""Zenoh's own text in place of a reply that did not come in time."""
 
 
 class ZenohQuery(Query):
@@ -52,17 +56,18 @@ class ZenohPendingReply(PendingReply):
     ) -> None:
         super().__init__(topic)
         self._key = key
-        mailbox: FifoMailbox[bytes | str] = FifoMailbox()
+        mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
         self._mailbox = mailbox
 
         def receive(reply: zenoh.Reply) -> None:
             if reply.ok is not None:
                 mailbox.put("", reply.ok.payload.to_bytes())
             elif reply.err is not None:
-                mailbox.put("", reply.err.payload.to_string())
+                reason = reply.err.payload.to_string()
+                mailbox.put("", NoReplyError(reason) if reason == _EXPIRED else RefusedQueryError(reason))
 
         def end() -> None:
-            mailbox.put("", f"no process answers {key}")
+            mailbox.put("", NoReplyError(f"no process answers {key}"))
 
         context.session.get(
             context.prefix + key,
@@ -76,6 +81,6 @@ class ZenohPendingReply(PendingReply):
         reply = self._mailbox.get(timeout)
         if reply is None:
             raise NoReplyError(f"no process answers {self._key} within {timeout:g} s")
-        if isinstance(reply, str):
-            raise NoReplyError(reply)
+        if isinstance(reply, NoReplyError):
+            raise reply
         return reply

@@ -18,12 +18,15 @@ EXPIRY_S = LEASE_S + 0.5
 """Wall time for which a claim waits for the end of an earlier agent, s."""
 _MOST = 200
 """Most claims that wait, and most refused sessions that are remembered."""
+_MOST_UNREADABLE = 20
+"""Most reasons of claims that could not be read that are reported."""
 
 
 class Refusal(NamedTuple):
     """An agent that was refused."""
 
-    robot: str
+    robot: str | None
+    """The robot that it claimed; None if its claim could not be read."""
     text: str
     """Who was refused, and why."""
 
@@ -45,6 +48,7 @@ class ClaimHandler:
         self._invalid_log = invalid_log
         self._waiting: list[_Waiting] = []
         self._refused: dict[str, None] = {}
+        self._unreadable: set[str] = set()
         self.refusals: list[Refusal] = []
         """Refused agents that have not been reported yet."""
 
@@ -56,6 +60,7 @@ class ClaimHandler:
             except BadMessageError as error:
                 self._invalid_log.add(query.key, str(error), query.payload)
                 query.fail(str(error))
+                self.add_refusal(f"an agent was refused: {error}")
                 continue
             if len(self._waiting) >= _MOST:
                 query.reply(AgentClaimReply(accepted=False, reason="too many agents claim robots at the same time"))
@@ -88,5 +93,12 @@ class ClaimHandler:
         if claim.session in self._refused or len(self._refused) >= _MOST:
             return
         self._refused[claim.session] = None
-        source = f" ({claim.source})" if claim.source else ""
+        described = ", ".join(filter(None, (claim.source, claim.program)))
+        source = f" ({described})" if described else ""
         self.refusals.append(Refusal(claim.robot, f"an agent{source} that claimed {claim.robot} was refused: {reason}"))
+
+    def add_refusal(self, text: str) -> None:
+        """Report a process that was refused without a valid claim; once for each text."""
+        if text not in self._unreadable and len(self._unreadable) < _MOST_UNREADABLE:
+            self._unreadable.add(text)
+            self.refusals.append(Refusal(None, text))
