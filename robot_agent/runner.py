@@ -137,6 +137,8 @@ def serve(
     """
     membership = membership or Membership(bus, robot, None)
     setup = ask_setup(bus, patience)
+    if not membership.fits(setup):
+        membership.join(setup, patience)  # the host refuses it, and reports that on its side, too
     runner = Runner(bus, build(setup), robot)
     host = HostWatch(bus)
     membership.join(setup, patience)

@@ -172,7 +172,7 @@ class MatchConfig(Part):
     @property
     def longest_attendance(self) -> float:
         """Longest wait for all robots before the first tick, in s of wall time."""
-        return max(self.patience.attendance, self.patience.remote if self.remote_sides else 0.0)
+        return self.patience.remote if self.remote_sides else self.patience.attendance
 
     def load_profile(self) -> Profile:
         """The profile that the match is played with.

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.settings import BridgeOptions
+from schemas.config.match_parts import Patience
 from schemas.config.settings import RecordOptions
 from schemas.errors import MatchFailedError
+from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
@@ -32,10 +34,14 @@ def match(
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
+    remote: Annotated[
+        Side | None, typer.Option(help="This side's robots join from another machine, with touchline team.")
+    ] = None,
     web: options.Web = False,
     json: options.Json = False,
     *,
     played: options.MatchOptions,
+    waiting: Annotated[dict[str, Any], FieldsOf(Patience, remote="wait")],
     recording: Annotated[dict[str, Any], FieldsOf(RecordOptions)],
     page: options.PageOptions,
     bridges: BridgeOptions,
@@ -46,6 +52,7 @@ def match(
     --web serves a page to watch and command the match in a browser. --udp, --refbox and --refbox-server connect coach
     programs, league boxes and team software. With any of these the default of --pace is realtime. With --refbox the
     default of --referee is manual, because the league's box decides.
+    With --remote, or a remote team in the match file, the match waits for that team and prints how it joins.
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
@@ -54,7 +61,9 @@ def match(
     from touchline.launch.processes import check_robot_names
     from touchline.launch.run_folder import prepare_run
 
-    teams = _teams_of(ghost) if ghost else {}
+    teams: dict[str, Any] = _teams_of(ghost) if ghost else {}
+    if remote is not None:
+        teams[remote] = {"remote": True}
     sockets = _open_ports(bridges) if bridges.wanted else ()
     if web or bridges.wanted:
         played.changes.setdefault("pace", "realtime")
@@ -62,6 +71,7 @@ def match(
         played.officiating.setdefault("mode", "manual")  # the league's box decides
     config = played.read(
         **{f"teams__{side}": team for side, team in teams.items()},
+        **{f"patience__{key}": value for key, value in waiting.items()},
         **{f"record__{key}": value for key, value in recording.items()},
         record__wait=not no_record,
     )

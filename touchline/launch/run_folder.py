@@ -26,8 +26,7 @@ def prepare_run(
     Raises:
         TouchlineError: the folder cannot be made or written.
     """
-    moment = datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC)
-    stem = f"{config.name}-{moment:%Y%m%dT%H%M%SZ}-seed{config.seed}"
+    stem = f"{config.name}-{_moment(clock)}-seed{config.seed}"
     try:
         folder = _new_folder(stem)
         out = (recording or folder / RECORDING) if recorded else None
@@ -39,6 +38,22 @@ def prepare_run(
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
     return plan
+
+
+def new_run_folder(name: str, clock: Clock) -> Path:
+    """A new folder of this name and the present moment.
+
+    Raises:
+        TouchlineError: the folder cannot be made.
+    """
+    try:
+        return _new_folder(f"{name}-{_moment(clock)}")
+    except OSError as error:
+        raise TouchlineError(f"{error.filename}: {error.strerror}; logs are written under ./{RUNS}") from None
+
+
+def _moment(clock: Clock) -> str:
+    return f"{datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC):%Y%m%dT%H%M%SZ}"
 
 
 def _why_not_writable(out: Path) -> str:

@@ -1,0 +1,26 @@
+"""The commands by which the remote teams of a match join it, for the people at the other machine."""
+
+from schemas.bus.endpoint import is_loopback, parse_endpoint
+from schemas.config.match_config import MatchConfig
+from touchline.launch.own_address import endpoint_for_others
+
+
+def join_lines(config: MatchConfig, listen: str | None, endpoint: str) -> list[str]:
+    """One line for each remote team; none without one.
+
+    `listen` is where the host was told to listen, and `endpoint` where this machine reaches it.
+    """
+    if not config.remote_sides:
+        return []
+    _, _, port = parse_endpoint(endpoint)
+    reached = endpoint
+    if listen is not None and not is_loopback(listen):
+        protocol, host, _ = parse_endpoint(listen)
+        reached = endpoint_for_others(f"{protocol}/[{host}]:{port}" if ":" in host else f"{protocol}/{host}:{port}")
+    lines = [
+        f"{side} joins with: touchline team {side} --connect {reached} --brain MODULE:CLASS"
+        for side in config.remote_sides
+    ]
+    if is_loopback(reached):
+        lines.append("  from this machine only, because the host listens on loopback; --listen tcp/[::]:7447 opens it")
+    return lines
