@@ -1,11 +1,11 @@
 """The host of one match: steps the simulation on the bus, tick by tick, at the pace of the match."""
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import HEARTBEAT_S, Bus, Presence, PresenceKind, ReceivedMessage
+from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import EventKind
@@ -89,7 +89,7 @@ class Host:
         while not self.presence.all_present(self._config.record.wait) and self._clock.now() < deadline:
             if self.stopping:
                 return
-            self._log_changes(self.presence.update(timeout=0.02))
+            self.presence.update(timeout=0.02)
             self._process_requests()
             self._report_refusals(self.simulation.now)
             self._report(self.simulation.now)
@@ -110,7 +110,7 @@ class Host:
     def tick(self) -> TickResult:
         """One tick: collect commands, step the simulation, publish the result."""
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
-        self._log_changes(self.presence.update())
+        self.presence.update()
         self._process_requests()
         self._look_for_sight_recorders()
         self._set_sim_time(self.simulation.now.tick + 1)
@@ -204,9 +204,9 @@ class Host:
             text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
             self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
 
-    def _log_changes(self, changes: Sequence[Presence]) -> None:
+    def _log_agents(self) -> None:
         """Log agents that have joined or left."""
-        for change in changes:
+        for change in self.presence.pop_changes():
             missing = self.presence.missing_agents()
             still = f"; missing: {', '.join(missing)}" if missing else ""
             joined = f"joined: {self.presence.agent_source(change.name)}" if change.alive else "left"
@@ -214,6 +214,7 @@ class Host:
 
     def _report_refusals(self, tick: TickResult) -> None:
         """Publish an event for each agent that was refused, and for each change of the referee's seat."""
+        self._log_agents()
         for refusal in self.presence.pop_refusals():
             log.warning(refusal.text)
             if refusal.robot in self._roster.names:

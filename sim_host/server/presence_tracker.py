@@ -39,6 +39,7 @@ class PresenceTracker:
         """Recorder → the newest tick it has read; a recorder with a broken link stays until it is dropped."""
         self._gone_referees: list[str] = []
         """Names of referees whose gateway has gone since the last `pop_gone_referees`."""
+        self._changes: list[Presence] = []
         self._sight_recorders: set[str] = set()
         """Recorders that request sights."""
         self._lost: dict[str, float] = {}
@@ -66,7 +67,14 @@ class PresenceTracker:
         changed += self._claim_handler.decide()
         self.receive_progress(0.0)
         self._drop_lost_recorders()
-        return [presence for robot in changed if (presence := self._refresh(robot)) is not None]
+        changes = [presence for robot in changed if (presence := self._refresh(robot)) is not None]
+        self._changes += changes
+        return changes
+
+    def pop_changes(self) -> list[Presence]:
+        """The agents that joined or left since the last call."""
+        changes, self._changes = self._changes, []
+        return changes
 
     def refresh_agents(self) -> None:
         """Update the statistics after a change of the roster: an agent may have joined before its robot."""
