@@ -60,9 +60,8 @@ def measured(seconds: float) -> None:
                     crowd.wait()
         print(f"agents were present in {joined} robot-ticks")
         for busy in (False, True):
-            print(
-                f"{'joins' if busy else 'quiet'}: {histogram(late[busy])}; CPU of a tick, worst {max(work[busy]):.1f} ms"
-            )
+            name, worst = "joins" if busy else "quiet", max(work[busy])
+            print(f"{name}: {histogram(late[busy])}; CPU of a tick, worst {worst:.1f} ms")
         host.simulation.close()
 
 

@@ -10,7 +10,8 @@ from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.setup import Setup
 from schemas.process.installed import installed_version
 from schemas.side import Side
-from schemas.topics import CLAIM
+from schemas.tokens import SESSION_SEPARATOR
+from schemas.topics import ROBOT_CLAIM
 
 _REPLY_S = 4.0
 """Wall time that one query stays open: the host replies at once, or after the link of an earlier agent has expired."""
@@ -28,15 +29,18 @@ class Membership:
         """
         self._bus = bus
         source = f"process {os.getpid()} on {socket.gethostname()}"[:80]
+        own = bus.account.side if bus.account is not None else None
         self._claim = AgentClaim(
             robot=robot,
-            session=f"s{secrets.token_hex(12)}",
+            session=f"{own.value if own is not None else 's'}{SESSION_SEPARATOR}{secrets.token_hex(12)}",
             launch_token=launch_token,
             match=match,
-            side=side,
+            side=side or own,
             program=f"touchline {installed_version('touchline')}",
             source=source,
         )
+        self._key = robot
+        """Robot on whose key the claim is sent: one that the account has, so that the host can refuse it."""
         self._is_declared = False
 
     def fits(self, setup: Setup) -> bool:
@@ -54,6 +58,8 @@ class Membership:
         if not self._is_declared:
             self._declare(setup)
             self._is_declared = True
+        if not self.fits(setup) and self._bus.account is not None and self._bus.account.side is not None:
+            self._key = setup.teams[self._bus.account.side].robots[0]
         if setup.claims:
             reply = self._ask(patience)
             if not reply.accepted:
@@ -71,7 +77,8 @@ class Membership:
         deadline = clock.now() + max(patience, _REPLY_S)
         while True:
             try:
-                reply: AgentClaimReply = self._bus.query(CLAIM, self._claim, timeout=_REPLY_S).result(_REPLY_S + 0.5)
+                query = self._bus.query(ROBOT_CLAIM, self._claim, timeout=_REPLY_S, robot=self._key)
+                reply: AgentClaimReply = query.result(_REPLY_S + 0.5)
             except RefusedQueryError as error:
                 raise TouchlineError(f"{self._claim.robot}: refused by the host: {error}") from None
             except NoReplyError as error:

@@ -27,7 +27,7 @@ def run(settings: AgentSettings) -> int:
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:
-        return open_client(settings.match, clock, settings.connect, patience, any_match=True)
+        return open_client(settings.match, clock, settings.connect, patience, settings.credentials, any_match=True)
 
     try:
         client = open_when_there(connect, clock, settings.patience, _report)

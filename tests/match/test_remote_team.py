@@ -30,7 +30,7 @@ def run(tmp_path: Path) -> Iterator[Run]:
     programs: list[Program] = []
 
     def start(*words: str) -> Program:
-        free = ["--listen", "tcp/127.0.0.1:0"] if words[0] == "match" else []
+        free = ["--listen", "tcp/127.0.0.1:0", "--insecure"] if words[0] == "match" else []
         environment = {"XDG_RUNTIME_DIR": str(tmp_path), "COLUMNS": "200"}
         programs.append(Program(["touchline", *words, *free], tmp_path, f"program{len(programs)}", environment))
         return programs[-1]

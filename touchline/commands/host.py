@@ -25,11 +25,11 @@ def host(
     The match begins when all robots are there, after --wait seconds, or at `touchline referee start`. The host ends
     when the match is over, or at Ctrl-C.
 
-    Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --insecure
+    Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --credentials credentials/host.json
     """
     config = match.read(**{f"patience__{key}": value for key, value in waiting.items()})
     if "attendance" not in config.patience.model_fields_set:
         config = config.model_copy(update={"patience": config.patience.model_copy(update={"attendance": _ALWAYS_S})})
-    endpoint = match.endpoint()
-    settings = HostSettings(config=config, listen=endpoint, insecure=match.listening.insecure, **more)
+    match.endpoint()  # checked before the host is loaded
+    settings = HostSettings(config=config, **match.listening.model_dump(), **more)
     raise typer.Exit(run(settings))

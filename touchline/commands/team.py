@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from robot_agent.settings import AgentSettings
+from schemas.access.accounts import Account
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
@@ -46,7 +47,15 @@ def team(
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:
-        return open_client(settings.match, clock, settings.connect, patience, any_match=True)
+        return open_client(
+            settings.match,
+            clock,
+            settings.connect,
+            patience,
+            settings.credentials,
+            Account.of_team(side),
+            any_match=True,
+        )
 
     def report(line: str) -> None:
         typer.echo(line, err=True)

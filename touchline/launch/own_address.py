@@ -20,6 +20,11 @@ def endpoint_for_others(listen: str) -> str:
     return f"{protocol}/[{host}]:{port}" if ":" in host else f"{protocol}/{host}:{port}"
 
 
+def names_for_others(listen: str) -> tuple[str, ...]:
+    """The address and the name by which other machines connect to a listener of this machine, for its certificate."""
+    return tuple(dict.fromkeys((parse_endpoint(endpoint_for_others(listen))[1], socket.gethostname())))
+
+
 def own_address() -> str:
     """The address on the way to other networks; without such a way that of the first interface, or the host name."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from schemas.bus.contract import LEASE_S, Bus, Query
 from schemas.messages.claim import AgentClaim, AgentClaimReply
-from schemas.topics import CLAIM
+from schemas.topics import CLAIM, ROBOT_CLAIM
 from schemas.wire.message import BadMessageError
 from sim_host.server.claims import Claims
 from sim_host.server.invalid_log import InvalidLog
@@ -42,7 +42,7 @@ class ClaimHandler:
     """Receives claims, decides them, and replies."""
 
     def __init__(self, bus: Bus, claims: Claims, invalid_log: InvalidLog) -> None:
-        self._queries = bus.serve(CLAIM)
+        self._servers = (bus.serve(ROBOT_CLAIM), bus.serve(CLAIM))
         self._clock = bus.clock
         self._claims = claims
         self._invalid_log = invalid_log
@@ -54,7 +54,7 @@ class ClaimHandler:
 
     def receive(self) -> None:
         """Receive claims. Call it before changes of presence are read: a session's token arrives before its claim."""
-        while (query := self._queries.receive()) is not None:
+        for query in (query for server in self._servers for query in iter(server.receive, None)):
             try:
                 claim: AgentClaim = query.message()
             except BadMessageError as error:
@@ -65,7 +65,12 @@ class ClaimHandler:
             if len(self._waiting) >= _MOST:
                 query.reply(AgentClaimReply(accepted=False, reason="too many agents claim robots at the same time"))
                 continue
-            self._waiting.append(_Waiting(query, claim, self._clock.now() + EXPIRY_S))
+            waiting = _Waiting(query, claim, self._clock.now() + EXPIRY_S)
+            if _is_on_its_key(query, claim):
+                self._waiting.append(waiting)
+            else:
+                reason = self._claims.refusal(claim) or f"{query.key} claims {claim.robot}; use the robot's own key"
+                self._refuse(waiting, reason)
 
     def decide(self) -> list[str]:
         """Decide the received claims; returns the robots that were granted."""
@@ -102,3 +107,9 @@ class ClaimHandler:
         if text not in self._unreadable and len(self._unreadable) < _MOST_UNREADABLE:
             self._unreadable.add(text)
             self.refusals.append(Refusal(None, text))
+
+
+def _is_on_its_key(query: Query, claim: AgentClaim) -> bool:
+    """Whether a claim came on the key of the robot that it claims, to which only agents of its side have access."""
+    robot = query.topic.match(query.key) or {}
+    return robot.get("robot", claim.robot) == claim.robot

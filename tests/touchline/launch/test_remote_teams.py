@@ -1,6 +1,7 @@
 """Remote teams: the launcher reports who is there and who is missing, and how the other side joins."""
 
 import ipaddress
+from pathlib import Path
 
 import pytest
 
@@ -86,20 +87,27 @@ def test_a_match_that_has_a_robot_of_the_team_or_was_started_in_time_is_played(e
 def test_a_match_without_remote_teams_waits_for_none():
     teams = RemoteTeams(load_match(None))
     assert (teams.update(health(), 0.0), teams.waiting(health()), teams.absent) == ([], "", None)
-    assert join_lines(load_match(None), OPEN, "tcp/127.0.0.1:7447") == []
+    assert join_lines(load_match(None), OPEN, "tcp/127.0.0.1:7447", None) == []
 
 
 def test_the_other_side_s_command_names_an_address_of_this_machine_and_the_port_that_was_free(monkeypatch):
     monkeypatch.setattr(
         "touchline.launch.join_command.endpoint_for_others", lambda at: at.replace("0.0.0.0", "10.1.2.3")
     )
-    (line,) = join_lines(config(), "tcp/0.0.0.0:0", "tcp/127.0.0.1:40123")
+    (line,) = join_lines(config(), "tcp/0.0.0.0:0", "tcp/127.0.0.1:40123", None)
     assert line == "magenta joins with: touchline team magenta --connect tcp/10.1.2.3:40123 --brain MODULE:CLASS"
+
+
+def test_the_other_side_s_command_names_its_file_of_credentials_alone():
+    folder = Path("runs/one/credentials")
+    command, file = join_lines(config(), "tcp/10.1.2.3:7447", "tcp/10.1.2.3:7447", folder)
+    assert "--connect tcp/10.1.2.3:7447 --credentials magenta.json --brain" in command
+    assert file.endswith("no other file: runs/one/credentials/magenta.json")
 
 
 @pytest.mark.parametrize("listen", [None, "tcp/127.0.0.1:7447"])
 def test_a_host_on_loopback_says_that_no_other_machine_can_join(listen):
-    command, note = join_lines(config(), listen, "tcp/127.0.0.1:7447")
+    command, note = join_lines(config(), listen, "tcp/127.0.0.1:7447", None)
     assert "--connect tcp/127.0.0.1:7447" in command
     assert "this machine only" in note and "--listen tcp/[::]:7447" in note
 
