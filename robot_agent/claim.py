@@ -4,6 +4,7 @@ import os
 import secrets
 import socket
 
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, NoReplyError, PresenceKind, RefusedQueryError
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaim, AgentClaimReply
@@ -35,7 +36,7 @@ class Membership:
             session=f"{own.value if own is not None else 's'}{SESSION_SEPARATOR}{secrets.token_hex(12)}",
             launch_token=launch_token,
             match=match,
-            side=side or own,
+            side=own or side,
             program=f"touchline {installed_version('touchline')}",
             source=source,
         )
@@ -53,8 +54,9 @@ class Membership:
         """Claim the robot; again for each host that the agent meets.
 
         Raises:
-            TouchlineError: the host refuses, or does not reply for `patience` s of wall time.
+            TouchlineError: the credentials are none of a team, the host refuses, or does not reply for `patience` s of wall time.
         """
+        self._check_account()
         if not self._is_declared:
             self._declare(setup)
             self._is_declared = True
@@ -64,6 +66,14 @@ class Membership:
             reply = self._ask(patience)
             if not reply.accepted:
                 raise TouchlineError(f"{self._claim.robot}: refused by the host: {reply.reason}")
+
+    def _check_account(self) -> None:
+        account = self._bus.account
+        if account is not None and account not in (Account.CYAN, Account.MAGENTA):
+            raise TouchlineError(
+                f"{self._claim.robot}: these are the credentials of {account.value}; robots join with those of their "
+                f"side, {Account.CYAN.value}.json or {Account.MAGENTA.value}.json"
+            )
 
     def _declare(self, setup: Setup) -> None:
         """Declare the liveliness token; a host that is older than claims knows those of robots only."""

@@ -12,6 +12,7 @@ import typer
 
 from coach_gateway.settings import BridgeOptions
 from schemas.access.certificates import need_trustme
+from schemas.bus.endpoint import ENCRYPTED, parse_endpoint
 from schemas.bus.settings import ListenSettings
 from schemas.config.match_parts import Patience
 from schemas.config.settings import RecordOptions
@@ -86,7 +87,7 @@ def match(
     check_robot_names(config)
     brain_folder = played.file.parent if played.file is not None else None
     check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
-    endpoint = played.endpoint()
+    endpoint = _endpoint(played.listening, tls=tls)
     _check_tls(played.listening, tls=tls)
     clock = WallClock()
     served = _open_page(page) if web else None
@@ -109,6 +110,17 @@ def match(
 
 
 # Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
+
+
+def _endpoint(listening: ListenSettings, *, tls: bool) -> str | None:
+    """The endpoint to listen on. Others may reach it: a match that is given no credentials makes its own.
+
+    Raises:
+        TouchlineError: it needs a certificate, and none is to be made.
+    """
+    makes_own = listening.credentials is None and not listening.insecure
+    needs_tls = listening.listen is not None and parse_endpoint(listening.listen)[0] in ENCRYPTED
+    return listening.listen if makes_own and (tls or not needs_tls) else options.endpoint_of(listening)
 
 
 def _check_tls(listening: ListenSettings, *, tls: bool) -> None:

@@ -53,9 +53,9 @@ class TeamRun:
         setup = ask_setup(bus, plan.agent.patience)
         self._total = sum(len(team.robots) for team in setup.teams.values())
         self._robots = _chosen(plan, setup.teams[plan.side].robots)
-        if plan.agent.match not in (None, bus.match):  # the host refuses the claim, and reports it on its side, too
-            agent = plan.agent.model_copy(update={"robot": self._robots[0]})
-            Membership(bus, agent.robot, agent.launch_token, agent.match, plan.side).join(setup, agent.patience)
+        member = Membership(bus, self._robots[0], plan.agent.launch_token, plan.agent.match, plan.side)
+        if not member.fits(setup):
+            member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
         self._fork_server, self._log_limit = ForkServer(), LogLimit()
         self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
 
