@@ -54,7 +54,8 @@ class Membership:
         """Claim the robot; again for each host that the agent meets.
 
         Raises:
-            TouchlineError: the credentials are none of a team, the host refuses, or does not reply for `patience` s of wall time.
+            TouchlineError: the credentials are none of a team, the host refuses, or it does not reply for `patience` s
+                of wall time.
         """
         self._check_account()
         if not self._is_declared:
