@@ -41,6 +41,7 @@ from schemas.wire.message import Name, Part
 
 REMOTE = "remote"
 """In place of a team: `magenta = "remote"` below [teams], short for `[teams.magenta]` with `remote = true`."""
+_REMOTE_KEYS = {f"teams.{side.value}.remote": side for side in Side}
 LOCKSTEP = "lockstep"
 """The pace at which the host waits for the answers of all robots."""
 
@@ -219,6 +220,8 @@ def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> Ma
             raise TouchlineError(f"{path}: not TOML: {error}") from None
     for key, value in (overrides or {}).items():
         _set_at_path(content, key.split("."), value)
+        if value is True and key in _REMOTE_KEYS:
+            _drop_program(content["teams"], _REMOTE_KEYS[key])
     return _validate(_with_number_files(_with_scene(content), where), where)
 
 
@@ -251,6 +254,14 @@ def _set_at_path(content: dict[str, Any], path: list[str], value: Any) -> None:
             return  # the validator names the wrong type
         content = below
     content[path[-1]] = value
+
+
+def _drop_program(teams: Any, side: Side) -> None:
+    """Leave the team's program out: a team that an option makes remote keeps the name and the robots of the file."""
+    team = teams.get(side.value) if isinstance(teams, dict) else None
+    if isinstance(team, dict):
+        team.pop("brain", None)
+        team.pop("command", None)
 
 
 def _validate(content: dict[str, Any], where: str) -> MatchConfig:

@@ -68,9 +68,7 @@ def match(
     from touchline.launch.processes import CREDENTIALS, check_robot_names
     from touchline.launch.run_folder import prepare_credentials, prepare_run
 
-    teams: dict[str, Any] = _teams_of(ghost) if ghost else {}
-    if remote is not None:
-        teams[remote] = {"remote": True}
+    teams = _teams_of(ghost) if ghost else {}
     sockets = _open_ports(bridges) if bridges.wanted else ()
     if web or bridges.wanted:
         played.changes.setdefault("pace", "realtime")
@@ -78,6 +76,7 @@ def match(
         played.officiating.setdefault("mode", "manual")  # the league's box decides
     config = played.read(
         **{f"teams__{side}": team for side, team in teams.items()},
+        **({f"teams__{remote}__remote": True} if remote is not None else {}),
         **{f"patience__{key}": value for key, value in waiting.items()},
         **{f"record__{key}": value for key, value in recording.items()},
         record__wait=not no_record,

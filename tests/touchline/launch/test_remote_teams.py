@@ -34,6 +34,13 @@ def test_a_team_is_remote_by_one_word_or_by_a_table(tmp_path):
     assert load_match(file).team(Side.MAGENTA).brain is None
 
 
+def test_a_team_that_an_option_makes_remote_keeps_the_name_and_the_robots_of_the_file(tmp_path):
+    file = tmp_path / "cup.toml"
+    file.write_text('[teams.magenta]\nname = "Guests"\nsize = 3\nbrain = "mine:Brain"\n')
+    team = load_match(file, {"teams.magenta.remote": True}).team(Side.MAGENTA)
+    assert (team.name, team.size, team.brain, team.remote) == ("Guests", 3, None, True)
+
+
 def test_a_remote_team_has_no_program_here():
     with pytest.raises(TouchlineError, match=r"teams\.magenta: the team is remote, .* leave brain and command out"):
         config(brain="mine:Brain")
