@@ -1,54 +1,40 @@
-"""What the claim of an agent has to fit: match, robots, sides, and the secret of the launch. Knows no bus."""
+"""Whom the host admits: the recorders that it waits for, and accounts that were cut off and may send again."""
 
-import hmac
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable
 
-from schemas.config.match_config import MatchConfig
-from schemas.errors import did_you_mean
-from schemas.messages.claim import AgentClaim
-from schemas.side import Side
+from schemas.messages.admission import AdmissionReply, AdmissionRequest
+from sim_host.server.account_limits import AccountLimits
 
 
-@dataclass(slots=True)
 class Admission:
-    """Which claims fit this match, whatever other agents do."""
+    """Recorders that a lockstep host waits for. Every other recorder is served, and may fall behind."""
 
-    match: str
-    """Name of the match."""
-    sides: dict[str, Side]
-    """Robot → its side, for each robot that takes part or has taken part."""
-    launch_token: str | None = None
-    """Secret that an agent must know; None admits every agent."""
-    remote: frozenset[Side] = field(default_factory=frozenset)
-    """Sides whose agents are of another launch, and need no secret."""
+    def __init__(self, recorders: Iterable[str], accounts: AccountLimits, *, any_recorder: bool = False) -> None:
+        """With `any_recorder`, only admitted recorders can be present, since the host asks for credentials."""
+        self._recorders = set(recorders)
+        self._any_recorder = any_recorder
+        self._accounts = accounts
+        self._changes: list[str] = []
 
-    @classmethod
-    def of(cls, config: MatchConfig, launch_token: str | None) -> "Admission":
-        """The admission to the match of a config."""
-        sides = {robot: side for side in Side for robot in config.robots(side)}
-        return cls(config.name, sides, launch_token, frozenset(config.remote_sides))
+    def waits_for(self, recorder: str) -> bool:
+        """Whether a lockstep host waits for a recorder of this name."""
+        return self._any_recorder or recorder in self._recorders
 
-    def add_robots(self, sides: Mapping[str, Side]) -> None:
-        """Add robots that an operator has added to the match."""
-        self.sides.update(sides)
+    def handle(self, request: AdmissionRequest) -> AdmissionReply:
+        """Admit what the request names."""
+        if request.recorder is not None:
+            if not self.waits_for(request.recorder):
+                self._recorders.add(request.recorder)
+                self._changes.append(f"the host waits for the recorder {request.recorder} ({request.source})")
+        elif request.account is not None:
+            if not self._accounts.admit(request.account):
+                names = ", ".join(self._accounts.cut_off) or "none"
+                reason = f"{request.account} is not cut off; cut off are: {names}"
+                return AdmissionReply(accepted=False, reason=reason, cut_off=self._accounts.cut_off)
+            self._changes.append(f"{request.account} is admitted again ({request.source})")
+        return AdmissionReply(accepted=True, cut_off=self._accounts.cut_off)
 
-    def needs_token(self, robot: str) -> bool:
-        """Whether the agent of this robot must know the secret of the launch."""
-        return self.launch_token is not None and self.sides.get(robot) not in self.remote
-
-    def refusal(self, claim: AgentClaim) -> str:
-        """Why the claim does not fit; empty if it does."""
-        if claim.match not in (None, self.match):
-            return f'the agent is for the match "{claim.match}", and this host plays "{self.match}"'
-        side = self.sides.get(claim.robot)
-        if side is None:
-            return (
-                f'no robot of the match "{self.match}" is named {claim.robot}; {did_you_mean(claim.robot, self.sides)}'
-            )
-        if claim.side not in (None, side):
-            return f"{claim.robot} is a robot of {side}, and the agent plays for {claim.side}"
-        given = (claim.launch_token or "").encode()
-        if self.needs_token(claim.robot) and not hmac.compare_digest(given, (self.launch_token or "").encode()):
-            return "the host admits only agents of its own launch, which know TOUCHLINE_LAUNCH_TOKEN"
-        return ""
+    def pop_changes(self) -> list[str]:
+        """What has been admitted since the last call, one line each."""
+        changes, self._changes = self._changes, []
+        return changes

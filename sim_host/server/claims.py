@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from schemas.messages.claim import AgentClaim
-from sim_host.server.admission import Admission
+from sim_host.server.eligibility import Eligibility
 
 _MOST = 200
 """Most robots, and most sessions, that are remembered; a flood of invented names must not fill the memory."""
@@ -24,7 +24,7 @@ class Claims:
     A session whose link was broken gets its robot back if no other agent has claimed it meanwhile.
     """
 
-    admission: Admission
+    eligibility: Eligibility
     """Which claims fit the match."""
     holders: dict[str, Holder] = field(default_factory=dict)
     """Robot → its agent."""
@@ -47,15 +47,15 @@ class Claims:
 
     def is_present(self, robot: str) -> bool:
         """Whether the robot has an agent that may play it."""
-        return robot in self.holders or (robot in self._unclaimed and not self.admission.needs_token(robot))
+        return robot in self.holders or (robot in self._unclaimed and not self.eligibility.needs_token(robot))
 
     def admits(self, robot: str) -> bool:
         """Whether commands on this robot's key are from an agent that may play it, as far as the host can know."""
-        return robot in self.holders or not self.admission.needs_token(robot)
+        return robot in self.holders or not self.eligibility.needs_token(robot)
 
     def refusal(self, claim: AgentClaim) -> str:
         """Why the claim cannot succeed at any time; empty if it can."""
-        reason = self.admission.refusal(claim)
+        reason = self.eligibility.refusal(claim)
         if not reason and claim.robot not in self.holders and len(self.holders) >= _MOST:
             return f"the host has {_MOST} agents already"
         return reason
@@ -67,7 +67,7 @@ class Claims:
             return f"the liveliness token alive/session/{claim.session} is missing; declare it before the claim"
         if holder is not None:
             return "" if holder.session == claim.session else f"{claim.robot} has an agent already: {holder.source}"
-        if claim.robot in self._unclaimed and not self.admission.needs_token(claim.robot):
+        if claim.robot in self._unclaimed and not self.eligibility.needs_token(claim.robot):
             return f"{claim.robot} has an agent already, which has made no claim"
         return ""
 
