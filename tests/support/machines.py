@@ -59,7 +59,9 @@ class Machines:
     def start_host(self) -> Program:
         """Start the host, also in place of an earlier one."""
         config = load_match(None, self._overrides)
-        return self._start("host", "host", "sim_host", HostSettings(config=config, listen=self._endpoint, insecure=True))
+        return self._start(
+            "host", "host", "sim_host", HostSettings(config=config, listen=self._endpoint, insecure=True)
+        )
 
     def start_agent(self, robot: str, machine: str, patience: float = 10.0, **environment: str) -> Program:
         """Start a robot that drives in circles; with SPEED, at that speed in m/s."""

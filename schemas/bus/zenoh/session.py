@@ -21,12 +21,17 @@ from schemas.process.clock import Clock
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""
-_CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
-"""Fewer threads than by default, since a match has many small processes."""
-_HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
+_CLIENT_THREADS = "(app: (worker_threads: 2), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
+"""Fewer threads than by default, since a match has many small processes; two, since closing a broken link
+blocks one (see `_HOST_THREADS`)."""
+_HOST_THREADS = "(app: (worker_threads: 16), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
 """A thread that waits for room in a link's queue, as a reply from a cache does, must not be the thread that makes the
 room. Zenoh closes a stalled link on the threads that read: if there were few, all of them could be waiting for room in
-that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876)."""
+that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876).
+
+Closing a link with unsent data, as after a cut of the network, blocks a thread for up to 10 s (its socket has `SO_LINGER`;
+eclipse-zenoh/zenoh, issue 2350). There must be more threads than robots and programs that one cut disconnects: with one
+thread in a client, or four in the host, a cut of five robots left nobody to exchange messages after the network was back."""
 _RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 _ATTEMPT_S = 0.9
 """Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then repeats
