@@ -29,14 +29,14 @@ _HOST_THREADS = "(app: (worker_threads: 16), rx: (handover: app), acc: (handover
 room. Zenoh closes a stalled link on the threads that read: if there were few, all of them could be waiting for room in
 that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876).
 
-Closing a link with unsent data, as after a cut of the network, blocks a thread for up to 10 s (its socket has `SO_LINGER`;
-eclipse-zenoh/zenoh, issue 2350). There must be more threads than robots and programs that one cut disconnects: with one
-thread in a client, or four in the host, a cut of five robots left nobody to exchange messages after the network was back."""
+Closing a link with unsent data, as after a cut of the network, blocks a thread for up to 10 s (its socket has
+`SO_LINGER`; eclipse-zenoh/zenoh, issue 2350). There must be more threads than clients that one cut disconnects:
+with one thread in a client, or four in a host that loses five robots, nothing is exchanged until those 10 s are over."""
 _RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 _ATTEMPT_S = 0.9
-"""Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then repeats
-its packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the handshake
-of four round trips at 0.1 s of delay each way."""
+"""Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then
+repeats its packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the
+handshake of four round trips at 0.1 s of delay each way."""
 _TRY_S = (0.5, 2.0)
 """Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
 at once. Ctrl-C takes effect between attempts."""
