@@ -65,11 +65,11 @@ class Machines:
             "host", "host", "sim_host", HostSettings(config=config, listen=self._endpoint, insecure=True)
         )
 
-    def start_agent(self, robot: str, machine: str, patience: float = 10.0, **environment: str) -> Program:
-        """Start a robot that drives in circles; with SPEED, at that speed in m/s."""
-        settings = AgentSettings(
-            connect=self._endpoint, match=MATCH, robot=robot, brain="circles:act", patience=patience
-        )
+    def start_agent(
+        self, robot: str, machine: str, patience: float = 10.0, brain: str = "circles:act", **environment: str
+    ) -> Program:
+        """Start a robot; by default it drives in circles, with SPEED at that speed in m/s."""
+        settings = AgentSettings(connect=self._endpoint, match=MATCH, robot=robot, brain=brain, patience=patience)
         return self._start(robot, machine, "robot_agent", settings, **environment)
 
     def start_recorder(self, machine: str, out: Path) -> Program:

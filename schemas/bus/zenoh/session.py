@@ -30,8 +30,8 @@ room. Zenoh closes a stalled link on the threads that read: if there were few, a
 that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876).
 
 Closing a link with unsent data, as after a cut of the network, blocks a thread for up to 10 s (its socket has
-`SO_LINGER`; eclipse-zenoh/zenoh, issue 2350). There must be more threads than clients that one cut disconnects:
-with one thread in a client, or four in a host that loses five robots, nothing is exchanged until those 10 s are over."""
+`SO_LINGER`; eclipse-zenoh/zenoh, issue 2350). There must be more threads than clients that one cut disconnects: with
+one thread in a client, or four in a host that loses five robots, nothing is exchanged until those 10 s are over."""
 _RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 _ATTEMPT_S = 0.9
 """Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then
