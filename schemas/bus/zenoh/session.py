@@ -16,11 +16,15 @@ from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError, Ref
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port, with_tls
 from schemas.bus.zenoh.protection_settings import client_settings, router_settings
 from schemas.bus.zenoh.refusal import refusal_at
+from schemas.bus.zenoh.unreachable import why_unreachable
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""
+_MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
+"""Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
+over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
 _CLIENT_THREADS = "(app: (worker_threads: 2), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
 """Fewer threads than by default, since a match has many small processes; two, since closing a broken link
 blocks one (see `_HOST_THREADS`)."""
@@ -141,9 +145,7 @@ def open_connection(
             if refusal is not None:
                 raise RefusedClientError(refusal) from None
             if clock.now() >= deadline:
-                raise BusError(
-                    f"--connect {connect}: no host answers there; start one with `touchline host`, or name its endpoint"
-                ) from error
+                raise BusError(why_unreachable(connect)) from error
             clock.sleep_until(clock.now() + 0.1)
             lasts = min(2 * lasts, longest)
 
@@ -167,16 +169,17 @@ def _can_open(endpoint: str, credentials: Credentials | None) -> bool:
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
     """Open a session with these threads, unless the environment sets others.
 
-    Zenoh reads the variable once, when the first session of a process is opened. The variable must not reach child
-    processes, which may need other settings.
+    Zenoh reads the variables once, when the first session of a process is opened. They must not reach child processes,
+    which may need other settings.
     """
-    if _THREADS in os.environ:
-        return zenoh.open(config)
-    os.environ[_THREADS] = threads
+    wanted = {_THREADS: threads, _MOST_AHEAD: _MOST_AHEAD_MS}
+    added = {name: value for name, value in wanted.items() if name not in os.environ}
+    os.environ.update(added)
     try:
         return zenoh.open(config)
     finally:
-        del os.environ[_THREADS]
+        for name in added:
+            del os.environ[name]
 
 
 def _config(mode: str, more: Mapping[str, object]) -> zenoh.Config:
