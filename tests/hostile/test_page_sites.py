@@ -33,7 +33,8 @@ def gateway(gateway_of: Callable[..., Gateway]) -> Gateway:
 
 
 @pytest.mark.parametrize(
-    "host", ["evil.example", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil.example", "", "[", "a@b", "☃"]
+    "host",
+    ["evil.example", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil.example", "", "[", "a@b", "☃"],
 )
 def test_a_name_that_a_foreign_dns_entry_points_here_gets_no_file(gateway: Gateway, host: str) -> None:
     refused = request(gateway, "/page.css", Host=host.encode().decode("latin-1"))
