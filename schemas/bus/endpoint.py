@@ -11,7 +11,11 @@ DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
 """The first choice of a host without `--listen`: on loopback, reachable only from this machine."""
 FREE_ENDPOINT = "tcp/127.0.0.1:0"
 """Its second choice, where another process listens on the first: a free port."""
+ENCRYPTED = ("tls", "quic")
+"""Protocols whose listener needs a certificate."""
 _CONNECTIONLESS = ("udp", "quic")
+_PROBE_S = 0.3
+"""Wall time in which a machine has to answer a probe."""
 
 
 def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
@@ -37,11 +41,40 @@ def is_loopback(endpoint: str) -> bool:
         return False
 
 
+def is_cut_off(endpoint: str) -> bool:
+    """Whether nothing answers at an endpoint: its machine is off, or the network to it is cut.
+
+    False where it accepts a connection or refuses it, and for protocols without connections.
+    """
+    protocol, host, port = parse_endpoint(endpoint)
+    if protocol in _CONNECTIONLESS:
+        return False
+    try:
+        socket.create_connection((host, port), _PROBE_S).close()
+    except ConnectionError:
+        return False
+    except OSError:  # no answer, or no way to the machine
+        return True
+    return False
+
+
 def local_endpoint(listen: str) -> str:
     """The endpoint at which this machine reaches a listener; on loopback for one that listens on every address."""
     protocol, host, port = parse_endpoint(listen)
     here = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
     return f"{protocol}/{here}:{port}"
+
+
+def with_tls(endpoint: str) -> str:
+    """The endpoint with TLS: the same address and port.
+
+    Raises:
+        BusError: the protocol has no TLS.
+    """
+    protocol, _, _ = parse_endpoint(endpoint)
+    if protocol not in ("tcp", *ENCRYPTED):
+        raise BusError(f"{endpoint}: {protocol} has no TLS, which these credentials ask for; use tls/ or tcp/")
+    return endpoint.replace("tcp/", "tls/", 1)
 
 
 def with_free_port(endpoint: str) -> str:

@@ -7,11 +7,13 @@ from typing import Annotated
 
 import typer
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.messages.recorder import RecorderOperation
 from touchline.cli import options
 from touchline.cli.errors import PREFIX
 from touchline.cli.option_groups import with_option_groups
+from touchline.commands import admit
 
 app = typer.Typer(
     help="Control a recorder while it records: pause, resume, split, snapshot, status.\n\n"
@@ -30,6 +32,8 @@ COMMANDS: dict[RecorderOperation, tuple[str, str]] = {
     ),
 }
 """Operation, which is also the command's name → its help, and the options of its example."""
+
+app.command("admit")(admit.recorder)
 
 _ANSWER_S = 5.0
 """Wall time to wait for a recorder's reply, s; a snapshot is written before the reply."""
@@ -64,7 +68,7 @@ def _query(operation: RecorderOperation, connection: ClientSettings, chosen: Rec
     from schemas.topics import RECORDER_CONTROL
     from touchline.cli.bus_client import bus_client
 
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.OPERATOR) as bus:
         try:
             answer = bus.query(RECORDER_CONTROL, RecorderRequest(operation=operation), _ANSWER_S, name=chosen.name)
             reply: RecorderReply = answer.result(_ANSWER_S + 0.5)

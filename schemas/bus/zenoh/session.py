@@ -5,30 +5,44 @@ Multicast scouting, gossip and shared memory are off; a process listens on the g
 
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import zenoh
 
-from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError
-from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port
+from schemas.access.credentials import Credentials
+from schemas.access.protection import Protection
+from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError, RefusedClientError
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port, with_tls
+from schemas.bus.zenoh.protection_settings import client_settings, router_settings
+from schemas.bus.zenoh.refusal import refusal_at
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""
+_MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
+"""Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
+over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
 _CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
 """Fewer threads than by default, since a match has many small processes."""
 _HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
 """A thread that waits for room in a link's queue, as a reply from a cache does, must not be the thread that makes the
 room. Zenoh closes a stalled link on the threads that read: if there were few, all of them could be waiting for room in
 that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876)."""
-_RETRY = {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 1.5}
+_RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
+_ATTEMPT_S = 0.9
+"""Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then
+repeats its packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the
+handshake of four round trips at 0.1 s of delay each way."""
 _TRY_S = (0.5, 2.0)
 """Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
 at once. Ctrl-C takes effect between attempts."""
 _CONGESTION_TIMEOUT_US = 1_000_000
 """Wall time in which a client has to make room for data that must not be dropped, in µs; then its link is closed, and
 it may connect again."""
+_ONCE_MS = 700
+"""Wall time for the reply of a host in an attempt that shows why others failed, in ms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,26 +60,35 @@ class SessionContext:
     """The bus, which must be closed before the interpreter ends, and exists as long as the session is in use."""
 
 
-def open_router(listen: str | None) -> tuple[zenoh.Session, str]:
+def open_router(
+    listen: str | None, protection: Protection | None = None, limits: Mapping[str, object] | None = None
+) -> tuple[zenoh.Session, str]:
     """The host's session, a router that listens on one endpoint, and that endpoint.
 
     Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
+
+    Args:
+        protection: users, what each may do, and the certificate; None admits everybody to everything.
+        limits: further settings of the router.
 
     Raises:
         EndpointInUseError: another process listens on the endpoint.
         BusError: it cannot listen on the endpoint.
     """
-    if listen is not None:
-        return _listen_on(listen)
-    try:
-        return _listen_on(DEFAULT_ENDPOINT)
-    except EndpointInUseError:
-        return _listen_on(FREE_ENDPOINT)
+    has_tls = protection is not None and protection.credentials.certificate is not None
+    with router_settings(protection) as settings:
+        more = {**settings, **(limits or {})}
+        if listen is not None:
+            return _listen_on(listen, has_tls, more)
+        try:
+            return _listen_on(DEFAULT_ENDPOINT, has_tls, more)
+        except EndpointInUseError:
+            return _listen_on(FREE_ENDPOINT, has_tls, more)
 
 
-def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
+def _listen_on(listen: str, has_tls: bool, more: Mapping[str, object]) -> tuple[zenoh.Session, str]:
     try:
-        endpoint = with_free_port(listen)
+        endpoint = with_free_port(with_tls(listen) if has_tls else listen)
     except OSError as error:
         raise BusError(f"--listen {listen} cannot be listened on ({error.strerror}); choose another address") from None
     config = _config(
@@ -73,6 +96,7 @@ def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
         {
             "listen/endpoints": [endpoint],
             "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTION_TIMEOUT_US,
+            **more,
         },
     )
     try:
@@ -84,20 +108,36 @@ def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
         raise BusError(f"--listen {listen} cannot be listened on ({first_line(error)}); {remedy}") from None
 
 
-def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Session:
-    """A client's session, with attempts for `patience` s of wall time.
+def open_connection(
+    connect: str, clock: Clock, patience: float, credentials: Credentials | None = None
+) -> tuple[zenoh.Session, str]:
+    """A client's session, with attempts for `patience` s of wall time, and the endpoint of the host.
 
     Raises:
         BusError: no host answers at that endpoint.
+        RefusedClientError: the host refuses this client.
     """
+    if credentials is not None and credentials.root_certificate is not None:
+        connect = with_tls(connect)
     deadline = clock.now() + patience
     lasts, longest = _TRY_S
     while True:
-        settings = {"connect/endpoints": [connect], "connect/retry": _RETRY}
-        config = _config("client", {**settings, "connect/timeout_ms": round(lasts * 1000)})
+        settings = {"connect/endpoints": [connect], "connect/retry": _RETRY, **client_settings(credentials)}
+        attempt_ms = round(1000 * max(lasts, _ATTEMPT_S))
+        config = _config(
+            "client",
+            {
+                **settings,
+                "connect/timeout_ms": round(lasts * 1000),
+                "transport/unicast/open_timeout": attempt_ms,
+            },
+        )
         try:
-            return _open(config, _CLIENT_THREADS)
+            return _open(config, _CLIENT_THREADS), connect
         except zenoh.ZError as error:
+            refusal = refusal_at(connect, credentials, lambda endpoint: _can_open(endpoint, credentials))
+            if refusal is not None:
+                raise RefusedClientError(refusal) from None
             if clock.now() >= deadline:
                 raise BusError(
                     f"--connect {connect}: no host answers there; start one with `touchline host`, or name its endpoint"
@@ -106,22 +146,39 @@ def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Sessio
             lasts = min(2 * lasts, longest)
 
 
+def _can_open(endpoint: str, credentials: Credentials | None) -> bool:
+    """Whether a single attempt at an endpoint opens a session, which is closed again."""
+    settings = {
+        "connect/endpoints": [endpoint],
+        "connect/timeout_ms": 0,
+        "transport/unicast/open_timeout": _ONCE_MS,
+        **client_settings(credentials),
+    }
+    try:
+        session = _open(_config("client", settings), _CLIENT_THREADS)
+    except zenoh.ZError:
+        return False
+    session.close()  # type: ignore[no-untyped-call]
+    return True
+
+
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
     """Open a session with these threads, unless the environment sets others.
 
-    Zenoh reads the variable once, when the first session of a process is opened. The variable must not reach child
-    processes, which may need other settings.
+    Zenoh reads the variables once, when the first session of a process is opened. They must not reach child processes,
+    which may need other settings.
     """
-    if _THREADS in os.environ:
-        return zenoh.open(config)
-    os.environ[_THREADS] = threads
+    wanted = {_THREADS: threads, _MOST_AHEAD: _MOST_AHEAD_MS}
+    added = {name: value for name, value in wanted.items() if name not in os.environ}
+    os.environ.update(added)
     try:
         return zenoh.open(config)
     finally:
-        del os.environ[_THREADS]
+        for name in added:
+            del os.environ[name]
 
 
-def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
+def _config(mode: str, more: Mapping[str, object]) -> zenoh.Config:
     config = zenoh.Config()
     settings: dict[str, object] = {
         "mode": mode,
@@ -136,7 +193,7 @@ def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
         try:
             config.insert_json5(key, json.dumps(value))
         except zenoh.ZError as error:
-            raise BusError(f"{key.split('/')[0]} is {value!r}: {first_line(error)}") from None
+            raise BusError(f"{key} cannot be set: {first_line(error)}") from None
     return config
 
 
