@@ -84,10 +84,10 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
-    brain_folder = played.file.parent if played.file is not None else None
-    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = _endpoint(played.listening, tls=tls)
     _check_tls(played.listening, tls=tls)
+    brain_folder = played.file.parent if played.file is not None else None
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     clock = WallClock()
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
