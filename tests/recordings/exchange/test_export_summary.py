@@ -28,5 +28,5 @@ def test_messages_that_cannot_be_decoded_are_counted_by_their_key(kind: str, rig
     rig.leave()
     summary = EXPORTS[kind](rig.read(), tmp_path / "out.mcap")
     assert summary.out == tmp_path / "out.mcap" and summary.out.exists()
-    assert summary.written and all(count > 0 for count in summary.written.values())
+    assert sum(summary.written.values()) > 0
     assert summary.unreadable == {"world": 1}
