@@ -30,7 +30,7 @@ def run(settings: RecorderSettings) -> int:
     if summary is None:
         _report("stopped before there was a host; nothing is recorded")
         return 1
-    sys.stdout.write(_sentence(summary) + "\n")
+    sys.stdout.write(closing_line(summary) + "\n")
     return 0
 
 
@@ -39,11 +39,12 @@ def _report(line: str) -> None:
     sys.stderr.flush()
 
 
-def _sentence(summary: RecordingSummary) -> str:
+def closing_line(summary: RecordingSummary) -> str:
+    """Files, counts and the reason of the end, for the terminal."""
     result = summary.result
-    files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
     if not summary.files:
         return "no file was kept"
+    files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
     return (
         f"{files}: {result.messages} messages, {result.tick + 1} ticks, {result.lost} lost, "
         f"{summary.size} bytes, ended by {result.ended.value}"

@@ -1,5 +1,6 @@
 import sys
 
+import matplotlib
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -74,6 +75,18 @@ def test_the_way_of_the_ball_is_drawn_over_the_whole_match(recorded, tmp_path):
     picture, without = imread(out), imread(tmp_path / "match.png")
     red = [np.mean((pixels[..., 0] > 0.9) & (pixels[..., 2] < 0.4)) for pixels in (picture, without)]
     assert red[0] > 10 * red[1] > 0
+
+
+@pytest.mark.parametrize(("times", "score"), [([1.0], "0 : 0"), ([1.0, 3.98], "1 : 0"), (None, "1 : 0")])
+def test_a_picture_is_headed_by_the_teams_and_the_score(recorded, tmp_path, times, score):
+    """Moments, with the score of the last one, and the way of the ball, with that of the end."""
+    path = tmp_path / "match.svg"
+    with matplotlib.rc_context({"svg.fonttype": "none"}):
+        if times is None:
+            trace(recorded.path, path)
+        else:
+            draw(recorded.path, path, times)
+    assert all(f">{words}<" in path.read_text() for words in ("Team cyan", "Team magenta", score))
 
 
 def test_a_cut_off_recording_can_be_drawn(recorded, tmp_path):
