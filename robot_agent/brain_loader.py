@@ -24,10 +24,11 @@ class _FunctionBrain:
         self.act = function
 
 
-def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None) -> Brain:
+def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, here: Path | None = None) -> Brain:
     """The brain that `module:name` names: a class built with the briefing, or a function `act(sight)`.
 
-    Modules are also looked for in `beside_match`, the folder of the match file, and then in the current directory.
+    Modules are also looked for in `beside_match`, the folder of the match file, and then in the current directory,
+    or in `here` where the process has left that.
 
     Raises:
         TouchlineError: one line with the wrong part of the spec, or with what its code raised, and where.
@@ -35,7 +36,7 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None) 
     module_name, _, name = spec.partition(":")
     if not all(part.isidentifier() for part in (*module_name.split("."), name)):
         raise TouchlineError(f'brain is "{spec}"; write it as "module:Class"')
-    folders = BrainFolders(beside_match)
+    folders = BrainFolders(beside_match, here)
     folders.add_to_module_path()
     module = _import(spec, module_name, folders)
     _check_origin(spec, module, folders)

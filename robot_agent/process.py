@@ -35,7 +35,8 @@ def run(settings: AgentSettings) -> int:
 
             def build(setup: Setup) -> Brain:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
-                return load_brain(settings.brain, Briefing.of(settings.robot, setup), settings.brain_folder)
+                briefing = Briefing.of(settings.robot, setup)
+                return load_brain(settings.brain, briefing, settings.brain_folder, settings.launch_folder)
 
             return serve(bus, build, settings.robot, settings.patience, settings.launch_token)
     except KeyboardInterrupt:

@@ -22,6 +22,8 @@ class AgentSettings(ClientSettings):
     """module:Class, or module:function of a plain act(sight)."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory; a match uses that of its file."""
+    launch_folder: Path | None = None
+    """Folder in which the module is looked for after that; by default the current directory."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
     """Secret of the host that the agent joins; by default none."""
     patience: Annotated[float, Field(ge=0)] = 10.0

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.settings import BridgeOptions
+from schemas.config.match_config import MatchConfig
 from schemas.config.settings import RecordOptions
 from schemas.errors import MatchFailedError
 from touchline.cli import options
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     import socket
 
     from schemas.bus.contract import ReceivedMessage
-    from schemas.config.match_config import MatchConfig
     from schemas.process.clock import Clock
     from touchline.launch.processes import MatchPlan, Page
     from touchline.launch.result import MatchResult
@@ -35,6 +35,7 @@ def match(
     web: options.Web = False,
     json: options.Json = False,
     *,
+    isolation: Annotated[dict[str, Any], FieldsOf(MatchConfig, "isolate")],
     played: options.MatchOptions,
     recording: Annotated[dict[str, Any], FieldsOf(RecordOptions)],
     page: options.PageOptions,
@@ -51,8 +52,9 @@ def match(
     """
     from schemas.process.clock import WallClock
     from touchline.launch.check_brains import check_teams
+    from touchline.launch.confinement import isolation_note, team_confinements
     from touchline.launch.processes import check_robot_names
-    from touchline.launch.run_folder import prepare_run
+    from touchline.launch.run_folder import RUNS, prepare_run
 
     teams = _teams_of(ghost) if ghost else {}
     sockets = _open_ports(bridges) if bridges.wanted else ()
@@ -64,17 +66,20 @@ def match(
         **{f"teams__{side}": team for side, team in teams.items()},
         **{f"record__{key}": value for key, value in recording.items()},
         record__wait=not no_record,
+        **isolation,
     )
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
     brain_folder = played.file.parent if played.file is not None else None
-    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
+    confinements = team_confinements(config, brain_folder, RUNS)
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True), confinements)
     endpoint = played.endpoint()
     clock = WallClock()
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
-    plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
+    plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
+    plan = replace(plan, isolation_note=isolation_note(config, brain_folder))
     if brain_folder is not None:
         plan = replace(plan, brain_folder=brain_folder.resolve())
     if bridges.wanted:
@@ -93,7 +98,7 @@ def _teams_of(ghosts: list[str]) -> dict[str, dict[str, Any]]:
     return teams_of(ghosts)
 
 
-def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
+def _check_ghosts(config: MatchConfig, ghosts: list[str]) -> None:
     from touchline.replay.ghost import check_ghosts
 
     check_ghosts(config, ghosts)

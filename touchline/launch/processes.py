@@ -1,5 +1,6 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
+import os
 import socket
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -18,6 +19,7 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
+from touchline.launch.confinement import Confinement, team_confinements
 from touchline.launch.python_process import PYTHON, module_path_environment
 
 
@@ -83,13 +85,15 @@ class Process:
     kind: ProcessKind
     command: tuple[str, ...]
     environment: dict[str, str]
-    """Added to the supervisor's environment."""
+    """Added to the supervisor's environment, or to what the confinement leaves of it."""
     restarts: int = 0
     settings: Settings | None = None
     """The content of `settings_file`; None for a team's own program."""
     settings_file: Path | None = None
     sockets: tuple[socket.socket, ...] = ()
     """Bound sockets that it inherits, also when it is started again."""
+    confinement: Confinement | None = None
+    """How a robot's program is confined; None for the programs of this library, which are not."""
 
     def restarted(self) -> "Process":
         """The process as it is launched after a crash."""
@@ -130,6 +134,10 @@ class MatchPlan:
     """The bound sockets of the bridges, in the order in which they are inherited."""
     launch_token: str | None = None
     """Secret by which the host knows the agents of this launch; None admits every agent."""
+    confinements: Mapping[Side, Confinement] | None = None
+    """How the robots of each side are confined; None to find out when they are launched."""
+    isolation_note: str = ""
+    """What the teams are not isolated from, for the user; empty for nothing to be said."""
 
     @property
     def connect(self) -> str:
@@ -208,8 +216,11 @@ def client_processes(plan: MatchPlan) -> list[Process]:
             connect=connect, match=match, out=plan.recording, record=config.record, config=config
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
+    confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
     for side in Side:
-        processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
+        for robot in config.robots(side):
+            confinement = confinements[side].in_folder(folder / robot)
+            processes.append(replace(_robot_process(robot, side, plan), confinement=confinement))
     gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
     if plan.page is not None:
         settings = gateway.model_copy(update={"web": plan.page.settings, "result": plan.result_folder})
@@ -239,16 +250,25 @@ def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
         environment["TOUCHLINE_LAUNCH_TOKEN"] = plan.launch_token
     if team.command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(robot, ProcessKind.AGENT, tuple(team.command), environment, restarts)
+        return Process(robot, ProcessKind.AGENT, program_command(team.command), environment, restarts)
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
         robot=robot,
         brain=team.brain or "",
         brain_folder=plan.brain_folder,
+        launch_folder=Path.cwd(),
         launch_token=plan.launch_token,
     )
     return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
+
+
+def program_command(command: list[str]) -> tuple[str, ...]:
+    """A team's command line for another working folder: the files that it names here have absolute paths."""
+    program, *arguments = command
+    if os.sep in program:
+        program = str(Path(program).absolute())
+    return program, *(str(Path(word).absolute()) if Path(word).exists() else word for word in arguments)
 
 
 def _process(

@@ -1,0 +1,154 @@
+"""The confinement of a robot's process: environment, working folder, limits, and what isolates it from others."""
+
+import os
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from schemas.config.confinement import Isolation, Limits
+from schemas.config.match_config import MatchConfig
+from schemas.process.leash import OwnConfinement
+from schemas.side import Side
+from touchline.launch.bubblewrap import bubblewrap, check_bubblewrap
+from touchline.launch.process_tree import tasks_of_user
+from touchline.launch.robot_environment import robot_environment
+from touchline.launch.team_code import are_rivals, system_folders, team_code
+from touchline.launch.team_user import TeamUser, team_users
+
+_GRACE_S = 5
+"""CPU time in s from the signal SIGXCPU to SIGKILL."""
+
+
+@dataclass(frozen=True, slots=True)
+class Confinement:
+    """How one robot's process is confined."""
+
+    limits: Limits
+    folder: Path
+    """Its working folder, an absolute path."""
+    tasks: int
+    """Most processes and threads of the user that it runs as, in all."""
+    passed: tuple[str, ...] = ()
+    """Names of further variables of the launcher's environment that it gets."""
+    user: TeamUser | None = None
+    """The user that it runs as; None for that of the launcher."""
+    visible: tuple[Path, ...] | None = None
+    """What it can read in bubblewrap; None without bubblewrap."""
+    hidden: tuple[Path, ...] = ()
+    """What it cannot read there."""
+    control_group: Path | None = None
+    """The control group that it joins."""
+
+    @property
+    def is_isolated(self) -> bool:
+        """Whether it differs from the launcher by user or view of the machine."""
+        return self.user is not None or self.visible is not None
+
+    def environment(self, own: Mapping[str, str]) -> dict[str, str]:
+        """Its whole environment, with its own variables."""
+        return robot_environment(os.environ, own, self.folder, self.passed)
+
+    def command(self, command: Iterable[str]) -> tuple[str, ...]:
+        """The command line of a program, with that of bubblewrap where it is used."""
+        wrapper = bubblewrap(self.folder, self.visible, self.hidden) if self.visible is not None else []
+        return (*wrapper, *command)
+
+    def own(self) -> OwnConfinement:
+        """What the process applies to itself."""
+        limits, cpu_s = self.limits, round(self.limits.cpu_time)
+        memory, file = round(limits.memory * 1e9), round(limits.file_size * 1e6)
+        wanted: OwnConfinement = {
+            "limits": {
+                "RLIMIT_CPU": (cpu_s, cpu_s + _GRACE_S),
+                "RLIMIT_DATA": (memory, memory),
+                "RLIMIT_NOFILE": (limits.open_files, limits.open_files),
+                "RLIMIT_NPROC": (self.tasks, self.tasks),
+                "RLIMIT_FSIZE": (file, file),
+                "RLIMIT_CORE": (0, 0),
+            },
+            "folder": str(self.folder),
+        }
+        if self.control_group is not None:
+            wanted["control_group"] = str(self.control_group)
+        if self.user is not None:
+            wanted["user"] = (self.user.user, self.user.group)
+        return wanted
+
+    def in_folder(self, folder: Path) -> "Confinement":
+        """The same with another working folder."""
+        return replace(self, folder=folder.absolute())
+
+    def make_folder(self) -> None:
+        """Make the working folder, which no other user may enter.
+
+        Raises:
+            OSError: it cannot be made.
+        """
+        self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if self.user is not None:
+            os.chown(self.folder, self.user.user, self.user.group)
+
+    def remove_empty_folder(self) -> None:
+        """Remove the working folder if the robot has left nothing in it."""
+        with suppress(OSError):
+            self.folder.rmdir()
+
+
+def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path) -> dict[Side, Confinement]:
+    """The confinement of both teams' robots, without their folders.
+
+    `beside_match` is the folder of the match file, `runs` that of all runs.
+
+    Raises:
+        TouchlineError: this machine cannot isolate them as the match file asks.
+    """
+    users: dict[Side, TeamUser] = team_users(config) if config.isolate is Isolation.USER else {}
+    if config.isolate is Isolation.BUBBLEWRAP:
+        check_bubblewrap()
+    launcher_tasks = 0 if users or os.geteuid() == 0 else tasks_of_user(os.geteuid())  # the kernel does not limit root
+    robots = {side: len(config.robots(side)) for side in Side}
+    confinements = {}
+    for side in Side:
+        limits = config.limits_of(side)
+        sharers = robots[side] if users else sum(robots.values())
+        pattern = Confinement(
+            limits,
+            Path("/"),
+            tasks=launcher_tasks + limits.processes * max(1, sharers),
+            passed=tuple(config.team(side).pass_environment),
+            user=users.get(side),
+        )
+        if config.isolate is Isolation.BUBBLEWRAP:
+            visible, hidden = _view(config, side, beside_match, runs)
+            pattern = replace(pattern, visible=visible, hidden=hidden)
+        confinements[side] = pattern
+    return confinements
+
+
+def _view(
+    config: MatchConfig, side: Side, beside_match: Path | None, runs: Path
+) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+    """What the robots of a side can read in bubblewrap, and what not."""
+    code, rival = team_code(config, side, beside_match), team_code(config, side.opponent, beside_match)
+    paths = [Path(entry).absolute() for entry in os.environ.get("PYTHONPATH", "").split(os.pathsep) if entry]
+    visible = [*system_folders(), *paths, *code.own]
+    if code.folder is not None:
+        visible.append(code.folder)
+    hidden = [path for path in rival.own if not any(own.is_relative_to(path) for own in code.own)]
+    return tuple(visible), (*hidden, runs.absolute())
+
+
+def isolation_note(config: MatchConfig, beside_match: Path | None) -> str:
+    """What the teams of a match are not isolated from, in one sentence; empty where there is nothing to tell a user.
+
+    Two teams with code of their own from different folders are probably different people's.
+    """
+    if not are_rivals(*(team_code(config, side, beside_match) for side in Side)):
+        return ""
+    if config.isolate is Isolation.NONE:
+        return (
+            "robots run as your user: both teams can read your files and each other's, and signal your processes; "
+            "--isolate bubblewrap prevents it"
+        )
+    return ""
