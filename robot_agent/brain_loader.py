@@ -11,6 +11,7 @@ from typing import Any
 
 from robot_agent.brain_folders import BrainFolders
 from robot_agent.contract import Brain, Briefing
+from robot_agent.limit_reached import limit_reached
 from robot_agent.user_code import OWN_PACKAGES, definition_of, place_of
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
@@ -144,4 +145,6 @@ def _one_line(error: BaseException) -> str:
     """An exception in one line, with the place in the brain's own code."""
     if isinstance(error, SyntaxError):
         return f"SyntaxError: {error.msg} ({error.filename}, line {error.lineno})"
-    return f"{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
+    limit = limit_reached(error)
+    remedy = f"; limit reached: {limit}" if limit else ""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}{remedy}"

@@ -79,7 +79,12 @@ def match(
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
-    plan = replace(plan, isolation_note=isolation_note(config, brain_folder))
+    plan = replace(
+        plan,
+        isolation_note=isolation_note(
+            config, brain_folder, {side: user for side, one in confinements.items() if (user := one.user)}
+        ),
+    )
     if brain_folder is not None:
         plan = replace(plan, brain_folder=brain_folder.resolve())
     if bridges.wanted:

@@ -1,6 +1,7 @@
 """The confinement of a robot's process: environment, working folder, limits, and what isolates it from others."""
 
 import os
+import sys
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -8,12 +9,13 @@ from pathlib import Path
 
 from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
 from schemas.process.leash import OwnConfinement
 from schemas.side import Side
 from touchline.launch.bubblewrap import bubblewrap, check_bubblewrap
 from touchline.launch.process_tree import tasks_of_user
 from touchline.launch.robot_environment import robot_environment
-from touchline.launch.team_code import are_rivals, system_folders, team_code
+from touchline.launch.team_code import are_rivals, share_a_folder, system_folders, team_code
 from touchline.launch.team_user import TeamUser, team_users
 
 _GRACE_S = 5
@@ -104,6 +106,7 @@ def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path
         TouchlineError: this machine cannot isolate them as the match file asks.
     """
     users: dict[Side, TeamUser] = team_users(config) if config.isolate is Isolation.USER else {}
+    _check_readable(config, users, beside_match)
     if config.isolate is Isolation.BUBBLEWRAP:
         check_bubblewrap()
     launcher_tasks = 0 if users or os.geteuid() == 0 else tasks_of_user(os.geteuid())  # the kernel does not limit root
@@ -139,16 +142,44 @@ def _view(
     return tuple(visible), (*hidden, runs.absolute())
 
 
-def isolation_note(config: MatchConfig, beside_match: Path | None) -> str:
+def isolation_note(config: MatchConfig, beside_match: Path | None, users: Mapping[Side, TeamUser]) -> str:
     """What the teams of a match are not isolated from, in one sentence; empty where there is nothing to tell a user.
 
     Two teams with code of their own from different folders are probably different people's.
     """
-    if not are_rivals(*(team_code(config, side, beside_match) for side in Side)):
-        return ""
-    if config.isolate is Isolation.NONE:
+    codes = {side: team_code(config, side, beside_match) for side in Side}
+    if config.isolate is Isolation.NONE and are_rivals(*codes.values()):
         return (
             "robots run as your user: both teams can read your files and each other's, and signal your processes; "
             "--isolate bubblewrap prevents it"
         )
+    if config.isolate is Isolation.BUBBLEWRAP and share_a_folder(*codes.values()):
+        return (
+            f"both teams' code is in {codes[Side.CYAN].folder}: each is kept from the other's module, but not from "
+            "other files there; put each team into a folder of its own"
+        )
+    for side, user in users.items():
+        for path in codes[side.opponent].own:
+            if user.can_read(path):
+                return f"{side.value}'s user {user.name} can read {path} of {side.opponent.value}; withdraw that right"
     return ""
+
+
+def _check_readable(config: MatchConfig, users: Mapping[Side, TeamUser], beside_match: Path | None) -> None:
+    """Check that the teams' users can read what their robots need, and enter the folder of all runs.
+
+    Raises:
+        TouchlineError: one cannot.
+    """
+    for side, user in users.items():
+        code = team_code(config, side, beside_match)
+        for path in (Path(sys.executable), *system_folders(), *code.own):
+            if not user.can_read(path):
+                raise TouchlineError(
+                    f"--isolate user: {user.name} cannot read {path}, which robots of {side.value} need; allow it"
+                )
+        if not user.can_enter(Path.cwd()):
+            raise TouchlineError(
+                f"--isolate user: {user.name} cannot enter {Path.cwd()}, where robots have their folders; "
+                "start the match in a folder that every user may enter"
+            )

@@ -1,9 +1,11 @@
 """The folder of a match's files under `runs/`, named after match, time and seed."""
 
+import os
 import secrets
 from datetime import UTC, datetime
 from pathlib import Path
 
+from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
@@ -29,7 +31,12 @@ def prepare_run(
     moment = datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC)
     stem = f"{config.name}-{moment:%Y%m%dT%H%M%SZ}-seed{config.seed}"
     try:
+        if config.isolate is Isolation.USER:
+            os.umask(0o077)  # logs and recording are for none of the teams' users
         folder = _new_folder(stem)
+        if config.isolate is Isolation.USER:
+            for one in (folder, folder.parent):
+                one.chmod(one.stat().st_mode | 0o011)  # robots enter their own folders in it
         out = (recording or folder / RECORDING) if recorded else None
         refusal = _why_not_writable(out) if out is not None else ""
         if refusal:

@@ -47,6 +47,12 @@ def are_rivals(one: TeamCode, other: TeamCode) -> bool:
     return bool(one.own and other.own) and _home(one) != _home(other)
 
 
+def share_a_folder(one: TeamCode, other: TeamCode) -> bool:
+    """Whether the modules of two different teams lie beside each other."""
+    in_packages = all(path.is_dir() for path in (*one.own, *other.own))
+    return bool(one.own and other.own) and one.folder == other.folder and one.own != other.own and not in_packages
+
+
 def system_folders() -> list[Path]:
     """Folders of programs and libraries, Python's and this library's among them; those that exist."""
     named = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc", "/opt", "/nix", "/snap")

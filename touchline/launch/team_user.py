@@ -20,8 +20,13 @@ class TeamUser(NamedTuple):
 
     def can_read(self, path: Path) -> bool:
         """Whether the user may read a file, or list a folder, by the rights of the path; groups are dropped."""
-        folders = all(self._may(folder, 0o1) for folder in path.absolute().parents)
-        return folders and self._may(path, 0o5 if path.is_dir() else 0o4)
+        real = path.resolve()
+        return self.can_enter(real.parent) and self._may(real, 0o5 if real.is_dir() else 0o4)
+
+    def can_enter(self, folder: Path) -> bool:
+        """Whether the user may use paths in a folder."""
+        real = folder.resolve()
+        return all(self._may(one, 0o1) for one in (real, *real.parents))
 
     def _may(self, path: Path, wanted: int) -> bool:
         found = path.stat()
