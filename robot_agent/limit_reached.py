@@ -6,7 +6,7 @@ import resource
 from schemas.config.confinement import Limits
 
 _OF_ERRNO = {
-    errno.EMFILE: (resource.RLIMIT_NOFILE, "open_files", 1.0),
+    errno.EMFILE: (resource.RLIMIT_NOFILE, "open_files", 1),
     errno.EFBIG: (resource.RLIMIT_FSIZE, "file_size", 1e6),
 }
 _OF_MEMORY = (resource.RLIMIT_DATA, "memory", 1e9)
@@ -24,5 +24,4 @@ def limit_reached(error: BaseException) -> str:
     soft, _ = resource.getrlimit(number)
     if soft == resource.RLIM_INFINITY:
         return ""
-    figure = soft / unit
-    return Limits.model_construct(**{limit: figure if unit != 1.0 else soft}).breach(limit)
+    return Limits().model_copy(update={limit: soft / unit if unit != 1 else soft}).breach(limit)

@@ -81,9 +81,7 @@ def match(
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
     plan = replace(
         plan,
-        isolation_note=isolation_note(
-            config, brain_folder, {side: user for side, one in confinements.items() if (user := one.user)}
-        ),
+        isolation_note=isolation_note(config, brain_folder, confinements),
     )
     if brain_folder is not None:
         plan = replace(plan, brain_folder=brain_folder.resolve())

@@ -142,7 +142,7 @@ def _view(
     return tuple(visible), (*hidden, runs.absolute())
 
 
-def isolation_note(config: MatchConfig, beside_match: Path | None, users: Mapping[Side, TeamUser]) -> str:
+def isolation_note(config: MatchConfig, beside_match: Path | None, confinements: Mapping[Side, Confinement]) -> str:
     """What the teams of a match are not isolated from, in one sentence; empty where there is nothing to tell a user.
 
     Two teams with code of their own from different folders are probably different people's.
@@ -158,9 +158,10 @@ def isolation_note(config: MatchConfig, beside_match: Path | None, users: Mappin
             f"both teams' code is in {codes[Side.CYAN].folder}: each is kept from the other's module, but not from "
             "other files there; put each team into a folder of its own"
         )
-    for side, user in users.items():
+    for side in Side:
+        user = confinements[side].user
         for path in codes[side.opponent].own:
-            if user.can_read(path):
+            if user is not None and user.can_read(path):
                 return f"{side.value}'s user {user.name} can read {path} of {side.opponent.value}; withdraw that right"
     return ""
 

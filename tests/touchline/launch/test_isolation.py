@@ -101,6 +101,15 @@ def test_in_bubblewrap_a_robot_s_own_processes_are_all_that_it_sees_and_end_with
 
 
 @needs_bubblewrap()
+def test_in_bubblewrap_a_robot_may_finish_its_work_when_the_match_is_over(tmp_path: Path) -> None:
+    """It receives SIGTERM as elsewhere, although it is no child of its supervisor."""
+    brain = "    def begin(self):\n        import atexit\n        atexit.register(Path('finished').touch)"
+    played = IsolatedMatch(tmp_path, brain).play("--isolate", "bubblewrap")
+    assert played.is_whole(), played.printed
+    assert (played.run / "cyan1" / "finished").exists()
+
+
+@needs_bubblewrap()
 def test_in_bubblewrap_limits_are_named_as_without(tmp_path: Path) -> None:
     brain = "    def begin(self):\n        self.all = bytearray(10_000_000_000)"
     played = IsolatedMatch(tmp_path, brain, limits="memory = 1.5").play("--isolate", "bubblewrap")
