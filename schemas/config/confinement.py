@@ -30,7 +30,7 @@ class Limits(Part):
     """What one robot may use of its machine, with all processes that its program starts."""
 
     cpu_time: CpuTime = 3600.0
-    """CPU time in s. An hour of a whole core; a robot of the teams that ship uses 2 s in a match of two minutes."""
+    """CPU time in s. An hour of a whole core; matches last minutes."""
     memory: Memory = 4.0
     """Memory in GB. Above what numpy and a network of torch on the CPU need, and too little to fill a machine."""
     open_files: OpenFiles = 1024

@@ -13,7 +13,7 @@ from schemas.config.confinement import Limits
 from touchline.launch.process_tree import Usage, children_of, process_line, tree_of, usage_of
 
 PERIOD_S = 0.5
-"""Wall time between two looks: 2 ms of CPU time for ten robots."""
+"""Wall time between two looks: about a millisecond of CPU time for ten robots."""
 
 
 class WatchedRobot(Protocol):
