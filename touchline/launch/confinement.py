@@ -22,6 +22,10 @@ _GRACE_S = 5
 """CPU time in s from the signal SIGXCPU to SIGKILL."""
 
 
+_CREDENTIALS = "credentials.json"
+"""Name of the team's credentials in the working folder of an isolated robot."""
+
+
 @dataclass(frozen=True, slots=True)
 class Confinement:
     """How one robot's process is confined."""
@@ -41,6 +45,14 @@ class Confinement:
     """What it cannot read there."""
     control_group: Path | None = None
     """The control group that it joins."""
+
+    credentials: Path | None = None
+    """The file of the team's credentials; None in a match without."""
+
+    @property
+    def readable_credentials(self) -> Path | None:
+        """The file of the credentials that the robot can read: a copy where it is isolated."""
+        return self.folder / _CREDENTIALS if self.is_isolated and self.credentials is not None else self.credentials
 
     @property
     def is_isolated(self) -> bool:
@@ -82,7 +94,7 @@ class Confinement:
         return replace(self, folder=folder.absolute())
 
     def make_folder(self) -> None:
-        """Make the working folder, which no other user may enter.
+        """Make the working folder, which no other user may enter, with the credentials of an isolated robot.
 
         Raises:
             OSError: it cannot be made.
@@ -90,10 +102,23 @@ class Confinement:
         self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if self.user is not None:
             os.chown(self.folder, self.user.user, self.user.group)
+        if self.is_isolated and self.credentials is not None:
+            self._copy_credentials(self.credentials.read_bytes())
+
+    def _copy_credentials(self, content: bytes) -> None:
+        """Write the robot's copy; the folder is the robot's, so that no link in it is followed."""
+        copy = self.folder / _CREDENTIALS
+        copy.unlink(missing_ok=True)
+        with os.fdopen(os.open(copy, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
+            if self.user is not None:
+                os.fchown(file.fileno(), self.user.user, self.user.group)
+            file.write(content)
 
     def remove_empty_folder(self) -> None:
         """Remove the working folder if the robot has left nothing in it."""
         with suppress(OSError):
+            if self.is_isolated:
+                (self.folder / _CREDENTIALS).unlink(missing_ok=True)
             self.folder.rmdir()
 
 
@@ -140,6 +165,14 @@ def _view(
         visible.append(code.folder)
     hidden = [path for path in rival.own if not any(own.is_relative_to(path) for own in code.own)]
     return tuple(visible), (*hidden, runs.absolute())
+
+
+def program_command(command: list[str]) -> tuple[str, ...]:
+    """A team's command line for another working folder: the files that it names here have absolute paths."""
+    program, *arguments = command
+    if os.sep in program:
+        program = str(Path(program).absolute())
+    return program, *(str(Path(word).absolute()) if Path(word).exists() else word for word in arguments)
 
 
 def isolation_note(config: MatchConfig, beside_match: Path | None, confinements: Mapping[Side, Confinement]) -> str:

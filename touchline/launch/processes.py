@@ -1,6 +1,5 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
-import os
 import socket
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -13,13 +12,15 @@ from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
+from schemas.access.accounts import Account
+from schemas.access.credentials import HOST_FILE, account_file
 from schemas.bus.endpoint import is_loopback, local_endpoint
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
-from touchline.launch.confinement import Confinement, team_confinements
+from touchline.launch.confinement import Confinement, program_command, team_confinements
 from touchline.launch.python_process import PYTHON, module_path_environment
 
 
@@ -58,6 +59,8 @@ PROCESSES: dict[ProcessKind, ProcessRow] = {
 
 OUTCOME = "outcome.json"
 """The file of a match's result, in the folder of its run."""
+CREDENTIALS = "credentials"
+"""The folder of a run's credentials, in its folder."""
 ANNOUNCEMENT = "endpoint.json"
 """The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
@@ -137,13 +140,19 @@ class MatchPlan:
     confinements: Mapping[Side, Confinement] | None = None
     """How the robots of each side are confined; None to find out when they are launched."""
     isolation_note: str = ""
-    """What the teams are not isolated from, for the user; empty for nothing to be said."""
+    """What the teams are not isolated from; empty for nothing to be printed."""
+    credentials: Path | None = None
+    """Folder with the credentials of the host and of all accounts; None admits everybody."""
 
     @property
     def connect(self) -> str:
         """The endpoint for processes on the same machine of a host that listens."""
         assert self.listen is not None
         return local_endpoint(self.listen)
+
+    def credentials_of(self, account: Account) -> Path | None:
+        """The credentials of an account; None in a match that admits everybody."""
+        return account_file(self.credentials, account) if self.credentials is not None else None
 
     @property
     def announcement(self) -> Path:
@@ -197,8 +206,9 @@ def host_process(plan: MatchPlan) -> Process:
     host = HostSettings(
         config=plan.config,
         listen=plan.listen,
+        credentials=plan.credentials / HOST_FILE if plan.credentials is not None else None,
         # --insecure was checked when the plan was made
-        insecure=plan.listen is not None and not is_loopback(plan.listen),
+        insecure=plan.credentials is None and plan.listen is not None and not is_loopback(plan.listen),
         launch_token=plan.launch_token,
         announcement=plan.announcement,
         outcome=plan.outcome,
@@ -213,15 +223,22 @@ def client_processes(plan: MatchPlan) -> list[Process]:
     processes = []
     if plan.recording is not None:
         recorder = RecorderSettings(
-            connect=connect, match=match, out=plan.recording, record=config.record, config=config
+            connect=connect,
+            match=match,
+            credentials=plan.credentials_of(Account.RECORDER),
+            out=plan.recording,
+            record=config.record,
+            config=config,
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
     confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
     for side in Side:
-        for robot in config.robots(side):
-            confinement = confinements[side].in_folder(folder / robot)
-            processes.append(replace(_robot_process(robot, side, plan), confinement=confinement))
-    gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
+        processes += [
+            _robot_process(robot, side, plan, confinements[side].in_folder(folder / robot))
+            for robot in config.robots(side)
+        ]
+    operator = plan.credentials_of(Account.OPERATOR)  # a gateway officiates, and gives the orders of both coaches
+    gateway = GatewaySettings(connect=connect, match=match, credentials=operator, tokens=plan.tokens)
     if plan.page is not None:
         settings = gateway.model_copy(update={"web": plan.page.settings, "result": plan.result_folder})
         processes.append(page_process(settings, plan.page.listener, folder))
@@ -236,7 +253,7 @@ def page_process(settings: GatewaySettings, listener: socket.socket, folder: Pat
     return _process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
-def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
+def _robot_process(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
     """A robot's brain, or its team's own program, which reads the robot's name from its environment."""
     team = plan.config.team(side)
     environment = {
@@ -248,27 +265,27 @@ def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
     }
     if plan.launch_token is not None:
         environment["TOUCHLINE_LAUNCH_TOKEN"] = plan.launch_token
+    credentials = plan.credentials_of(Account.of_team(side))
+    if credentials is not None:
+        confinement = replace(confinement, credentials=credentials.absolute())
+        credentials = confinement.readable_credentials
+        environment["TOUCHLINE_CREDENTIALS"] = str(credentials)
     if team.command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(robot, ProcessKind.AGENT, program_command(team.command), environment, restarts)
+        command = program_command(team.command)
+        return Process(robot, ProcessKind.AGENT, command, environment, restarts, confinement=confinement)
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
+        credentials=credentials,
         robot=robot,
         brain=team.brain or "",
         brain_folder=plan.brain_folder,
         launch_folder=Path.cwd(),
         launch_token=plan.launch_token,
     )
-    return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
-
-
-def program_command(command: list[str]) -> tuple[str, ...]:
-    """A team's command line for another working folder: the files that it names here have absolute paths."""
-    program, *arguments = command
-    if os.sep in program:
-        program = str(Path(program).absolute())
-    return program, *(str(Path(word).absolute()) if Path(word).exists() else word for word in arguments)
+    process = _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
+    return replace(process, confinement=confinement)
 
 
 def _process(

@@ -18,7 +18,7 @@ INTRUDER = """
     def begin(self):
         run = Path.home().parent
         for path in (run.parents[1] / "magenta_team.py", run / "magenta1.json", run / "host.json", run / "host.log",
-                     run / "magenta1.log", run / "magenta1", run / "stolen", Path("/etc/stolen")):
+                     run / "magenta1.log", run / "magenta1", run / "credentials", run / "stolen", Path("/etc/stolen")):
             try:
                 done = "wrote" if path.name == "stolen" else "read"
                 if path.name == "stolen":
@@ -50,6 +50,7 @@ REFUSED = [
     "refused host.log",
     "refused magenta1.log",
     "refused magenta1",
+    "refused credentials",
     "refused stolen",
     "refused stolen",
     "wrote own mine",
