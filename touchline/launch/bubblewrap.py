@@ -72,7 +72,10 @@ def _mounts(visible: Iterable[Path], hidden: list[Path]) -> Iterator[str]:
     """The arguments that make paths visible: links with what they lead to; nothing twice."""
     wanted = {path for one in visible for path in (one, one.resolve())}
     for path in sorted(wanted):
-        if not any(above in wanted and not above.is_symlink() for above in path.parents):
+        if any(path.resolve().is_relative_to(one) for one in hidden):
+            if path.is_file():  # one that is named, such as a recording among the hidden runs
+                yield from ("--ro-bind", str(path), str(path))
+        elif not any(above in wanted and not above.is_symlink() for above in path.parents):
             yield from _mount(path, hidden)
 
 

@@ -19,6 +19,8 @@ from touchline.launch.process_tree import tree_of
 from touchline.launch.processes import Process
 
 _TAIL_BYTES = 8192
+_SIGNAL_IN_BUBBLEWRAP = 128
+"""bwrap ends with this and the number of the signal that ended its program."""
 _SIGNALS_OF_LIMITS = {-signal.SIGXCPU: "cpu_time", -signal.SIGXFSZ: "file_size"}
 """Exit status → the limit for which the kernel ended a process."""
 
@@ -179,9 +181,9 @@ class ChildProcess(ProcessHandle):
     def _poll(self) -> int | None:
         status = self._popen.poll()
         is_wrapped = self.process.confinement is not None and self.process.confinement.visible is not None
-        return (
-            128 - status if is_wrapped and status is not None and status > 128 else status
-        )  # as bwrap reports signals
+        if is_wrapped and status is not None and status - _SIGNAL_IN_BUBBLEWRAP in set(signal.Signals):
+            return _SIGNAL_IN_BUBBLEWRAP - status
+        return status
 
 
 def _standard_input(process: Process) -> Path:

@@ -15,7 +15,7 @@ from schemas.side import Side
 from touchline.launch.bubblewrap import bubblewrap, check_bubblewrap
 from touchline.launch.process_tree import tasks_of_user
 from touchline.launch.robot_environment import robot_environment
-from touchline.launch.team_code import are_rivals, share_a_folder, system_folders, team_code
+from touchline.launch.team_code import are_rivals, interpreter_folders, share_a_folder, system_folders, team_code
 from touchline.launch.team_user import TeamUser, team_users
 
 _GRACE_S = 5
@@ -160,7 +160,7 @@ def _view(
     """What the robots of a side can read in bubblewrap, and what not."""
     code, rival = team_code(config, side, beside_match), team_code(config, side.opponent, beside_match)
     paths = [Path(entry).absolute() for entry in os.environ.get("PYTHONPATH", "").split(os.pathsep) if entry]
-    visible = [*system_folders(), *paths, *code.own]
+    visible = [*system_folders(), *interpreter_folders(config, side), *paths, *code.own]
     if code.folder is not None:
         visible.append(code.folder)
     hidden = [path for path in rival.own if not any(own.is_relative_to(path) for own in code.own)]

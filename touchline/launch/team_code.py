@@ -33,13 +33,21 @@ def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> Tea
         own = tuple(file for file in files if not any(file.is_relative_to(one) for one in system_folders()))
         return TeamCode(own[-1].parent if own else None, own)
     module = (team.brain or "").partition(":")[0].split(".")
-    if module[0] in OWN_PACKAGES:
+    if not module[0] or module[0] in OWN_PACKAGES:
         return TeamCode(None, ())
     for folder in BrainFolders(beside_match).paths:
         for path in (folder / module[0], folder / f"{module[0]}.py"):
             if path.exists():
                 return TeamCode(folder, (path,))
     return TeamCode(None, ())
+
+
+def interpreter_folders(config: MatchConfig, side: Side) -> list[Path]:
+    """The virtual environment of a side's program, with the folder of its Python; none for other programs."""
+    program = _file_of((config.team(side).command or [""])[0])
+    if program is None or not (program.parents[1] / "pyvenv.cfg").exists():
+        return []
+    return [program.parents[1], program.resolve().parents[1]]
 
 
 def are_rivals(one: TeamCode, other: TeamCode) -> bool:

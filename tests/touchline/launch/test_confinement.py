@@ -118,6 +118,15 @@ def test_what_is_visible_in_bubblewrap_leaves_out_what_is_hidden_below_it(here: 
     assert words[words.index("--bind") + 1] == str(here / "runs" / "cyan1")
 
 
+def test_a_file_that_is_named_is_visible_in_bubblewrap_among_hidden_ones(here: Path) -> None:
+    """A ghost's recording lies among the hidden runs."""
+    recording = here / "runs" / "earlier" / "match.mcap"
+    recording.parent.mkdir(parents=True)
+    recording.touch()
+    words = bubblewrap(here / "runs" / "cyan1", [recording, recording.parent], [here / "runs"])
+    assert [words[number + 1] for number, word in enumerate(words) if word == "--ro-bind"] == [str(recording)]
+
+
 def test_users_of_teams_have_to_exist_to_differ_and_not_to_be_root(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(team_user.os, "geteuid", lambda: 0)
     for users, fault in (

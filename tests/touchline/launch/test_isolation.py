@@ -111,6 +111,17 @@ def test_in_bubblewrap_a_robot_may_finish_its_work_when_the_match_is_over(tmp_pa
 
 
 @needs_bubblewrap()
+@pytest.mark.parametrize(
+    ("end", "how"),
+    [("os.kill(os.getpid(), signal.SIGSEGV)", "was ended by SIGSEGV"), ("os._exit(255)", "ended with status 255")],
+)
+def test_in_bubblewrap_the_end_of_a_robot_is_reported_as_elsewhere(tmp_path: Path, end: str, how: str) -> None:
+    played = IsolatedMatch(tmp_path, f"    def begin(self):\n        {end}").play("--isolate", "bubblewrap")
+    assert played.is_whole(), played.printed
+    assert played.line("cyan1") == f"cyan1 {how}; started again (1 of 3)"
+
+
+@needs_bubblewrap()
 def test_in_bubblewrap_limits_are_named_as_without(tmp_path: Path) -> None:
     brain = "    def begin(self):\n        self.all = bytearray(10_000_000_000)"
     played = IsolatedMatch(tmp_path, brain, limits="memory = 1.5").play("--isolate", "bubblewrap")
