@@ -46,7 +46,8 @@ def check_teams(
     Raises:
         TouchlineError: a program does not exist, or a brain cannot be built; the message names its key.
     """
-    for side in Side:
+    here = [side for side in Side if side not in config.remote_sides]
+    for side in here:
         team = config.team(side)
         if team.command is not None:
             _check_program(f"teams.{side.value}.command", team.command)
@@ -55,7 +56,7 @@ def check_teams(
     with ExitStack() as running:
         running.callback(UsageWatch().end_left_behind)
         checks = []
-        for side in (side for side in Side if config.team(side).command is None):
+        for side in (side for side in here if config.team(side).command is None):
             log = running.enter_context(tempfile.TemporaryFile())
             folder = Path(running.enter_context(tempfile.TemporaryDirectory(prefix="touchline-")))
             checks.append(_BuildCheck(config, side, brain_folder, log, confinements[side].in_folder(folder)))

@@ -1,7 +1,7 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
 import socket
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
@@ -210,6 +210,7 @@ def host_process(plan: MatchPlan) -> Process:
         # --insecure was checked when the plan was made
         insecure=plan.credentials is None and plan.listen is not None and not is_loopback(plan.listen),
         launch_token=plan.launch_token,
+        admit=[ProcessKind.RECORDER.value] if plan.recording is not None else [],
         announcement=plan.announcement,
         outcome=plan.outcome,
     )
@@ -232,10 +233,9 @@ def client_processes(plan: MatchPlan) -> list[Process]:
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
     confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
-    for side in Side:
+    for side in (side for side in Side if side not in config.remote_sides):
         processes += [
-            _robot_process(robot, side, plan, confinements[side].in_folder(folder / robot))
-            for robot in config.robots(side)
+            _robot_of(robot, side, plan, confinements[side].in_folder(folder / robot)) for robot in config.robots(side)
         ]
     operator = plan.credentials_of(Account.OPERATOR)  # a gateway officiates, and gives the orders of both coaches
     gateway = GatewaySettings(connect=connect, match=match, credentials=operator, tokens=plan.tokens)
@@ -253,39 +253,43 @@ def page_process(settings: GatewaySettings, listener: socket.socket, folder: Pat
     return _process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
-def _robot_process(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
-    """A robot's brain, or its team's own program, which reads the robot's name from its environment."""
+def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
+    """The process of one robot of a match."""
     team = plan.config.team(side)
-    environment = {
-        **ROBOT_ENVIRONMENT,
-        "TOUCHLINE_CONNECT": plan.connect,
-        "TOUCHLINE_MATCH": plan.config.name,
-        "TOUCHLINE_ROBOT": robot,
-        "TOUCHLINE_SIDE": side.value,
-    }
-    if plan.launch_token is not None:
-        environment["TOUCHLINE_LAUNCH_TOKEN"] = plan.launch_token
     credentials = plan.credentials_of(Account.of_team(side))
     if credentials is not None:
         confinement = replace(confinement, credentials=credentials.absolute())
-        credentials = confinement.readable_credentials
-        environment["TOUCHLINE_CREDENTIALS"] = str(credentials)
-    if team.command:
-        restarts = PROCESSES[ProcessKind.AGENT].restarts
-        command = program_command(team.command)
-        return Process(robot, ProcessKind.AGENT, command, environment, restarts, confinement=confinement)
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
-        credentials=credentials,
+        credentials=confinement.readable_credentials,
         robot=robot,
         brain=team.brain or "",
         brain_folder=plan.brain_folder,
         launch_folder=Path.cwd(),
         launch_token=plan.launch_token,
     )
-    process = _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
-    return replace(process, confinement=confinement)
+    command = program_command(team.command) if team.command else None
+    return replace(robot_process(settings, side, command, plan.folder), confinement=confinement)
+
+
+def robot_process(settings: AgentSettings, side: Side, command: Sequence[str] | None, folder: Path) -> Process:
+    """A robot's brain, or its team's own program, which reads what the settings say from its environment."""
+    credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
+    environment = {
+        **ROBOT_ENVIRONMENT,
+        "TOUCHLINE_CONNECT": settings.connect,
+        "TOUCHLINE_MATCH": settings.match,
+        "TOUCHLINE_ROBOT": settings.robot,
+        "TOUCHLINE_SIDE": side.value,
+        "TOUCHLINE_LAUNCH_TOKEN": settings.launch_token,
+        "TOUCHLINE_CREDENTIALS": credentials,
+    }
+    given = {name: value for name, value in environment.items() if value is not None}
+    if command:
+        restarts = PROCESSES[ProcessKind.AGENT].restarts
+        return Process(settings.robot, ProcessKind.AGENT, tuple(command), given, restarts)
+    return _process(settings.robot, ProcessKind.AGENT, settings, folder, given)
 
 
 def _process(

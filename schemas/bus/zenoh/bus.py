@@ -11,6 +11,7 @@ import zenoh
 from schemas.access.accounts import Account
 from schemas.access.credentials import read_credentials
 from schemas.access.protection import Protection
+from schemas.access.rights import writers_of
 from schemas.bus.contract import (
     Bus,
     BusError,
@@ -23,8 +24,9 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
+from schemas.bus.endpoint import is_cut_off
 from schemas.bus.mailbox import FifoMailbox
-from schemas.bus.zenoh.match_at import match_at
+from schemas.bus.zenoh.match_at import hosts_of, match_at, other_match
 from schemas.bus.zenoh.newest import ZenohNewest
 from schemas.bus.zenoh.presence import ZenohPresenceWatch
 from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer
@@ -68,8 +70,13 @@ def open_client(
     patience: float = 10.0,
     credentials: Path | None = None,
     account: Account | None = None,
+    *,
+    any_match: bool = False,
 ) -> "ZenohBus":
     """Open a client's bus, with attempts for `patience` s of wall time.
+
+    With `any_match` it is the bus of the only match at the endpoint even if that has another name, for clients that the
+    host is to refuse.
 
     Without an endpoint it connects to the running match of this machine, without a name to the match at the endpoint.
 
@@ -94,7 +101,11 @@ def open_client(
     deadline = clock.now() + patience
     session, endpoint = open_connection(connect, clock, patience, known)
     try:
-        name = match or match_at(session, endpoint, clock, deadline)
+        name = match_at(session, endpoint, clock, deadline) if match is None else match
+        if match is not None and match not in (others := hosts_of(session)) and others:
+            if not any_match or len(others) > 1:
+                raise BusError(other_match(endpoint, match, others))
+            (name,) = others
     except BaseException:
         session.close()  # type: ignore[no-untyped-call]
         raise
@@ -127,6 +138,7 @@ class ZenohBus(Bus):
 
     def publisher(self, topic: Topic, **chunks: str) -> Publisher:
         check_publishable(topic)
+        self._check_may_write(topic)
         return ZenohPublisher(topic, full_key(topic, chunks), self._open())
 
     def subscribe(self, topic: Topic, *, newest: bool = False, history: bool = False, **chunks: str) -> Subscription:
@@ -150,6 +162,7 @@ class ZenohBus(Bus):
     def query(
         self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
+        self._check_may_write(topic)
         return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, droppable, self._open())
 
     def declare_alive(self, kind: PresenceKind, name: str) -> None:
@@ -173,6 +186,9 @@ class ZenohBus(Bus):
             return False
         return not self._context.is_client or bool(self.session.info.routers_zid())
 
+    def is_cut_off(self) -> bool:
+        return self._context.is_client and not self.connected() and is_cut_off(self.endpoint)
+
     def close(self) -> None:
         if self._closed:
             return
@@ -186,6 +202,12 @@ class ZenohBus(Bus):
             self.session.close()  # type: ignore[no-untyped-call]
         except zenoh.ZError:
             return  # the peer has closed it
+
+    def _check_may_write(self, topic: Topic) -> None:
+        """Report what the host would drop without a notice."""
+        if self.account is not None and self.account not in (known := writers_of(topic)):
+            files = " or ".join(f"{account.value}.json" for account in known)
+            raise BusError(f"the account {self.account.value} may not send {topic.key}; use --credentials with {files}")
 
     def _own_side(self, topic: Topic) -> dict[str, str]:
         """The side of a coach, whose subscription to both sides' keys the host would drop."""

@@ -1,17 +1,28 @@
 """Queries and replies over Zenoh. They are rare, and wait in mailboxes."""
 
+from contextlib import suppress
+
 import zenoh
 
 from schemas.bus.contract import (
     NoReplyError,
     PendingReply,
     Query,
+    RefusedQueryError,
     Server,
 )
 from schemas.bus.mailbox import FifoMailbox
+from schemas.bus.zenoh.sample import NO_KEY
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 from schemas.wire.message import WireMessage
+
+_EXPIRED = "Timeout"
+"""Zenoh's own text in place of a reply that did not come in time."""
+MAX_WAITING = 64
+"""Most queries of one topic that wait; those beyond it are dropped, as when no process answers."""
+TOO_MANY = "too many queries wait"
+"""Why a query is dropped."""
 
 
 class ZenohQuery(Query):
@@ -23,11 +34,11 @@ class ZenohQuery(Query):
         self.reply_payload(reply.encode())
 
     def reply_payload(self, payload: bytes) -> None:
-        with self._query as query:
+        with self._query as query, suppress(zenoh.ZError):  # its client has gone
             query.reply(query.key_expr, payload, encoding=zenoh.Encoding.APPLICATION_JSON)
 
     def fail(self, reason: str) -> None:
-        with self._query as query:
+        with self._query as query, suppress(zenoh.ZError):  # its client has gone
             query.reply_err(reason)
 
 
@@ -37,7 +48,16 @@ class ZenohServer(Server):
         start = len(context.prefix)
 
         def receive(query: zenoh.Query) -> None:
-            self.mailbox.put("", ZenohQuery(topic, str(query.key_expr)[start:], query))
+            asked = str(query.key_expr)[start:]
+            reason = "" if topic.has_key(asked) else NO_KEY
+            if not reason and len(self.mailbox) >= MAX_WAITING:
+                reason = TOO_MANY
+            if reason:
+                context.owner.refusals.add(asked, reason)
+                with query:
+                    pass  # ends it without a reply
+            else:
+                self.mailbox.put("", ZenohQuery(topic, asked, query))
 
         self._queryable = context.session.declare_queryable(
             context.prefix + key, zenoh.handlers.Callback(receive, indirect=False)
@@ -53,17 +73,18 @@ class ZenohPendingReply(PendingReply):
     ) -> None:
         super().__init__(topic)
         self._key = key
-        mailbox: FifoMailbox[bytes | str] = FifoMailbox()
+        mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
         self._mailbox = mailbox
 
         def receive(reply: zenoh.Reply) -> None:
             if reply.ok is not None:
                 mailbox.put("", reply.ok.payload.to_bytes())
             elif reply.err is not None:
-                mailbox.put("", reply.err.payload.to_string())
+                reason = reply.err.payload.to_string()
+                mailbox.put("", NoReplyError(reason) if reason == _EXPIRED else RefusedQueryError(reason))
 
         def end() -> None:
-            mailbox.put("", f"no process answers {key}")
+            mailbox.put("", NoReplyError(f"no process answers {key}"))
 
         context.session.get(
             context.prefix + key,
@@ -77,6 +98,6 @@ class ZenohPendingReply(PendingReply):
         reply = self._mailbox.get(timeout)
         if reply is None:
             raise NoReplyError(f"no process answers {self._key} within {timeout:g} s")
-        if isinstance(reply, str):
-            raise NoReplyError(reply)
+        if isinstance(reply, NoReplyError):
+            raise reply
         return reply
