@@ -77,6 +77,8 @@ class Inbox:
             return None
         if stats.removed:
             return None  # it answers a sight from before it was removed
+        if received.stamp is not None:
+            stats.add_sequence(received.stamp.sequence, tick)
         try:
             command = Command.decode(received.payload)
             if command.answers_tick > tick:
@@ -104,5 +106,5 @@ class Inbox:
     def _note_latency(self, stats: AgentStats, tick: int, arrived_ns: int) -> None:
         for sent_tick, sent_ns in reversed(self._sent_at):
             if sent_tick == tick and arrived_ns:
-                stats.latencies.append((arrived_ns - sent_ns) * 1e-9)
+                stats.add_latency((arrived_ns - sent_ns) * 1e-9)
                 return
