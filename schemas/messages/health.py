@@ -39,6 +39,9 @@ class RobotHealth(Part):
     sights: int | None = None
     """Sights sent to its agent while it was present, without repetitions; None in recordings that are older than this
     field."""
+    unanswered: int | None = None
+    """Sights without an answer before the newest one that was answered: the sight was lost, the agent skipped it for a
+    newer one, or its answer was lost or invalid. None in recordings that are older than this field."""
     late: int | None = None
     """Those of `answers` to a sight that was no longer the newest; the others were on time. None in recordings that are
     older than this field."""

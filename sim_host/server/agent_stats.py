@@ -34,6 +34,7 @@ class AgentStats:
     invalid: int = 0
     refused: int = 0
     sights: int = 0
+    unanswered: int = 0
     late: int = 0
     lost_commands: int = 0
     silent: int = 0
@@ -58,6 +59,8 @@ class AgentStats:
     latencies: deque[float] = field(default_factory=lambda: deque(maxlen=LATENCY_SAMPLES))
     latency_counts: list[int] = field(default_factory=lambda: [0] * CLASSES)
     """All latencies since the match began, by class."""
+    _ticks_without_sight: int = 0
+    """Ticks since its newest answer in which no sight was sent to it."""
     _next_sequence: int | None = None
     """Sequence number of its next message; None before the first."""
     _newest_at: int = 0
@@ -78,6 +81,8 @@ class AgentStats:
         self.answering = answered
         if self.alive and not self.removed:
             self.sights += 1
+        else:
+            self._ticks_without_sight += 1
         if answered:
             self.silent = self.missed_in_a_row = self.next_chance = 0
         elif not self.idle:
@@ -116,6 +121,8 @@ class AgentStats:
         if answered <= self.newest:
             self.duplicates += 1
             return False
+        self.unanswered += max(0, answered - self.newest - 1 - self._ticks_without_sight)
+        self._ticks_without_sight = 0
         self.newest = answered
         self.answers += 1
         if answered < tick:
@@ -152,6 +159,7 @@ class AgentStats:
             still=self.still,
             latency_ms=round(self.latency_s * 1e3, 3) if self.latencies else None,
             sights=self.sights,
+            unanswered=self.unanswered,
             late=self.late,
             lost_commands=self.lost_commands,
             radio_bytes=radio.bytes,
