@@ -15,6 +15,7 @@ from touchline.commands import (
     drive,
     export,
     filter,
+    health,
     host,
     import_log,
     info,
@@ -73,6 +74,7 @@ app.command("match", rich_help_panel=PLAY)(match.match)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
+app.command("health", rich_help_panel=WATCH)(health.health)
 app.command("replay", rich_help_panel=WATCH)(replay.replay)
 app.command("player", rich_help_panel=WATCH)(player.player)
 
