@@ -15,6 +15,7 @@ from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.settings import WebSettings, need_web
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
 from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import WallClock
@@ -41,7 +42,9 @@ def _show(settings: GatewaySettings) -> None:
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
-    with open_client(settings.match, WallClock(), settings.connect, _PATIENCE) as bus:
+    with open_client(
+        settings.match, WallClock(), settings.connect, _PATIENCE, settings.credentials, Account.VIEWER
+    ) as bus:
         log_changes(bus, say, stop)
 
 
@@ -60,7 +63,7 @@ def _serve(settings: GatewaySettings) -> None:
     def services(bus: Bus) -> list[Service]:
         return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, ports, known, say)]
 
-    run_services(settings.connect, settings.match, services, say, waiting_page)
+    run_services(settings, services, say, waiting_page)
 
 
 def _page(

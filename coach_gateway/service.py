@@ -9,8 +9,9 @@ import signal
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, BusError
-from schemas.bus.endpoint import parse_endpoint
+from schemas.bus.settings import ClientSettings
 from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import WallClock
 
@@ -30,8 +31,7 @@ class Service(Protocol):
 
 
 def run(
-    connect: str | None,
-    match: str | None,
+    client: ClientSettings,
     make: Callable[[Bus], Sequence[Service]],
     log: Callable[[str], None],
     waiting_page: Service | None = None,
@@ -41,14 +41,11 @@ def run(
     Raises:
         TouchlineError: a service cannot start, or it is not clear which match is meant.
     """
-    if connect is not None:
-        parse_endpoint(connect)
-    asyncio.run(_run(connect, match, make, log, waiting_page))
+    asyncio.run(_run(client, make, log, waiting_page))
 
 
 async def _run(
-    connect: str | None,
-    match: str | None,
+    client: ClientSettings,
     make: Callable[[Bus], Sequence[Service]],
     log: Callable[[str], None],
     waiting_page: Service | None,
@@ -57,25 +54,24 @@ async def _run(
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, stop.set)
-    bus = await _connect(connect, match, stop)
+    bus = await _connect(client, stop)
     if bus is None and not stop.is_set():
-        log(f"no host {f'at {connect}' if connect is not None else 'on this machine'} yet; waiting for it")
-        bus = await _wait(connect, match, stop, waiting_page)
+        where = f"at {client.connect}" if client.connect is not None else "on this machine"
+        log(f"no host {where} yet; waiting for it")
+        bus = await _wait(client, stop, waiting_page)
     if bus is not None:
         with bus:
             await together(make(bus), stop)
 
 
-async def _wait(
-    connect: str | None, match: str | None, stop: asyncio.Event, waiting_page: Service | None
-) -> Bus | None:
+async def _wait(client: ClientSettings, stop: asyncio.Event, waiting_page: Service | None) -> Bus | None:
     """A connection to the match, after any length of time; None once `stop` is set."""
     met = asyncio.Event()
     waiting = asyncio.create_task(waiting_page.serve(met)) if waiting_page is not None else None
     bus = None
     try:
         while bus is None and not stop.is_set():
-            bus = await _connect(connect, match, stop)
+            bus = await _connect(client, stop)
     finally:
         met.set()
         if waiting is not None:
@@ -83,10 +79,15 @@ async def _wait(
     return bus
 
 
-async def _connect(connect: str | None, match: str | None, stop: asyncio.Event) -> Bus | None:
+async def _connect(client: ClientSettings, stop: asyncio.Event) -> Bus | None:
     """A connection to the match; None if no host answers within one attempt."""
+
+    def join() -> Bus:
+        account = Account.OPERATOR  # it officiates, and gives the orders of both coaches
+        return open_client(client.match, WallClock(), client.connect, _POLL_S, client.credentials, account)
+
     try:
-        bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _POLL_S)
+        bus = await asyncio.to_thread(join)
     except BusError:
         return None
     if stop.is_set():

@@ -8,7 +8,8 @@ from schemas.bus.contract import Bus, NoReplyError, PresenceKind
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.setup import Setup
-from schemas.topics import CLAIM
+from schemas.tokens import SESSION_SEPARATOR
+from schemas.topics import ROBOT_CLAIM
 
 _REPLY_S = 4.0
 """Wall time that one query stays open: the host replies at once, or after the link of an earlier agent has expired."""
@@ -21,9 +22,9 @@ class Membership:
         """`launch_token` is the secret of the launch; None without one."""
         self._bus = bus
         source = f"process {os.getpid()} on {socket.gethostname()}"[:80]
-        self._claim = AgentClaim(
-            robot=robot, session=f"s{secrets.token_hex(12)}", launch_token=launch_token, source=source
-        )
+        side = bus.account.side if bus.account is not None else None
+        session = f"{side.value if side is not None else 's'}{SESSION_SEPARATOR}{secrets.token_hex(12)}"
+        self._claim = AgentClaim(robot=robot, session=session, launch_token=launch_token, source=source)
         self._is_declared = False
 
     def join(self, setup: Setup, patience: float) -> None:
@@ -52,7 +53,8 @@ class Membership:
         deadline = clock.now() + max(patience, _REPLY_S)
         while True:
             try:
-                reply: AgentClaimReply = self._bus.query(CLAIM, self._claim, timeout=_REPLY_S).result(_REPLY_S + 0.5)
+                query = self._bus.query(ROBOT_CLAIM, self._claim, timeout=_REPLY_S, robot=self._claim.robot)
+                reply: AgentClaimReply = query.result(_REPLY_S + 0.5)
             except NoReplyError as error:
                 if clock.now() >= deadline:
                     raise TouchlineError(

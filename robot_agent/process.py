@@ -26,7 +26,7 @@ def run(settings: AgentSettings) -> int:
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:
-        return open_client(settings.match, clock, settings.connect, patience)
+        return open_client(settings.match, clock, settings.connect, patience, settings.credentials)
 
     try:
         client = open_when_there(connect, clock, settings.patience, _report)

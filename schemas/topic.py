@@ -58,6 +58,16 @@ class Topic:
     """The reply of a query."""
     cache_size: int = 1500
     """Messages that the publisher of a `recovered` topic keeps for each key: 30 s of ticks in real time."""
+    other_writers: tuple[Party, ...] = ()
+    """Who writes beside `writer`."""
+
+    names_sender: bool = True
+    """Whether the key tells the host what it must know of the sender. Hosts with credentials admit no other topic."""
+
+    @property
+    def writers(self) -> tuple[Party, ...]:
+        """All who publish it, or send the query."""
+        return (self.writer, *self.other_writers)
 
     @property
     def chunks(self) -> tuple[str, ...]:

@@ -88,6 +88,7 @@ MANUAL = Topic(
     Delivery.EVERY,
     False,
     "a person drives this robot in place of its brain",
+    other_writers=(Party.COACH,),
 )
 BELIEF = Topic(
     "team/{side}/belief/{robot}",
@@ -142,7 +143,7 @@ EVENT = Topic(
 ACTION = Topic(
     "game/action",
     RefereeAction,
-    Party.COACH,
+    Party.REFEREE,
     (Party.HOST,),
     "on demand",
     Delivery.QUERY,
@@ -153,7 +154,7 @@ ACTION = Topic(
 REFEREE_SEAT = Topic(
     "game/referee_seat",
     SeatRequest,
-    Party.COACH,
+    Party.REFEREE,
     (Party.HOST,),
     "on demand",
     Delivery.QUERY,
@@ -171,6 +172,7 @@ SETUP = Topic(
     False,
     "the setup of the match: pitch, bodies, limits, rules, names",
     reply=Setup,
+    other_writers=(*_WATCHERS, Party.OPERATOR),
 )
 CLAIM = Topic(
     "host/claim",
@@ -180,7 +182,19 @@ CLAIM = Topic(
     "when an agent joins",
     Delivery.QUERY,
     False,
-    "claims a robot for an agent, or is refused with the reason",
+    "as `robot/{robot}/claim`, which takes its place; with credentials nobody may send it",
+    reply=AgentClaimReply,
+    names_sender=False,
+)
+ROBOT_CLAIM = Topic(
+    "robot/{robot}/claim",
+    AgentClaim,
+    Party.ROBOT,
+    (Party.HOST,),
+    "when an agent joins",
+    Delivery.QUERY,
+    False,
+    "claims this robot for an agent, or is refused with the reason",
     reply=AgentClaimReply,
 )
 PARAMETERS = Topic(
@@ -260,7 +274,7 @@ RECORDER_PROGRESS = Topic(
     "record/{name}/progress",
     RecorderProgress,
     Party.RECORDER,
-    (Party.HOST, Party.VIEWER),
+    (Party.HOST, Party.COACH, Party.REFEREE, Party.VIEWER),
     "5 to 20 Hz of wall time",
     Delivery.EVERY,
     False,
@@ -291,12 +305,13 @@ REPLAY_CONTROL = Topic(
 ALIVE = Topic(
     "alive/{kind}/{name}",
     None,
-    Party.ROBOT,
-    (Party.HOST, *_WATCHERS),
+    Party.HOST,
+    (Party.HOST, *_ALL),
     "while the process lives",
     Delivery.PRESENCE,
     False,
     "token of a process: host, agent, session, coach, recorder, replay, referee; refbox while a referee box officiates",
+    other_writers=_ALL,
 )
 
 TOPICS: dict[str, Topic] = {
@@ -315,6 +330,7 @@ TOPICS: dict[str, Topic] = {
     "setup": SETUP,
     "referee_seat": REFEREE_SEAT,
     "claim": CLAIM,
+    "robot_claim": ROBOT_CLAIM,
     "parameters": PARAMETERS,
     "scene": SCENE,
     "applied": APPLIED,

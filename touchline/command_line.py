@@ -11,6 +11,7 @@ from touchline.cli.version import version_text
 from touchline.commands import (
     agent,
     coach,
+    credentials,
     diff,
     drive,
     export,
@@ -88,6 +89,7 @@ app.add_typer(recorder.app, name="recorder", rich_help_panel=OPERATE)
 app.command("host", rich_help_panel=PROCESSES)(host.host)
 app.command("agent", rich_help_panel=PROCESSES)(agent.agent)
 app.command("record", rich_help_panel=PROCESSES)(record.record)
+app.add_typer(credentials.app, name="credentials", rich_help_panel=PROCESSES)
 
 app.command("info", rich_help_panel=RECORDINGS)(info.info)
 app.command("stats", rich_help_panel=RECORDINGS)(stats.stats)

@@ -16,6 +16,7 @@ from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from recordings.recorder.sink import FileSink, Sink
 from recordings.recorder.snapshot_sink import SnapshotSink
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.bus.zenoh.waiting_client import open_when_there
@@ -45,7 +46,7 @@ def record(
     limits = FileLimits.of(wanted)
 
     def connect(patience: float) -> ZenohBus:
-        return open_client(settings.match, clock, settings.connect, patience)
+        return open_client(settings.match, clock, settings.connect, patience, settings.credentials, Account.RECORDER)
 
     client = open_when_there(connect, clock, settings.patience, report, should_stop)
     if client is None:

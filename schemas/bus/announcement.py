@@ -30,11 +30,22 @@ class Announcement(Part):
     """Process id of the host."""
     folder: str
     """Working directory of the host."""
+    credentials: str | None = None
+    """Folder with the credentials of all accounts; None for a host that admits everybody."""
 
     @classmethod
-    def of(cls, match: str, endpoint: str) -> Self:
-        """The announcement of this process, which listens on `endpoint`."""
-        return cls(endpoint=local_endpoint(endpoint), match=match, pid=os.getpid(), folder=str(Path.cwd()))
+    def of(cls, match: str, endpoint: str, host_credentials: Path | None = None) -> Self:
+        """The announcement of this process, which listens on `endpoint`.
+
+        `host_credentials` is the host's own file; the accounts' files are beside it.
+        """
+        return cls(
+            endpoint=local_endpoint(endpoint),
+            match=match,
+            pid=os.getpid(),
+            folder=str(Path.cwd()),
+            credentials=str(host_credentials.resolve().parent) if host_credentials is not None else None,
+        )
 
 
 def user_folders() -> list[Path]:

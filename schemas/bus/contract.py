@@ -7,13 +7,14 @@ conformance suite tests for both.
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from enum import StrEnum
 from types import TracebackType
 from typing import Any, NamedTuple, Self
 from uuid import uuid4
 
+from schemas.access.accounts import Account
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
+from schemas.tokens import PresenceKind as PresenceKind
 from schemas.topic import Delivery, Topic
 from schemas.wire.message import VERSION, BadMessageError, WireMessage
 from schemas.wire.struct import encode
@@ -30,6 +31,10 @@ class BusError(TouchlineError):
 
 class EndpointInUseError(BusError):
     """Another process listens on the endpoint."""
+
+
+class RefusedClientError(TouchlineError):
+    """The host refuses this client, as it will the next time."""
 
 
 class NoReplyError(Exception):
@@ -73,25 +78,6 @@ class ReceivedMessage(NamedTuple):
         if self.topic.message is None:
             raise BadMessageError(f"{self.key} carries no message")
         return self.topic.message.decode(self.payload)
-
-
-class PresenceKind(StrEnum):
-    """The kind of a process in its liveliness token `alive/{kind}/{name}`."""
-
-    HOST = "host"
-    REPLAY = "replay"
-    """In addition to `host`: this host replays a recording."""
-    AGENT = "agent"
-    """Its name is that of its robot."""
-    SESSION = "session"
-    """An agent that claims a robot; its name is no other agent's."""
-    RECORDER = "recorder"
-    COACH = "coach"
-    """A page or a terminal that shows the match."""
-    REFBOX = "refbox"
-    """A base station that is connected to a league's referee box; its name is that of its side."""
-    REFEREE = "referee"
-    """A gateway through which people officiate; its name is that in their requests."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,6 +215,8 @@ class Bus(ABC):
     clock: Clock
     name: str = field(default_factory=lambda: uuid4().hex[:8], init=False)
     """A name that no other connection has."""
+    account: Account | None = field(default=None, init=False)
+    """The account of a client with credentials."""
     _closed: bool = field(default=False, init=False)
 
     @abstractmethod
@@ -246,7 +234,7 @@ class Bus(ABC):
 
     @abstractmethod
     def serve(self, topic: Topic, **chunks: str) -> Server:
-        """Serve the queries of this topic; every chunk must be given."""
+        """Serve the queries of this topic; without a chunk, of all its values."""
 
     @abstractmethod
     def query(

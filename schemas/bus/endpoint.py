@@ -11,6 +11,8 @@ DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
 """The first choice of a host without `--listen`: on loopback, reachable only from this machine."""
 FREE_ENDPOINT = "tcp/127.0.0.1:0"
 """Its second choice, where another process listens on the first: a free port."""
+ENCRYPTED = ("tls", "quic")
+"""Protocols whose listener needs a certificate."""
 _CONNECTIONLESS = ("udp", "quic")
 
 
@@ -42,6 +44,18 @@ def local_endpoint(listen: str) -> str:
     protocol, host, port = parse_endpoint(listen)
     here = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
     return f"{protocol}/{here}:{port}"
+
+
+def with_tls(endpoint: str) -> str:
+    """The endpoint with TLS: the same address and port.
+
+    Raises:
+        BusError: the protocol has no TLS.
+    """
+    protocol, _, _ = parse_endpoint(endpoint)
+    if protocol not in ("tcp", *ENCRYPTED):
+        raise BusError(f"{endpoint}: {protocol} has no TLS, which these credentials ask for; use tls/ or tcp/")
+    return endpoint.replace("tcp/", "tls/", 1)
 
 
 def with_free_port(endpoint: str) -> str:

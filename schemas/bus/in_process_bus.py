@@ -113,8 +113,8 @@ class _Subscription(Subscription):
 
 
 class _Query(Query):
-    def __init__(self, topic: Topic, payload: bytes, answer: "_PendingReply") -> None:
-        super().__init__(topic, topic.key, payload)
+    def __init__(self, topic: Topic, key: str, payload: bytes, answer: "_PendingReply") -> None:
+        super().__init__(topic, key, payload)
         self._answer = answer
 
     def reply(self, reply: WireMessage) -> None:
@@ -206,7 +206,7 @@ class InProcessBus(Bus):
     def serve(self, topic: Topic, **chunks: str) -> Server:
         self.check_open()
         server = _Server()
-        key = self.prefix + full_key(topic, chunks)
+        key = self.prefix + topic.fill(**chunks)
         with self.shared_state.lock:
             self.shared_state.servers[key] = server
         self._served.append(key)
@@ -220,11 +220,12 @@ class InProcessBus(Bus):
         del timeout, droppable  # a request waits with its server or is refused at once
         answer = _PendingReply(topic)
         key = full_key(topic, chunks)
-        server = self.shared_state.servers.get(self.prefix + key)
+        servers = self.shared_state.servers
+        server = servers.get(self.prefix + key) or servers.get(self.prefix + topic.fill())
         if server is None:
             answer.mailbox.put("", f"no process answers {key}")
         else:
-            server.mailbox.put("", _Query(topic, request.encode(), answer))
+            server.mailbox.put("", _Query(topic, key, request.encode(), answer))
         return answer
 
     def declare_alive(self, kind: PresenceKind, name: str) -> None:

@@ -1,13 +1,15 @@
 """Settings of a process for the bus: the endpoint and the match to connect to, or the endpoint to listen on."""
 
 import re
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import AfterValidator
 
 from schemas.bus.contract import BusError
-from schemas.bus.endpoint import DEFAULT_ENDPOINT, parse_endpoint
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, ENCRYPTED, is_loopback, parse_endpoint
 from schemas.config.settings import CommandLine, Settings
+from schemas.errors import TouchlineError
 
 
 def _endpoint(endpoint: str) -> str:
@@ -42,6 +44,8 @@ class ClientSettings(Settings):
     """Endpoint of the host; by default that of the running match on this machine."""
     match: Annotated[MatchName | None, CommandLine(environment="TOUCHLINE_MATCH")] = None
     """Name of the match; by default the match that the host plays."""
+    credentials: Annotated[Path | None, CommandLine(environment="TOUCHLINE_CREDENTIALS")] = None
+    """File of the account to join with; by default that of the running match on this machine."""
 
 
 class ListenSettings(Settings):
@@ -49,5 +53,28 @@ class ListenSettings(Settings):
 
     listen: Endpoint | None = None
     """Endpoint of the host; port 0 takes a free one. By default tcp/127.0.0.1:7447, or a free port if it is in use."""
+    credentials: Path | None = None
+    """File of the host, host.json, of `touchline credentials new`: only clients with its accounts may join."""
     insecure: bool = False
-    """Accept connections of other machines, without authentication."""
+    """Admit everybody without credentials, also from other machines."""
+
+
+def check_protected(settings: ListenSettings) -> None:
+    """Check that others can reach the endpoint only if they need credentials, or if that is wanted.
+
+    Raises:
+        TouchlineError: open to other machines without credentials and without `--insecure`, or TLS without credentials.
+    """
+    listen = settings.listen
+    if listen is None or settings.credentials is not None:
+        return
+    if parse_endpoint(listen)[0] in ENCRYPTED:
+        raise TouchlineError(
+            f"--listen {listen} needs a certificate; make one with `touchline credentials new --tls`, and add "
+            "--credentials credentials/host.json"
+        )
+    if not settings.insecure and not is_loopback(listen):
+        raise TouchlineError(
+            f"--listen {listen} is open to other machines; make passwords with `touchline credentials new` and add "
+            "--credentials credentials/host.json, or add --insecure to admit everybody"
+        )

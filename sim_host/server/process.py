@@ -8,10 +8,11 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from types import FrameType
 
+from schemas.access.protection import Protection
 from schemas.bus.announcement import Announcement, announced, announced_to_user
 from schemas.bus.contract import ReceivedMessage
-from schemas.bus.endpoint import is_loopback
 from schemas.bus.outcome_file import write_outcome
+from schemas.bus.settings import check_protected
 from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
@@ -41,10 +42,10 @@ def _serve(settings: HostSettings) -> None:
     if importlib.util.find_spec("pybullet") is None:
         raise TouchlineError(missing_engine_text())
     config, listen = settings.config, settings.listen
-    if listen is not None and not settings.insecure and not is_loopback(listen):
-        raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")
+    check_protected(settings)
+    protection = Protection.from_file(settings.credentials, config)
     use_batch_scheduling(config.speed is None)
-    with open_host(config.name, WallClock(), listen) as bus, ExitStack() as announcements:
+    with open_host(config.name, WallClock(), listen, protection) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)
         log.info('match "%s" on %s, pace %s, seed %d', config.name, bus.endpoint, config.pace, config.seed)
         try:
@@ -73,7 +74,7 @@ def _leave_outcome(settings: HostSettings, messages: Sequence[ReceivedMessage]) 
 
 def _announce(settings: HostSettings, endpoint: str, announcements: ExitStack) -> None:
     """Announce the host to its launcher, and to clients of this user."""
-    announcement = Announcement.of(settings.config.name, endpoint)
+    announcement = Announcement.of(settings.config.name, endpoint, settings.credentials)
     try:
         if settings.announcement is not None:
             announcements.enter_context(announced(announcement, settings.announcement))

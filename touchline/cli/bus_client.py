@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 
 if TYPE_CHECKING:
@@ -14,8 +15,8 @@ PATIENCE = 3.0
 
 
 @contextmanager
-def bus_client(connection: ClientSettings) -> "Iterator[Bus]":
-    """A client of a match, within the block.
+def bus_client(connection: ClientSettings, account: Account = Account.VIEWER) -> "Iterator[Bus]":
+    """A client of a match, within the block; without `--credentials` with those of `account` of the running match.
 
     Raises:
         TouchlineError: no host answers, or it is not clear which match is meant.
@@ -23,5 +24,7 @@ def bus_client(connection: ClientSettings) -> "Iterator[Bus]":
     from schemas.bus.zenoh.bus import open_client
     from schemas.process.clock import WallClock
 
-    with open_client(connection.match, WallClock(), connection.connect, PATIENCE) as bus:
+    with open_client(
+        connection.match, WallClock(), connection.connect, PATIENCE, connection.credentials, account
+    ) as bus:
         yield bus

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.endpoint import is_loopback
-from schemas.bus.settings import ListenSettings
+from schemas.bus.settings import ListenSettings, check_protected
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import SHIPPED as PROFILES
@@ -74,7 +73,7 @@ class MatchOptions:
         """The endpoint to listen on; see `endpoint_of`.
 
         Raises:
-            TouchlineError: open to other machines without `--insecure`.
+            TouchlineError: open to other machines without credentials and without `--insecure`.
         """
         return endpoint_of(self.listening)
 
@@ -148,12 +147,7 @@ def endpoint_of(settings: ListenSettings) -> str | None:
     """The endpoint to listen on, None for the default. Whether it is free is known when the host listens.
 
     Raises:
-        TouchlineError: open to other machines without `--insecure`.
+        TouchlineError: open to other machines without credentials and without `--insecure`.
     """
-    listen = settings.listen
-    if listen is not None and not settings.insecure and not is_loopback(listen):
-        raise TouchlineError(
-            f"--listen {listen} is open to other machines, without authentication; "
-            "add --insecure to allow that, or listen on tcp/127.0.0.1:7447"
-        )
-    return listen
+    check_protected(settings)
+    return settings.listen

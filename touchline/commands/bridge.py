@@ -25,5 +25,5 @@ def bridge(
     """
     if not bridges.wanted:
         raise TouchlineError("no bridge is named; name --udp, --refbox, --refbox-server or --audience")
-    settings = GatewaySettings(connect=joined.connect, match=joined.match, bridges=bridges, **tokens)
+    settings = GatewaySettings(**joined.model_dump(), bridges=bridges, **tokens)
     raise typer.Exit(run(settings))

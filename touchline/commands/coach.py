@@ -9,6 +9,7 @@ import typer
 from coach_gateway import run
 from coach_gateway.access.referee_name import terminal_name
 from coach_gateway.settings import GatewaySettings
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import ActionName
@@ -160,7 +161,7 @@ def _seat_command(row: SeatCommand) -> Callable[..., None]:
     def command(connection: ClientSettings) -> None:
         from coach_gateway.match.host_client import HostClient
 
-        with bus_client(connection) as bus:
+        with bus_client(connection, Account.REFEREE) as bus:
             reply = HostClient(bus, referee=terminal_name()).referee_seat(row.operation)
         if not reply.accepted:
             raise MatchFailedError(f"refused: {reply.reason}")
@@ -189,7 +190,7 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
     from coach_gateway.match.host_client import HostClient
     from coach_gateway.match.lines import state_line
 
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.REFEREE) as bus:
         follower = MatchFollower(bus)
         found = follower.wait_for_state(PATIENCE)
         names = HostClient(bus).team_names()
@@ -214,13 +215,13 @@ def watch(connection: ClientSettings) -> None:
 
     Example: touchline coach watch --connect tcp/192.168.1.5:7447
     """
-    raise typer.Exit(run(GatewaySettings(connect=connection.connect, match=connection.match)))
+    raise typer.Exit(run(GatewaySettings(**connection.model_dump())))
 
 
 def _send(connection: ClientSettings, action: RefereeAction) -> None:
     from coach_gateway.match.host_client import HostClient
 
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.REFEREE) as bus:
         reply = HostClient(bus, referee=terminal_name()).act(action)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

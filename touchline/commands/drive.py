@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
 from schemas.messages.manual import ManualDrive
@@ -39,7 +40,7 @@ def drive(
 
     Example: touchline drive cyan2 --speed 2
     """
-    with terminal("drive") as keys, bus_client(connection) as bus:
+    with terminal("drive") as keys, bus_client(connection, Account.OPERATOR) as bus:
         typer.echo(", ".join(f"{'space' if key == ' ' else key}: {words}" for key, (words, _) in KEYS.items()))
         drive_by_keys(bus, robot, keys, Speeds(speed, turn, kick), lambda line: typer.echo(line))
 

@@ -19,8 +19,9 @@ def host(
 
     The host ends when the match is over, or at Ctrl-C.
 
-    Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --insecure
+    Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --credentials credentials/host.json
     """
-    config, endpoint = match.read(), match.endpoint()
-    settings = HostSettings(config=config, listen=endpoint, insecure=match.listening.insecure, **more)
+    config = match.read()
+    match.endpoint()  # checked before the host is loaded
+    settings = HostSettings(config=config, **match.listening.model_dump(), **more)
     raise typer.Exit(run(settings))

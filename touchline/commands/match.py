@@ -1,5 +1,6 @@
 """`touchline match`: a whole match on this machine, from its file to its result."""
 
+import shutil
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -10,8 +11,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.settings import BridgeOptions
+from schemas.access.certificates import need_trustme
+from schemas.bus.settings import ListenSettings
 from schemas.config.settings import RecordOptions
-from schemas.errors import MatchFailedError
+from schemas.errors import MatchFailedError, TouchlineError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
@@ -32,6 +35,9 @@ def match(
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
+    tls: Annotated[
+        bool, typer.Option("--tls", help="Encrypt all connections, with a certificate made for this match.")
+    ] = False,
     web: options.Web = False,
     json: options.Json = False,
     *,
@@ -51,8 +57,8 @@ def match(
     """
     from schemas.process.clock import WallClock
     from touchline.launch.check_brains import check_teams
-    from touchline.launch.processes import check_robot_names
-    from touchline.launch.run_folder import prepare_run
+    from touchline.launch.processes import CREDENTIALS, check_robot_names
+    from touchline.launch.run_folder import prepare_credentials, prepare_run
 
     teams = _teams_of(ghost) if ghost else {}
     sockets = _open_ports(bridges) if bridges.wanted else ()
@@ -71,20 +77,45 @@ def match(
     brain_folder = played.file.parent if played.file is not None else None
     check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = played.endpoint()
+    _check_tls(played.listening, tls=tls)
     clock = WallClock()
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
+    if played.listening.credentials is not None:
+        plan = replace(plan, credentials=played.listening.credentials.resolve().parent)
+    elif not played.listening.insecure:
+        plan = prepare_credentials(plan, tls=tls)
     if brain_folder is not None:
         plan = replace(plan, brain_folder=brain_folder.resolve())
     if bridges.wanted:
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
         typer.echo(f"touchline: {plan.warning}", err=True)
-    _play(plan, clock, quiet=json)
+    try:
+        _play(plan, clock, quiet=json)
+    finally:
+        shutil.rmtree(plan.folder / CREDENTIALS, ignore_errors=True)  # they are of no use after the match
 
 
 # Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
+
+
+def _check_tls(listening: ListenSettings, *, tls: bool) -> None:
+    """Check that a certificate can be made for this match alone.
+
+    Raises:
+        TouchlineError: the match has credentials of its own, or none at all; or the package is missing.
+    """
+    if not tls:
+        return
+    if listening.credentials is not None or listening.insecure:
+        other = "--credentials" if listening.credentials is not None else "--insecure"
+        raise TouchlineError(
+            f"--tls is for credentials that the match makes itself, not for {other}; "
+            "`touchline credentials new --tls` makes credentials with TLS"
+        )
+    need_trustme()
 
 
 def _teams_of(ghosts: list[str]) -> dict[str, dict[str, Any]]:

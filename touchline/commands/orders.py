@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
@@ -118,7 +119,7 @@ def _order(
 
     content = {**{key: getattr(order_options, key) for key in (field.name for field in fields(order_options))}, **more}
     from_options(CoachOrder, sequence=1, **content)
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.of_coach(side)) as bus:
         client = HostClient(bus)
         client.orders.update()  # subscribe first, so that no status of the order is missed
         given = client.order(side, **content)

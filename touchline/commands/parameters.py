@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from touchline.cli import options
@@ -129,7 +130,7 @@ def _request(**content: object) -> "ParametersRequest":
 def _query(connection: ClientSettings, request: "ParametersRequest") -> "ParametersReply":
     from coach_gateway.match.host_client import HostClient
 
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.OPERATOR) as bus:
         reply = HostClient(bus).parameters(request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
@@ -34,7 +35,7 @@ def player(
     from touchline.replay.progress import status_text
 
     request = request_of(operation, value)
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.OPERATOR) as bus:
         try:
             reply: ReplayReply = bus.query(REPLAY_CONTROL, request, PATIENCE).result(PATIENCE)
         except (NoReplyError, BadMessageError) as error:

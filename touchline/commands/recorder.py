@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.messages.recorder import RecorderOperation
 from touchline.cli import options
@@ -64,7 +65,7 @@ def _query(operation: RecorderOperation, connection: ClientSettings, chosen: Rec
     from schemas.topics import RECORDER_CONTROL
     from touchline.cli.bus_client import bus_client
 
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.OPERATOR) as bus:
         try:
             answer = bus.query(RECORDER_CONTROL, RecorderRequest(operation=operation), _ANSWER_S, name=chosen.name)
             reply: RecorderReply = answer.result(_ANSWER_S + 0.5)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
@@ -148,7 +149,7 @@ def _send(connection: ClientSettings, **content: Any) -> None:
     from coach_gateway.match.host_client import HostClient
 
     request = _request(**content)
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.OPERATOR) as bus:
         reply = HostClient(bus).scene(request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

@@ -7,6 +7,7 @@ import typer
 
 from coach_gateway import run
 from coach_gateway.settings import GatewaySettings
+from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from touchline.cli.bus_client import PATIENCE, bus_client
 from touchline.cli.option_groups import with_option_groups
@@ -29,10 +30,10 @@ def watch(connection: ClientSettings) -> None:
     Example: touchline watch --match friendly
     """
     if not sys.stdout.isatty():
-        raise typer.Exit(run(GatewaySettings(connect=connection.connect, match=connection.match)))
+        raise typer.Exit(run(GatewaySettings(**connection.model_dump())))
     from touchline.cli.console import console
 
-    with bus_client(connection) as bus:
+    with bus_client(connection, Account.OPERATOR) as bus:
         try:
             watch_on(bus, console())
         except KeyboardInterrupt:

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Self
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text, event_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
+from schemas.access.accounts import Account
 from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
-from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint, parse_endpoint
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.game import GameEvent, GameState
@@ -191,7 +192,8 @@ class MatchRun:
         while self._poll_processes(stop):
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
-                is_unexpected = announcement.endpoint != local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
+                expected = local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
+                is_unexpected = parse_endpoint(announcement.endpoint)[1:] != parse_endpoint(expected)[1:]
                 self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
                 if self._names != SIDES_ALONE:
                     self._screen.event(str(self._names), notable=True)
@@ -222,7 +224,8 @@ class MatchRun:
         while self._poll_processes(stop):
             self._screen.status("waiting for the host")
             try:
-                return open_client(self._plan.config.name, self._clock, self._plan.connect, patience=0.0)
+                credentials = self._plan.credentials_of(Account.VIEWER)
+                return open_client(self._plan.config.name, self._clock, self._plan.connect, 0.0, credentials)
             except BusError:
                 self._clock.sleep_until(self._clock.now() + _POLL)
         return None

@@ -12,6 +12,8 @@ from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
+from schemas.access.accounts import Account
+from schemas.access.credentials import HOST_FILE, account_file
 from schemas.bus.endpoint import is_loopback, local_endpoint
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
@@ -56,6 +58,8 @@ PROCESSES: dict[ProcessKind, ProcessRow] = {
 
 OUTCOME = "outcome.json"
 """The file of a match's result, in the folder of its run."""
+CREDENTIALS = "credentials"
+"""The folder of a run's credentials, in its folder."""
 ANNOUNCEMENT = "endpoint.json"
 """The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
@@ -130,12 +134,18 @@ class MatchPlan:
     """The bound sockets of the bridges, in the order in which they are inherited."""
     launch_token: str | None = None
     """Secret by which the host knows the agents of this launch; None admits every agent."""
+    credentials: Path | None = None
+    """Folder with the credentials of the host and of all accounts; None admits everybody."""
 
     @property
     def connect(self) -> str:
         """The endpoint for processes on the same machine of a host that listens."""
         assert self.listen is not None
         return local_endpoint(self.listen)
+
+    def credentials_of(self, account: Account) -> Path | None:
+        """The credentials of an account; None in a match that admits everybody."""
+        return account_file(self.credentials, account) if self.credentials is not None else None
 
     @property
     def announcement(self) -> Path:
@@ -189,8 +199,9 @@ def host_process(plan: MatchPlan) -> Process:
     host = HostSettings(
         config=plan.config,
         listen=plan.listen,
+        credentials=plan.credentials / HOST_FILE if plan.credentials is not None else None,
         # --insecure was checked when the plan was made
-        insecure=plan.listen is not None and not is_loopback(plan.listen),
+        insecure=plan.credentials is None and plan.listen is not None and not is_loopback(plan.listen),
         launch_token=plan.launch_token,
         announcement=plan.announcement,
         outcome=plan.outcome,
@@ -205,12 +216,18 @@ def client_processes(plan: MatchPlan) -> list[Process]:
     processes = []
     if plan.recording is not None:
         recorder = RecorderSettings(
-            connect=connect, match=match, out=plan.recording, record=config.record, config=config
+            connect=connect,
+            match=match,
+            credentials=plan.credentials_of(Account.RECORDER),
+            out=plan.recording,
+            record=config.record,
+            config=config,
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
     for side in Side:
         processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
-    gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
+    operator = plan.credentials_of(Account.OPERATOR)  # a gateway officiates, and gives the orders of both coaches
+    gateway = GatewaySettings(connect=connect, match=match, credentials=operator, tokens=plan.tokens)
     if plan.page is not None:
         settings = gateway.model_copy(update={"web": plan.page.settings, "result": plan.result_folder})
         processes.append(page_process(settings, plan.page.listener, folder))
@@ -237,12 +254,16 @@ def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
     }
     if plan.launch_token is not None:
         environment["TOUCHLINE_LAUNCH_TOKEN"] = plan.launch_token
+    credentials = plan.credentials_of(Account.of_team(side))
+    if credentials is not None:
+        environment["TOUCHLINE_CREDENTIALS"] = str(credentials.resolve())
     if team.command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
         return Process(robot, ProcessKind.AGENT, tuple(team.command), environment, restarts)
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
+        credentials=credentials,
         robot=robot,
         brain=team.brain or "",
         brain_folder=plan.brain_folder,

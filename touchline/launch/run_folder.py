@@ -1,13 +1,14 @@
 """The folder of a match's files under `runs/`, named after match, time and seed."""
 
 import secrets
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
-from touchline.launch.processes import MatchPlan
+from touchline.launch.processes import CREDENTIALS, MatchPlan
 
 RUNS = Path("runs")
 RECORDING = "match.mcap"
@@ -39,6 +40,23 @@ def prepare_run(
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
     return plan
+
+
+def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
+    """The plan with new credentials for this match alone, in its folder.
+
+    Raises:
+        TouchlineError: the package for certificates is missing, or the files cannot be written.
+    """
+    from schemas.access.certificates import make_certificate
+    from schemas.access.credentials import new_credentials, write_credentials
+
+    folder = plan.folder / CREDENTIALS
+    try:
+        write_credentials(folder, new_credentials(plan.config.name, make_certificate() if tls else None))
+    except OSError as error:
+        raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its credentials there") from None
+    return replace(plan, credentials=folder)
 
 
 def _why_not_writable(out: Path) -> str:

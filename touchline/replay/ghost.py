@@ -121,8 +121,13 @@ def main(arguments: list[str] | None = None) -> int:
             use_batch_scheduling(setup.pace == LOCKSTEP)
             return Ghost(robot, inputs_of(recording))
 
+        file_of_account = os.environ.get("TOUCHLINE_CREDENTIALS")
         with open_client(
-            os.environ["TOUCHLINE_MATCH"], WallClock(), os.environ["TOUCHLINE_CONNECT"], _PATIENCE_S
+            os.environ["TOUCHLINE_MATCH"],
+            WallClock(),
+            os.environ["TOUCHLINE_CONNECT"],
+            _PATIENCE_S,
+            Path(file_of_account) if file_of_account else None,
         ) as bus:
             return serve(bus, build, robot, _PATIENCE_S, os.environ.get("TOUCHLINE_LAUNCH_TOKEN"))
     except TouchlineError as error:

@@ -2,10 +2,15 @@
 
 import atexit
 import weakref
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import zenoh
 
+from schemas.access.accounts import Account
+from schemas.access.credentials import read_credentials
+from schemas.access.protection import Protection
 from schemas.bus.contract import (
     Bus,
     BusError,
@@ -33,47 +38,84 @@ from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import WireMessage
 
 
-def open_host(match: str, clock: Clock, listen: str | None = None) -> "ZenohBus":
+def open_host(
+    match: str,
+    clock: Clock,
+    listen: str | None = None,
+    protection: Protection | None = None,
+    limits: Mapping[str, object] | None = None,
+) -> "ZenohBus":
     """Open the host's bus: a router that listens on one endpoint, the bus's `endpoint`.
 
     Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
+
+    Args:
+        protection: users, what each may do, and the certificate; None admits everybody to everything.
+        limits: further settings of the router.
 
     Raises:
         EndpointInUseError: another process listens on the endpoint.
         BusError: it cannot listen on the endpoint.
     """
-    session, endpoint = open_router(listen)
+    session, endpoint = open_router(listen, protection, limits)
     return ZenohBus(match, clock, session, endpoint, is_client=False)
 
 
-def open_client(match: str | None, clock: Clock, connect: str | None = None, patience: float = 10.0) -> "ZenohBus":
+def open_client(
+    match: str | None,
+    clock: Clock,
+    connect: str | None = None,
+    patience: float = 10.0,
+    credentials: Path | None = None,
+    account: Account | None = None,
+) -> "ZenohBus":
     """Open a client's bus, with attempts for `patience` s of wall time.
 
     Without an endpoint it connects to the running match of this machine, without a name to the match at the endpoint.
 
+    Args:
+        credentials: file of the credentials; None takes those of `account` that the running match has announced.
+
     Raises:
         TouchlineError: no endpoint is given, and several matches run on this machine.
+        RefusedClientError: the host refuses this client.
         BusError: no host answers at the endpoint, or no match is played there.
     """
-    if connect is None:
-        from schemas.bus.find_host import endpoint_of  # needs file locks, which not every system of a robot has
+    known = read_credentials(credentials) if credentials is not None else None
+    if known is not None:
+        match, connect = match or known.match, connect or known.connect
+    if connect is None or (known is None and account is not None):
+        from schemas.bus.find_host import find_host  # needs file locks, which not every system of a robot has
 
-        connect = endpoint_of(match)
+        found = find_host(match, connect)
+        connect = found.endpoint
+        if known is None and account is not None:
+            known = found.credentials_of(account)
     deadline = clock.now() + patience
-    session = open_connection(connect, clock, patience)
+    session, endpoint = open_connection(connect, clock, patience, known)
     try:
-        name = match or match_at(session, connect, clock, deadline)
+        name = match or match_at(session, endpoint, clock, deadline)
     except BaseException:
         session.close()  # type: ignore[no-untyped-call]
         raise
-    return ZenohBus(name, clock, session, connect, is_client=True)
+    return ZenohBus(name, clock, session, endpoint, is_client=True, account=known.user if known is not None else None)
 
 
 class ZenohBus(Bus):
     """A bus on a Zenoh network."""
 
-    def __init__(self, match: str, clock: Clock, session: zenoh.Session, endpoint: str, *, is_client: bool) -> None:
+    def __init__(
+        self,
+        match: str,
+        clock: Clock,
+        session: zenoh.Session,
+        endpoint: str,
+        *,
+        is_client: bool,
+        account: Account | None = None,
+    ) -> None:
         super().__init__(match, clock)
+        self.account = account
         self.session = session
         self.endpoint = endpoint
         """Where the host listens; of a client, where it is connected."""
@@ -89,7 +131,7 @@ class ZenohBus(Bus):
 
     def subscribe(self, topic: Topic, *, newest: bool = False, history: bool = False, **chunks: str) -> Subscription:
         check_publishable(topic)
-        context, key = self._open(), topic.fill(**chunks)
+        context, key = self._open(), topic.fill(**{**self._own_side(topic), **chunks})
         newest = newest or topic.delivery is Delivery.NEWEST
         subscription: ZenohReader
         if newest and "*" not in key:
@@ -101,7 +143,7 @@ class ZenohBus(Bus):
         return subscription
 
     def serve(self, topic: Topic, **chunks: str) -> Server:
-        server = ZenohServer(topic, full_key(topic, chunks), self._open())
+        server = ZenohServer(topic, topic.fill(**chunks), self._open())
         self._mailboxes.append(server.mailbox)
         return server
 
@@ -144,6 +186,11 @@ class ZenohBus(Bus):
             self.session.close()  # type: ignore[no-untyped-call]
         except zenoh.ZError:
             return  # the peer has closed it
+
+    def _own_side(self, topic: Topic) -> dict[str, str]:
+        """The side of a coach, whose subscription to both sides' keys the host would drop."""
+        side = self.account.side if self.account is not None else None
+        return {"side": side.value} if side is not None and "side" in topic.chunks else {}
 
     def _open(self) -> SessionContext:
         if self._closed:

@@ -15,8 +15,8 @@ from schemas.wire.message import WireMessage
 
 
 class ZenohQuery(Query):
-    def __init__(self, topic: Topic, query: zenoh.Query) -> None:
-        super().__init__(topic, topic.key, query.payload.to_bytes() if query.payload is not None else b"")
+    def __init__(self, topic: Topic, key: str, query: zenoh.Query) -> None:
+        super().__init__(topic, key, query.payload.to_bytes() if query.payload is not None else b"")
         self._query = query
 
     def reply(self, reply: WireMessage) -> None:
@@ -34,9 +34,10 @@ class ZenohQuery(Query):
 class ZenohServer(Server):
     def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
         self.mailbox: FifoMailbox[Query] = FifoMailbox()
+        start = len(context.prefix)
 
         def receive(query: zenoh.Query) -> None:
-            self.mailbox.put("", ZenohQuery(topic, query))
+            self.mailbox.put("", ZenohQuery(topic, str(query.key_expr)[start:], query))
 
         self._queryable = context.session.declare_queryable(
             context.prefix + key, zenoh.handlers.Callback(receive, indirect=False)

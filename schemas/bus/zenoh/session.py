@@ -5,12 +5,17 @@ Multicast scouting, gossip and shared memory are off; a process listens on the g
 
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import zenoh
 
-from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError
-from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port
+from schemas.access.credentials import Credentials
+from schemas.access.protection import Protection
+from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError, RefusedClientError
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port, with_tls
+from schemas.bus.zenoh.protection_settings import client_settings, router_settings
+from schemas.bus.zenoh.refusal import refusal_at
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 
@@ -29,6 +34,8 @@ at once. Ctrl-C takes effect between attempts."""
 _CONGESTION_TIMEOUT_US = 1_000_000
 """Wall time in which a client has to make room for data that must not be dropped, in µs; then its link is closed, and
 it may connect again."""
+_ONCE_MS = 700
+"""Wall time for the reply of a host in an attempt that shows why others failed, in ms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,26 +53,35 @@ class SessionContext:
     """The bus, which must be closed before the interpreter ends, and exists as long as the session is in use."""
 
 
-def open_router(listen: str | None) -> tuple[zenoh.Session, str]:
+def open_router(
+    listen: str | None, protection: Protection | None = None, limits: Mapping[str, object] | None = None
+) -> tuple[zenoh.Session, str]:
     """The host's session, a router that listens on one endpoint, and that endpoint.
 
     Port 0 takes a free port. None takes the default endpoint, or a free port where another process listens there.
+
+    Args:
+        protection: users, what each may do, and the certificate; None admits everybody to everything.
+        limits: further settings of the router.
 
     Raises:
         EndpointInUseError: another process listens on the endpoint.
         BusError: it cannot listen on the endpoint.
     """
-    if listen is not None:
-        return _listen_on(listen)
-    try:
-        return _listen_on(DEFAULT_ENDPOINT)
-    except EndpointInUseError:
-        return _listen_on(FREE_ENDPOINT)
+    has_tls = protection is not None and protection.credentials.certificate is not None
+    with router_settings(protection) as settings:
+        more = {**settings, **(limits or {})}
+        if listen is not None:
+            return _listen_on(listen, has_tls, more)
+        try:
+            return _listen_on(DEFAULT_ENDPOINT, has_tls, more)
+        except EndpointInUseError:
+            return _listen_on(FREE_ENDPOINT, has_tls, more)
 
 
-def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
+def _listen_on(listen: str, has_tls: bool, more: Mapping[str, object]) -> tuple[zenoh.Session, str]:
     try:
-        endpoint = with_free_port(listen)
+        endpoint = with_free_port(with_tls(listen) if has_tls else listen)
     except OSError as error:
         raise BusError(f"--listen {listen} cannot be listened on ({error.strerror}); choose another address") from None
     config = _config(
@@ -73,6 +89,7 @@ def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
         {
             "listen/endpoints": [endpoint],
             "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTION_TIMEOUT_US,
+            **more,
         },
     )
     try:
@@ -84,26 +101,50 @@ def _listen_on(listen: str) -> tuple[zenoh.Session, str]:
         raise BusError(f"--listen {listen} cannot be listened on ({first_line(error)}); {remedy}") from None
 
 
-def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Session:
-    """A client's session, with attempts for `patience` s of wall time.
+def open_connection(
+    connect: str, clock: Clock, patience: float, credentials: Credentials | None = None
+) -> tuple[zenoh.Session, str]:
+    """A client's session, with attempts for `patience` s of wall time, and the endpoint of the host.
 
     Raises:
         BusError: no host answers at that endpoint.
+        RefusedClientError: the host refuses this client.
     """
+    if credentials is not None and credentials.root_certificate is not None:
+        connect = with_tls(connect)
     deadline = clock.now() + patience
     lasts, longest = _TRY_S
     while True:
-        settings = {"connect/endpoints": [connect], "connect/retry": _RETRY}
+        settings = {"connect/endpoints": [connect], "connect/retry": _RETRY, **client_settings(credentials)}
         config = _config("client", {**settings, "connect/timeout_ms": round(lasts * 1000)})
         try:
-            return _open(config, _CLIENT_THREADS)
+            return _open(config, _CLIENT_THREADS), connect
         except zenoh.ZError as error:
+            refusal = refusal_at(connect, credentials, lambda endpoint: _can_open(endpoint, credentials))
+            if refusal is not None:
+                raise RefusedClientError(refusal) from None
             if clock.now() >= deadline:
                 raise BusError(
                     f"--connect {connect}: no host answers there; start one with `touchline host`, or name its endpoint"
                 ) from error
             clock.sleep_until(clock.now() + 0.1)
             lasts = min(2 * lasts, longest)
+
+
+def _can_open(endpoint: str, credentials: Credentials | None) -> bool:
+    """Whether a single attempt at an endpoint opens a session, which is closed again."""
+    settings = {
+        "connect/endpoints": [endpoint],
+        "connect/timeout_ms": 0,
+        "transport/unicast/open_timeout": _ONCE_MS,
+        **client_settings(credentials),
+    }
+    try:
+        session = _open(_config("client", settings), _CLIENT_THREADS)
+    except zenoh.ZError:
+        return False
+    session.close()  # type: ignore[no-untyped-call]
+    return True
 
 
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
@@ -121,7 +162,7 @@ def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
         del os.environ[_THREADS]
 
 
-def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
+def _config(mode: str, more: Mapping[str, object]) -> zenoh.Config:
     config = zenoh.Config()
     settings: dict[str, object] = {
         "mode": mode,
@@ -136,7 +177,7 @@ def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
         try:
             config.insert_json5(key, json.dumps(value))
         except zenoh.ZError as error:
-            raise BusError(f"{key.split('/')[0]} is {value!r}: {first_line(error)}") from None
+            raise BusError(f"{key} cannot be set: {first_line(error)}") from None
     return config
 
 

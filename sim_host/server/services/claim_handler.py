@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from schemas.bus.contract import LEASE_S, Bus, Query
 from schemas.messages.claim import AgentClaim, AgentClaimReply
-from schemas.topics import CLAIM
+from schemas.topics import CLAIM, ROBOT_CLAIM
 from schemas.wire.message import BadMessageError
 from sim_host.server.claims import Claims
 from sim_host.server.invalid_log import InvalidLog
@@ -39,7 +39,7 @@ class ClaimHandler:
     """Receives claims, decides them, and replies."""
 
     def __init__(self, bus: Bus, claims: Claims, invalid_log: InvalidLog) -> None:
-        self._queries = bus.serve(CLAIM)
+        self._servers = (bus.serve(ROBOT_CLAIM), bus.serve(CLAIM))
         self._clock = bus.clock
         self._claims = claims
         self._invalid_log = invalid_log
@@ -50,9 +50,9 @@ class ClaimHandler:
 
     def receive(self) -> None:
         """Receive claims. Call it before changes of presence are read: a session's token arrives before its claim."""
-        while (query := self._queries.receive()) is not None:
+        for query in (query for server in self._servers for query in iter(server.receive, None)):
             try:
-                claim: AgentClaim = query.message()
+                claim = _claim_in(query)
             except BadMessageError as error:
                 self._invalid_log.add(query.key, str(error), query.payload)
                 query.fail(str(error))
@@ -90,3 +90,16 @@ class ClaimHandler:
         self._refused[claim.session] = None
         source = f" ({claim.source})" if claim.source else ""
         self.refusals.append(Refusal(claim.robot, f"an agent{source} that claimed {claim.robot} was refused: {reason}"))
+
+
+def _claim_in(query: Query) -> AgentClaim:
+    """The claim in a query.
+
+    Raises:
+        BadMessageError: it is no claim, or claims another robot than that of its key.
+    """
+    claim: AgentClaim = query.message()
+    robot = query.topic.match(query.key) or {}
+    if robot.get("robot", claim.robot) != claim.robot:
+        raise BadMessageError(f"{query.key} claims {claim.robot}; claim a robot on its own key")
+    return claim

@@ -7,7 +7,7 @@ import pytest
 
 from schemas.bus.announcement import Announcement, announced, announced_to_user, announcement_in, running_hosts
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
-from schemas.bus.find_host import endpoint_of
+from schemas.bus.find_host import find_host
 from schemas.errors import TouchlineError
 
 FRIENDLY = Announcement.of("friendly", "tcp/0.0.0.0:7001")
@@ -78,13 +78,13 @@ def test_where_no_folder_can_be_written_that_is_an_error(tmp_path, run):
 
 def test_the_running_match_is_found_whatever_its_port_and_name(run):
     run(CUP)
-    assert endpoint_of(None) == endpoint_of("cup") == "tcp/127.0.0.1:7002"
+    assert find_host(None).endpoint == find_host("cup").endpoint == "tcp/127.0.0.1:7002"
 
 
 def test_one_of_two_running_matches_is_found_by_its_name(run):
     run(CUP)
     run(FRIENDLY)
-    assert endpoint_of("friendly") == "tcp/127.0.0.1:7001"
+    assert find_host("friendly").endpoint == "tcp/127.0.0.1:7001"
 
 
 @pytest.mark.parametrize("name", [None, "final"])
@@ -92,7 +92,7 @@ def test_where_it_is_not_clear_which_match_is_meant_they_are_listed(run, name):
     run(CUP)
     run(FRIENDLY)
     with pytest.raises(TouchlineError) as error:
-        endpoint_of(name)
+        find_host(name)
     first, *lines = str(error.value).splitlines()
     assert first.endswith("choose one by --connect:")
     assert sorted(line.partition(", process")[0].strip() for line in lines) == [
@@ -102,4 +102,4 @@ def test_where_it_is_not_clear_which_match_is_meant_they_are_listed(run, name):
 
 
 def test_without_an_announcement_a_client_tries_the_default_endpoint():
-    assert endpoint_of(None) == endpoint_of("cup") == DEFAULT_ENDPOINT
+    assert find_host(None).endpoint == find_host("cup").endpoint == DEFAULT_ENDPOINT

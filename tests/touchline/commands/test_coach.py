@@ -6,6 +6,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from coach_gateway.access.referee_name import terminal_name
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
@@ -53,7 +54,7 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
     there = Host()
 
     @contextmanager
-    def seat(connection: ClientSettings) -> Iterator[Bus]:
+    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
         clock = TalkingClock()
         clock.host = there
         with there.medium.open_bus(connection.match or "friendly", clock) as bus:

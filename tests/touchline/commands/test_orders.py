@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import pytest
 from typer.testing import CliRunner, Result
 
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
@@ -45,7 +46,7 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
     there = Host()
 
     @contextmanager
-    def seat(connection: ClientSettings) -> Iterator[Bus]:
+    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
         with there.medium.open_bus(connection.match or "friendly", SteppedClock()) as bus:
             yield bus
 

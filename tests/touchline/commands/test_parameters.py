@@ -8,6 +8,7 @@ from contextlib import contextmanager
 import pytest
 from typer.testing import CliRunner, Result
 
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
@@ -40,7 +41,7 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
                 query.reply(ParametersReply(accepted=False, reason=str(error)))
 
     @contextmanager
-    def seat(connection: ClientSettings) -> Iterator[Bus]:
+    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
         with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
             yield client
 

@@ -10,6 +10,7 @@ import pytest
 from pytest import approx
 from typer.testing import CliRunner, Result
 
+from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
@@ -37,7 +38,7 @@ def simulation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulation]:
             query.reply(simulation.handle_scene(query.message()))
 
     @contextmanager
-    def seat(connection: ClientSettings) -> Iterator[Bus]:
+    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
         with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
             yield client
 
