@@ -13,6 +13,7 @@ from touchline.commands import (
     coach,
     credentials,
     diff,
+    doctor,
     drive,
     export,
     filter,
@@ -86,6 +87,7 @@ app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
 app.command("drive", rich_help_panel=OPERATE)(drive.drive)
 app.add_typer(recorder.app, name="recorder", rich_help_panel=OPERATE)
 
+app.command("doctor", rich_help_panel=PROCESSES)(doctor.doctor)
 app.command("host", rich_help_panel=PROCESSES)(host.host)
 app.command("agent", rich_help_panel=PROCESSES)(agent.agent)
 app.command("record", rich_help_panel=PROCESSES)(record.record)
