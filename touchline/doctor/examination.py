@@ -71,4 +71,4 @@ def _examine_host(
 def _failed(name: str, error: TouchlineError) -> Finding:
     """The finding of an error, whose line ends with its remedy."""
     text, _, remedy = str(error).partition("; ")
-    return Finding(name, Status.FAILED, text, remedy)
+    return Finding(name, Status.FAILED, text, remedy.split(":\n")[0])

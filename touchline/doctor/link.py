@@ -70,8 +70,8 @@ def clock_finding(offset: ClockOffset | None) -> Finding:
         return Finding(
             "clock", Status.WARNING, "the host has published nothing, so its clock is unknown", "is it suspended?"
         )
-    text = f"the host's clock is {abs(offset.seconds):.6f} s {'ahead' if offset.seconds > 0 else 'behind'}"
-    text = f"{text}, ± {offset.uncertainty:.6f} s"
+    text = f"the host's clock is {abs(offset.seconds):.4f} s {'ahead' if offset.seconds > 0 else 'behind'}"
+    text = f"{text}, ± {offset.uncertainty:.4f} s"
     if abs(offset.seconds) - offset.uncertainty > _OFFSET_S:
         remedy = "timedatectl set-ntp true, on both machines; robots play all the same, times in logs do not agree"
         return Finding("clock", Status.WARNING, text, remedy)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Self
 
 from schemas.bus.announcement import Announcement, running_hosts
+from sim_host.missing_engine import missing_engine_text
 from touchline.doctor.finding import Finding, Status
 
 _EXTRAS: Mapping[str, tuple[tuple[str, ...], str]] = {
@@ -80,7 +81,7 @@ def _engine(facts: MachineFacts) -> Finding:
         "pybullet",
         Status.NOTE,
         "not installed: this machine can run robots, coaches and recorders, but no host",
-        "for a host: pip install 'touchline[sim]' with Python 3.11 on Linux x86-64",
+        f"for a host: {missing_engine_text()}",
     )
 
 
