@@ -3,12 +3,14 @@
 It drives to the ball and kicks it toward the goal. A program in any other language takes the same steps.
 """
 
+import base64
 import json
 import math
 import os
 import secrets
 import struct
 import time
+from pathlib import Path
 from typing import Any
 
 import zenoh
@@ -24,6 +26,15 @@ SETTINGS = {
     "scouting/gossip/enabled": False,
     "transport/shared_memory/enabled": False,
 }
+CREDENTIALS: dict[str, Any] = (
+    json.loads(Path(os.environ["TOUCHLINE_CREDENTIALS"]).read_text()) if "TOUCHLINE_CREDENTIALS" in os.environ else {}
+)
+if CREDENTIALS:
+    SETTINGS["transport/auth/usrpwd/user"] = CREDENTIALS["user"]
+    SETTINGS["transport/auth/usrpwd/password"] = CREDENTIALS["password"]
+if CREDENTIALS.get("root_certificate"):
+    root = base64.b64encode(CREDENTIALS["root_certificate"].encode()).decode()
+    SETTINGS["transport/link/tls/root_ca_certificate_base64"] = root
 STAMP = struct.Struct("<QQq")
 TOP_SPEED = 2.0
 """m/s."""
@@ -49,7 +60,7 @@ def query(session: zenoh.Session, key: str, request: dict[str, Any]) -> dict[str
     """The host's reply to a request; queries the host until it replies."""
     while True:
         payload = json.dumps({"version": "2.0", **request})
-        for reply in session.get(f"{ROOT}/host/{key}", payload=payload, timeout=4.0):
+        for reply in session.get(f"{ROOT}/{key}", payload=payload, timeout=4.0):
             if reply.ok is not None:
                 content: dict[str, Any] = json.loads(reply.ok.payload.to_bytes())
                 return content
@@ -59,7 +70,7 @@ def query(session: zenoh.Session, key: str, request: dict[str, Any]) -> dict[str
 def claim(session: zenoh.Session, name: str) -> None:
     """Claim the robot for the session of this name, whose liveliness token exists."""
     secret = os.environ.get("TOUCHLINE_LAUNCH_TOKEN")
-    reply = query(session, "claim", {"robot": ROBOT, "session": name, "launch_token": secret})
+    reply = query(session, f"robot/{ROBOT}/claim", {"robot": ROBOT, "session": name, "launch_token": secret})
     if not reply["accepted"]:
         raise SystemExit(f"{ROBOT}: refused by the host: {reply['reason']}")
 
@@ -70,14 +81,14 @@ def main() -> None:
     for key, value in SETTINGS.items():
         config.insert_json5(key, json.dumps(value))
     with zenoh.open(config) as session:
-        goal_x = query(session, "setup", {})["pitch"]["length"] / 2
+        goal_x = query(session, "host/setup", {})["pitch"]["length"] / 2
         sights = session.declare_subscriber(f"{ROOT}/robot/{ROBOT}/sight", zenoh.handlers.RingChannel(1))
         commands = session.declare_publisher(
             f"{ROOT}/robot/{ROBOT}/command",
             encoding=zenoh.Encoding.APPLICATION_JSON,
             congestion_control=zenoh.CongestionControl.DROP,
         )
-        name = f"s{secrets.token_hex(12)}"
+        name = f"{CREDENTIALS.get('user', 's')}_{secrets.token_hex(12)}"
         with session.liveliness().declare_token(f"{ROOT}/alive/session/{name}"):
             claim(session, name)
             for sequence, sample in enumerate(sights):

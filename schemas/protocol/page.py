@@ -11,8 +11,11 @@ from typing import Any
 
 from pydantic_core import from_json
 
+from schemas.access.accounts import ACCOUNTS, Account
+from schemas.access.rights import Rights
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows
+from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 from schemas.wire.message import VERSION, Message, WireMessage
@@ -22,6 +25,7 @@ _NOTE = "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; to change
 _WIDE = 110
 """Most characters in a line of an example, where the line can be broken."""
 _TOPIC_HEADINGS = ("key", "message", "from", "to", "rate", "delivery", "recorded", "description")
+_ACCOUNT_HEADINGS = ("account", "who", "publishes", "subscribes", "queries", "answers queries", "tokens")
 _FIELD_HEADINGS = ("field", "type", "default", "meaning")
 _RENAMING_HEADINGS = ("since", "old name", "new name")
 
@@ -41,6 +45,10 @@ def page() -> str:
         "All keys are below `touchline/{match}/`; words in braces are placeholders. On a topic whose delivery is "
         "`query`, the message before the arrow is the request and the one behind it the reply.",
         _table(_TOPIC_HEADINGS, [_topic_cells(topic, titles) for topic in TOPICS.values()]),
+        "## Who may do what",
+        "The accounts of a host with credentials. `{robot}` stands for each robot of the account's side; a key in "
+        "*subscribes* with a † can be recovered: missed and earlier messages are fetched from the publisher's cache.",
+        _table(_ACCOUNT_HEADINGS, [_account_cells(account) for account in ACCOUNTS]),
         "## Messages",
         f"Every message has a field `version` (text, default `{VERSION}`) beside those listed. A field without a "
         "default is required; fields that are not listed, NaN and infinity are refused. A payload of more than "
@@ -91,13 +99,21 @@ def _topic_cells(topic: Topic, titles: dict[type, str]) -> tuple[str, ...]:
     return (
         f"`{topic.key}`",
         message + reply,
-        topic.writer.value,
+        ", ".join(writer.value for writer in topic.writers),
         ", ".join(reader.value for reader in topic.readers),
         topic.rate,
         topic.delivery.value,
         "yes" if topic.recorded else "no",
         topic.description,
     )
+
+
+def _account_cells(account: Account) -> tuple[str, ...]:
+    rights = Rights(account, {side: ["{robot}"] for side in Side})
+    subscribed = [f"`{key}`{' †' if key in rights.recovers else ''}" for key in rights.subscribes]
+    others = (rights.queries, rights.serves, rights.declares)
+    publishes, *rest = (", ".join(f"`{key}`" for key in keys) or "–" for keys in (rights.publishes, *others))
+    return (f"`{account.value}`", ACCOUNTS[account].description, publishes, ", ".join(subscribed), *rest)
 
 
 def _message(kind: type[WireMessage], titles: dict[type, str]) -> str:

@@ -74,7 +74,9 @@ def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> 
     config = load_match(None, {"teams.cyan.command": ["./robot"]})
     robot = next(
         one
-        for one in client_processes(MatchPlan(config, DEFAULT_ENDPOINT, Path(), None, launch_token="secret"))
+        for one in client_processes(
+            MatchPlan(config, DEFAULT_ENDPOINT, Path(), None, launch_token="secret", credentials=Path())
+        )
         if one.kind is ProcessKind.AGENT
     )
     said = set(re.findall(r"^\| `(TOUCHLINE_\w+)` \|", text, re.MULTILINE))

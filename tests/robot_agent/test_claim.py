@@ -10,7 +10,7 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
 from schemas.process.clock import SteppedClock
-from schemas.topics import CLAIM
+from schemas.topics import ROBOT_CLAIM
 
 
 class ClaimHost:
@@ -20,7 +20,7 @@ class ClaimHost:
         network = SharedState()
         self.bus, self.agent_bus = (network.open_bus("friendly", SteppedClock()) for _ in range(2))
         self.presence, self.claims = self.bus.watch_alive(), []
-        self._server = self.bus.serve(CLAIM)
+        self._server = self.bus.serve(ROBOT_CLAIM)
         self._reply = reply
         self._thread = threading.Thread(target=self._serve)
         self._thread.start()

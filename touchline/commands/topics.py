@@ -34,7 +34,7 @@ def _row(name: str, topic: Topic) -> dict[str, Any]:
         "key": topic.key,
         "message": topic.message.__name__ if topic.message is not None else None,
         "reply": topic.reply.__name__ if topic.reply is not None else None,
-        "from": topic.writer.value,
+        "from": [writer.value for writer in topic.writers],
         "to": [reader.value for reader in topic.readers],
         "rate": topic.rate,
         "delivery": topic.delivery.value,

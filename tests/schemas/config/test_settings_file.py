@@ -94,7 +94,7 @@ WRONG: dict[str, tuple[type[Settings], object, str]] = {
         "record: keep 1 needs several",
     ),
     "a key of the match": (HostSettings, {"config": {"seed": -1}}, "config.seed is -1; at least 0"),
-    "a list": (ListenSettings, [], "not settings; write a JSON object with the fields listen, insecure"),
+    "a list": (ListenSettings, [], "not settings; write a JSON object with the fields listen, credentials, insecure"),
 }
 
 
