@@ -3,7 +3,6 @@
 import importlib.util
 import logging
 import signal
-import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 from types import FrameType
@@ -16,6 +15,7 @@ from schemas.bus.settings import check_protected
 from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
+from schemas.process.process_log import configure_log
 from schemas.process.scheduling import use_batch_scheduling
 from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
@@ -29,7 +29,7 @@ def run(settings: HostSettings) -> int:
     Raises:
         TouchlineError: PyBullet is missing, or the endpoint cannot be listened on or is open to others unguarded.
     """
-    logging.basicConfig(level=logging.INFO, stream=sys.stderr, format="%(asctime)s %(name)s: %(message)s")
+    configure_log("host", settings.log_format, text="%(asctime)s %(name)s: %(message)s")
     signal.signal(signal.SIGTERM, _leave)
     try:
         _serve(settings)

@@ -13,7 +13,7 @@ from touchline.cli.option_groups import FieldsOf, with_option_groups
 @with_option_groups
 def host(
     match: options.MatchOptions,
-    more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement")],
+    more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement", "log_format")],
 ) -> None:
     """Run the simulation host of a match; robots join with `touchline agent`.
 

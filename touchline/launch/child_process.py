@@ -10,6 +10,7 @@ from pathlib import Path
 from coach_gateway.ports import inheritance_of
 from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
+from schemas.process.process_log import message_of
 from touchline.launch import leash
 from touchline.launch.processes import Process
 
@@ -55,7 +56,8 @@ class ProcessHandle(ABC):
             start = self._log_start if self._log_start <= size else 0  # the log was cut meanwhile
             log.seek(max(start, size - _TAIL_BYTES))
             text = log.read().decode("utf-8", "replace")
-        return [line for line in text.splitlines() if line.strip()][-count:]
+        lines = [part for line in text.splitlines() for part in message_of(line).splitlines()]
+        return [line for line in lines if line.strip()][-count:]
 
     def _signal_group(self, number: signal.Signals) -> None:
         try:
