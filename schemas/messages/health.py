@@ -23,6 +23,8 @@ class RobotHealth(Part):
     """Ticks with an answer."""
     missed: int = 0
     """Ticks without an answer."""
+    missed_in_a_row: int = 0
+    """Newest ticks without an answer, one after the other."""
     duplicates: int = 0
     """Commands for a tick that it had already answered."""
     invalid: int = 0

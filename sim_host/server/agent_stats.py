@@ -152,6 +152,7 @@ class AgentStats:
             answering=self.answering,
             answers=self.answers,
             missed=self.missed,
+            missed_in_a_row=self.missed_in_a_row,
             duplicates=self.duplicates,
             invalid=self.invalid,
             refused=self.refused,

@@ -115,6 +115,15 @@ def test_in_lockstep_every_sight_is_answered_on_time(rig):
         assert (robot.sights, robot.answers, robot.late, robot.lost_commands) == (31, 31, 0, 0)
 
 
+def test_a_silent_robot_has_the_ticks_that_it_has_missed_since_it_answered(realtime_rig):
+    realtime_rig.agents["cyan2"].frozen = True
+    realtime_rig.ticks(5)
+    assert realtime_rig.health().robots["cyan2"].missed_in_a_row == 6
+    realtime_rig.agents["cyan2"].frozen = False
+    cyan2 = realtime_rig.health().robots["cyan2"]
+    assert (cyan2.missed_in_a_row, cyan2.missed) == (0, 6)
+
+
 def test_no_sights_are_counted_while_no_agent_is_present(rig):
     rig.ticks(10)
     rig.leave("cyan2")

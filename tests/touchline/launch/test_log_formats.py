@@ -3,9 +3,11 @@
 from pathlib import Path
 
 from touchline.launch.child_process import ProcessHandle
-from touchline.launch.processes import Process
+from touchline.launch.processes import Process, ProcessKind
 
-LINE = '{"time": "2026-01-01T00:00:00.000Z", "process": "agent", "level": "error", "message": "act failed\\nkick: no"}\n'
+LINE = (
+    '{"time": "2026-01-01T00:00:00.000Z", "process": "agent", "level": "error", "message": "act failed\\nkick: no"}\n'
+)
 
 
 class EndedProcess(ProcessHandle):
@@ -22,7 +24,7 @@ class EndedProcess(ProcessHandle):
 def last_lines(folder: Path, text: str) -> list[str]:
     log = folder / "cyan1.log"
     log.write_text(text)
-    return EndedProcess(Process(name="cyan1", command=[]), log, 0).last_lines()
+    return EndedProcess(Process("cyan1", ProcessKind.AGENT, (), {}), log, 0).last_lines()
 
 
 def test_of_json_the_messages_are_shown(tmp_path: Path) -> None:
