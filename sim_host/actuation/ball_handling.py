@@ -10,7 +10,7 @@ from schemas.messages.applied import AppliedInput
 from sim_host.actuation.carrying import METHODS, HeldBall
 from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers
-from sim_host.actuation.possession import can_hold, holder, why_not_held
+from sim_host.actuation.possession import can_hold, claimants, holder, why_not_held
 from sim_host.actuation.touches import TOUCH_ORDERS, StepTouches
 from sim_host.physics.body_state import BallContacts, BodyState
 from sim_host.physics.engine import Engine
@@ -93,7 +93,8 @@ class BallHandling:
         """
         report = BallReport()
         claims = [index for index, one in enumerate(inputs) if one.dribble or one.kick is not None]
-        new = holder(claims, robots, ball, self._dribbles) if claims else None
+        able = claimants(claims, robots, ball, self._dribbles)
+        new = holder(able)
         if new != self.holder:
             self.set_holder(None if new is not None and self._would_press(new) else new)
         for index in claims:
@@ -107,16 +108,12 @@ class BallHandling:
             self._kickers.kicked(index, tick)
             report.kicked = index
             report.touches.append(index)
-        self._contestants = [] if report.kicked is not None else self._contestants_among(claims, robots, ball)
+        self._contestants = [] if report.kicked is not None else self._contestants_among(able)
         return report
 
-    def _contestants_among(self, claims: Sequence[int], robots: tuple[RobotState, ...], ball: BallState) -> list[int]:
-        """The robots among `claims` that draw the ball to themselves although they do not hold it."""
-        return [
-            index
-            for index in claims
-            if index != self.holder and self._contests[index] and can_hold(robots[index], ball, self._dribbles[index])
-        ]
+    def _contestants_among(self, able: Sequence[tuple[float, int]]) -> list[int]:
+        """The robots that draw the ball to themselves although they do not hold it, in the order of the roster."""
+        return sorted(index for _, index in able if index != self.holder and self._contests[index])
 
     def before_step(self, drives: Sequence[FieldTwist]) -> BodyState | None:
         """Move the ball with its holder, or by ground and air; the state of a free ball, None for a held one."""

@@ -21,21 +21,27 @@ def can_hold(robot: RobotState, ball: BallState, dribble: Dribble) -> bool:
     return abs(math.remainder(bearing, 2.0 * math.pi)) <= dribble.cone / 2.0
 
 
-def holder(
+def claimants(
     claims: Iterable[int], robots: Sequence[RobotState], ball: BallState, dribbles: Sequence[Dribble]
-) -> int | None:
-    """The robot among `claims` that holds the ball: the nearest that can, or None when two are equally near.
+) -> list[tuple[float, int]]:
+    """The robots among `claims` that can hold the ball, nearest first: distance from the axis in m, and index."""
+    ball_x, ball_y, *_ = ball
+    near = [(math.hypot(ball_x - robots[i].x, ball_y - robots[i].y), i) for i in claims]
+    return sorted(
+        (distance, i)
+        for distance, i in near
+        if distance <= dribbles[i].distance and can_hold(robots[i], ball, dribbles[i])
+    )
+
+
+def holder(able: Sequence[tuple[float, int]]) -> int | None:
+    """The robot that holds the ball: the nearest of the `claimants`, or None when two are equally near.
 
     The result is the same for both sides and any order of robots. A ball between two equal claims is left to contacts.
     """
-    near = sorted(
-        (math.hypot(ball.x - robots[i].x, ball.y - robots[i].y), i)
-        for i in claims
-        if can_hold(robots[i], ball, dribbles[i])
-    )
-    if not near or (len(near) > 1 and near[1][0] - near[0][0] < TIE_DISTANCE):
+    if not able or (len(able) > 1 and able[1][0] - able[0][0] < TIE_DISTANCE):
         return None
-    return near[0][1]
+    return able[0][1]
 
 
 def why_not_held(robot: RobotState, ball: BallState, dribble: Dribble) -> str:

@@ -5,7 +5,7 @@ at all are for drives that are as strong as their grip only.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from schemas.config.robot_model import RobotModel
@@ -49,7 +49,6 @@ class CollisionCandidates:
         self._ball_radius = ball_radius
         self._yields = [model.drive.model == "traction" for model in models]
         """Per robot: its drive is no stronger than its grip where the robot touches something."""
-        self._any_yields = any(self._yields)
         self._fast = MAX_DEPTH / time.physics_step
         self._reaches = [model.body.reach for model in models]
         self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
@@ -68,12 +67,17 @@ class CollisionCandidates:
         """The robots that may meet another body within the tick."""
         fast, tick, obstacles = self._fast, self._tick, self._obstacles
         free_x, free_y = self._free_x - _MARGIN, self._free_y - _MARGIN
+        ball_x, ball_y, _, ball_vx, ball_vy, _ = ball
+        room = self._ball_radius + math.hypot(ball_vx, ball_vy) * tick + _MARGIN
         moving, fixed, touching = [], [], set()
         for place, (x, y, _, _, vx, vy, omega, _) in enumerate(robots):
             extra = self._gains[place] + abs(omega) * self._strikes[place]
             speed = math.hypot(vx, vy) + extra
             travel = self._reaches[place] + speed * tick
             moving.append((x, y, vx, vy, extra, travel, place))
+            near = travel + room
+            if self._yields[place] and -near < ball_x - x < near and -near < ball_y - y < near:
+                touching.add(place)  # another robot may press the ball against it
             if not (obstacles or abs(x) + travel > free_x or abs(y) + travel > free_y):
                 continue
             if speed > fast:
@@ -84,8 +88,6 @@ class CollisionCandidates:
             return Candidates([], fixed, [], False, [])
         pairs, hits, meeting = self._robots(moving)
         touching |= meeting
-        if self._any_yields:
-            touching.update(self._near_ball(moving, ball))
         return Candidates(pairs, fixed, sorted(touching), bool(meeting), hits)
 
     def _robots(self, moving: list[_Moving]) -> tuple[IndexPairs, IndexPairs, set[int]]:
@@ -115,15 +117,6 @@ class CollisionCandidates:
                     if approach > self._fast:
                         pairs.append(pair)
         return sorted(pairs), sorted(hits), touching
-
-    def _near_ball(self, moving: list[_Moving], ball: BallState) -> Iterator[int]:
-        """The yielding robots that may touch the ball, which another robot may press against them."""
-        ball_x, ball_y, _, vx, vy, _ = ball
-        room = self._ball_radius + math.hypot(vx, vy) * self._tick + _MARGIN
-        for x, y, _, _, _, travel, place in moving:
-            near = travel + room
-            if abs(ball_x - x) < near and abs(ball_y - y) < near and self._yields[place]:
-                yield place
 
     def _fixed(self, place: int, x: float, y: float, travel: float) -> IndexPairs:
         """Fixed bodies that a robot may reach."""

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from schemas.config.profile import load_profile
-from sim_host.actuation.possession import can_hold, holder
+from sim_host.actuation.possession import can_hold, claimants, holder
 from sim_host.snapshot import BallState, RobotState
 
 DRIBBLE = load_profile("msl").dribble
@@ -41,19 +41,19 @@ def test_a_ball_is_held_within_distance_total_cone_and_height(seen: BallState, h
 
 def test_the_nearest_of_those_that_want_it_holds_the_ball() -> None:
     robots = (robot(-0.36), robot(0.38, heading=math.pi), robot(0.0, 0.35, heading=-math.pi / 2))
-    assert holder([0, 1], robots, ball(0), [DRIBBLE] * 3) == 0
-    assert holder([0, 1, 2], robots, ball(0), [DRIBBLE] * 3) == 2
-    assert holder([1], robots, ball(0), [DRIBBLE] * 3) == 1
-    assert holder([], robots, ball(0), [DRIBBLE] * 3) is None
+    assert holder(claimants([0, 1], robots, ball(0), [DRIBBLE] * 3)) == 0
+    assert holder(claimants([0, 1, 2], robots, ball(0), [DRIBBLE] * 3)) == 2
+    assert holder(claimants([1], robots, ball(0), [DRIBBLE] * 3)) == 1
+    assert holder(claimants([], robots, ball(0), [DRIBBLE] * 3)) is None
 
 
 def test_two_equal_claims_leave_the_ball_free_in_any_order_of_robots() -> None:
     """In simatch the last writer had the ball."""
     robots = (robot(-0.35), robot(0.352, heading=math.pi))
-    assert holder([0, 1], robots, ball(0), [DRIBBLE] * 3) is None
-    assert holder([1, 0], robots[::-1], ball(0), [DRIBBLE] * 3) is None
+    assert holder(claimants([0, 1], robots, ball(0), [DRIBBLE] * 3)) is None
+    assert holder(claimants([1, 0], robots[::-1], ball(0), [DRIBBLE] * 3)) is None
 
 
 def test_a_claim_that_cannot_hold_the_ball_does_not_contest_it() -> None:
     robots = (robot(-0.35), robot(0.35, heading=0.0))
-    assert holder([0, 1], robots, ball(0), [DRIBBLE] * 3) == 0
+    assert holder(claimants([0, 1], robots, ball(0), [DRIBBLE] * 3)) == 0
