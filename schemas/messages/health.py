@@ -71,6 +71,19 @@ class TeamRadio(Part):
     """Bits that the team sent in its busiest second since the match began, in bit/s."""
 
 
+class AccountHealth(Part):
+    """What one account has sent; counts are since the match began."""
+
+    messages: int = 0
+    """Messages that reached the host. The router drops what is far above the limits before that, without a count."""
+    size: int = 0
+    """Bytes of these messages."""
+    dropped: dict[str, int] = Field(default_factory=dict)
+    """Reason → messages that were dropped for it."""
+    cut_off: bool = False
+    """It went on above its limit, and its messages are ignored until an operator or a referee admits it."""
+
+
 class Health(Message):
     """State of the host, its agents and recorders."""
 
@@ -94,6 +107,8 @@ class Health(Message):
     """Recorder → ticks that it is behind."""
     radio: dict[Side, TeamRadio] = Field(default_factory=dict)
     """Side → use of its radio; empty in recordings that are older than this field."""
+    accounts: dict[str, AccountHealth] = Field(default_factory=dict)
+    """Account → what it has sent; without credentials, each key counts as an account of its own."""
 
 
 class Invalid(Message):

@@ -6,6 +6,7 @@ from schemas.messages.health import Health, TeamRadio
 from schemas.process.clock import Clock
 from schemas.side import Side
 from sim_host.match.radio_use import RadioUse
+from sim_host.server.account_limits import AccountLimits
 from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import PresenceTracker
 
@@ -49,6 +50,7 @@ class HealthReporter:
         late: int,
         inbox: Inbox,
         presence: PresenceTracker,
+        accounts: AccountLimits,
         radio: RadioUse,
         radio_budget: float,
     ) -> Health:
@@ -66,4 +68,5 @@ class HealthReporter:
             strangers=dict(inbox.unknown_senders),
             recorders=presence.recorder_lags(tick),
             radio={side: TeamRadio(budget=radio_budget, busiest=radio.busiest[side]) for side in Side},
+            accounts=accounts.health(),
         )

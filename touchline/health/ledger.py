@@ -4,11 +4,12 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from schemas.messages.health import Health, RobotHealth
+from schemas.messages.health import AccountHealth, Health, RobotHealth
 from schemas.messages.latency_counts import quantile_ms
 from schemas.side import Side
 
 _NEVER = RobotHealth()
+_NO_ACCOUNT = AccountHealth()
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +50,21 @@ class RobotLedger:
 
 
 @dataclass(frozen=True, slots=True)
+class AccountLedger:
+    """The counts of one account of the bus."""
+
+    account: str
+    messages: int
+    """Messages that reached the host."""
+    size: int
+    """Bytes of these messages."""
+    dropped: dict[str, int]
+    """Reason → messages that were dropped for it."""
+    cut_off: bool
+    """Its messages are ignored, since it went on above its limit."""
+
+
+@dataclass(frozen=True, slots=True)
 class Ledger:
     """The counts of all robots from one simulated time to another."""
 
@@ -66,6 +82,7 @@ class Ledger:
     worst_tick_ms: float
     """Longest wall time of a tick in the last second, in ms."""
     robots: list[RobotLedger]
+    accounts: list[AccountLedger]
     radio_busiest: dict[str, float]
     """Side → share of its radio budget in its busiest second since the match began, 0 to 1."""
     strangers: dict[str, int]
@@ -101,6 +118,10 @@ def ledger_of(last: Health, sides: Mapping[str, Side], first: Health | None = No
             )
             for name, robot in last.robots.items()
         ],
+        accounts=[
+            _account_ledger(name, account, first.accounts.get(name, _NO_ACCOUNT) if first is not None else _NO_ACCOUNT)
+            for name, account in last.accounts.items()
+        ],
         radio_busiest={side.value: _share(use.busiest, use.budget) for side, use in last.radio.items()},
         strangers=_increase(last.strangers, first.strangers if first is not None else {}),
         recorders=dict(last.recorders),
@@ -133,6 +154,16 @@ def _robot_ledger(
         else None,
         radio_refused=_since(last.radio_refused, first.radio_refused),
         fault=last.fault,
+    )
+
+
+def _account_ledger(name: str, last: AccountHealth, first: AccountHealth) -> AccountLedger:
+    return AccountLedger(
+        account=name,
+        messages=last.messages - first.messages,
+        size=last.size - first.size,
+        dropped=_increase(last.dropped, first.dropped),
+        cut_off=last.cut_off,
     )
 
 

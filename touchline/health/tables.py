@@ -32,7 +32,10 @@ _COLUMNS: tuple[tuple[str, Callable[[RobotLedger], str]], ...] = (
 
 def ledger_view(ledger: Ledger) -> RenderableType:
     """The whole ledger for the console."""
-    return Group(Text(_headline(ledger), style="bold"), _robot_table(ledger), *map(Text, _remarks(ledger)))
+    parts: list[RenderableType] = [Text(_headline(ledger), style="bold"), _robot_table(ledger)]
+    if ledger.accounts:
+        parts += [Text(), _account_table(ledger)]
+    return Group(*parts, *map(Text, _remarks(ledger)))
 
 
 def _headline(ledger: Ledger) -> str:
@@ -51,6 +54,18 @@ def _robot_table(ledger: Ledger) -> Table:
         table.add_row(
             row.robot, row.state, *(value(row) for _, value in _COLUMNS), style=_TROUBLE if in_trouble else None
         )
+    return table
+
+
+def _account_table(ledger: Ledger) -> Table:
+    table = Table("account", "messages", "kB", "dropped", box=None, pad_edge=False)
+    for column in table.columns[1:3]:
+        column.justify = "right"
+    for row in ledger.accounts:
+        reasons = [f"{count} {reason}" for reason, count in row.dropped.items()]
+        dropped = "; ".join([*(["cut off"] if row.cut_off else []), *reasons]) or "0"
+        style = _TROUBLE if row.cut_off or row.dropped else None
+        table.add_row(row.account, str(row.messages), f"{row.size / 1e3:.1f}", dropped, style=style)
     return table
 
 

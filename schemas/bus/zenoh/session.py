@@ -21,6 +21,9 @@ from schemas.process.clock import Clock
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""
+_MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
+"""Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
+over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
 _CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
 """Fewer threads than by default, since a match has many small processes."""
 _HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
@@ -150,16 +153,17 @@ def _can_open(endpoint: str, credentials: Credentials | None) -> bool:
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
     """Open a session with these threads, unless the environment sets others.
 
-    Zenoh reads the variable once, when the first session of a process is opened. The variable must not reach child
-    processes, which may need other settings.
+    Zenoh reads the variables once, when the first session of a process is opened. They must not reach child processes,
+    which may need other settings.
     """
-    if _THREADS in os.environ:
-        return zenoh.open(config)
-    os.environ[_THREADS] = threads
+    wanted = {_THREADS: threads, _MOST_AHEAD: _MOST_AHEAD_MS}
+    added = {name: value for name, value in wanted.items() if name not in os.environ}
+    os.environ.update(added)
     try:
         return zenoh.open(config)
     finally:
-        del os.environ[_THREADS]
+        for name in added:
+            del os.environ[name]
 
 
 def _config(mode: str, more: Mapping[str, object]) -> zenoh.Config:

@@ -13,6 +13,7 @@ from schemas.messages.radio import Radio
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import COMMAND, HEALTH
+from sim_host.server.account_limits import AccountLimits
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
@@ -57,7 +58,9 @@ def bus():
 
 @pytest.fixture
 def inbox(bus):
-    inbox = Inbox(bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus))
+    inbox = Inbox(
+        bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus), AccountLimits({})
+    )
     inbox.agent_stats["cyan1"].alive = True
     return inbox
 

@@ -17,7 +17,7 @@ from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
-from schemas.messages.health import Health, RobotHealth, TeamRadio
+from schemas.messages.health import AccountHealth, Health, RobotHealth, TeamRadio
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import HEALTH
@@ -65,6 +65,10 @@ def report(tick: int) -> Health:
         real_time_factor=1.0,
         robots={"cyan1": cyan1, "magenta1": silent},
         radio={Side.CYAN: TeamRadio(budget=2e5, busiest=5e4)},
+        accounts={
+            "cyan": AccountHealth(messages=tick, size=tick * 100),
+            "magenta": AccountHealth(messages=5, size=500, dropped={"above the rate": 44}, cut_off=True),
+        },
         strangers={"robot/x/command": 7},
     )
 
@@ -97,6 +101,8 @@ def test_a_running_match_is_one_row_for_each_robot(host: FakeHost) -> None:
     cyan1 = next(line for line in lines if line.startswith("cyan1"))
     assert cyan1.split()[1:10] == ["answers", "54", "48", "2", "4", "0", "0", "1", "3"]
     assert next(line for line in lines if line.startswith("magenta1")).split()[1] == "silent"
+    assert ["cyan", "50", "5.0", "0"] in [line.split() for line in lines]
+    assert "magenta 5 0.5 cut off; 44 above the rate" in [" ".join(line.split()) for line in lines]
     assert "magenta1: answers tick 0, the match is at 50; use sight.tick" in lines
     assert "radio cyan: busiest second 25 % of the budget" in lines
     assert "7 messages on robot/x/command, which is no robot's of this match" in lines

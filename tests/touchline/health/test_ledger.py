@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from schemas.messages.health import Health, RobotHealth, TeamRadio
+from schemas.messages.health import AccountHealth, Health, RobotHealth, TeamRadio
 from schemas.messages.latency_counts import CLASSES, class_of
 from schemas.side import Side
 from touchline.health.ledger import RobotLedger, ledger_of
@@ -99,3 +99,17 @@ def test_the_state_of_an_agent_is_one_word(robot: RobotHealth, state: str) -> No
 def test_messages_of_strangers_are_those_of_the_stretch() -> None:
     first, last = report(1, strangers={"robot/x/command": 5}), report(9, strangers={"robot/x/command": 5, "others": 2})
     assert ledger_of(last, SIDES, first).strangers == {"others": 2}
+
+
+def test_an_account_has_its_messages_and_what_was_dropped_of_them_in_the_stretch() -> None:
+    first = report(100, accounts={"cyan": AccountHealth(messages=90, size=9000, dropped={"too long": 2})})
+    last = report(
+        200,
+        accounts={
+            "cyan": AccountHealth(messages=190, size=20000, dropped={"too long": 2, "too many": 7}, cut_off=True),
+            "viewer": AccountHealth(messages=1, size=10),
+        },
+    )
+    cyan, viewer = ledger_of(last, SIDES, first).accounts
+    assert (cyan.messages, cyan.size, cyan.dropped, cyan.cut_off) == (100, 11000, {"too many": 7}, True)
+    assert (viewer.account, viewer.messages, viewer.dropped, viewer.cut_off) == ("viewer", 1, {}, False)
