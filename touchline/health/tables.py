@@ -28,6 +28,7 @@ _COLUMNS: tuple[tuple[str, Callable[[RobotLedger], str]], ...] = (
     ("refused", lambda row: _count(row.radio_refused)),
 )
 """Heading and value of each column after the robot and its state."""
+HEADINGS = ("robot", "agent", *(heading for heading, _ in _COLUMNS))
 
 
 def ledger_view(ledger: Ledger) -> RenderableType:
@@ -46,7 +47,7 @@ def _headline(ledger: Ledger) -> str:
 
 
 def _robot_table(ledger: Ledger) -> Table:
-    table = Table("robot", "agent", *(heading for heading, _ in _COLUMNS), box=None, pad_edge=False)
+    table = Table(*HEADINGS, box=None, pad_edge=False)
     for column in table.columns[2:]:
         column.justify = "right"
     for row in ledger.robots:
