@@ -1,7 +1,8 @@
 """Lockstep: sense-act cycles per second of agent processes that answer at once, and what limits them.
 
 `--robots` sets the numbers of robots. With several, the matches run in turns, and the last number is compared with the
-first: 22 robots should reach at least half of the cycles of ten.
+first: 22 robots should reach at least half of the cycles of ten. `--access none credentials tls` compares hosts that
+admit everybody, ask for credentials, or encrypt as well: in turns with the same number of robots.
 """
 
 import argparse
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from running_match import PATIENCE_S, running_match
+from running_match import ACCESS, PATIENCE_S, running_match
 
 from schemas.bus.contract import ReceivedMessage, Subscription
 from schemas.bus.zenoh.bus import open_client
@@ -62,11 +63,11 @@ def newest(healths: Subscription, wait: float) -> ReceivedMessage | None:
     return last
 
 
-def measure(robots: int) -> Cycles:
+def measure(robots: int, access: str) -> Cycles:
     """Cycles of a match with this number of robots."""
     with (
-        running_match("idle_brain:act", overrides(robots)) as (config, endpoint, host, agents),
-        open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus,
+        running_match("idle_brain:act", overrides(robots), access) as (config, endpoint, host, agents, viewer),
+        open_client(config.name, WallClock(), endpoint, PATIENCE_S, viewer) as bus,
     ):
         healths = bus.subscribe(HEALTH)
         while (received := healths.receive(PATIENCE_S)) is not None and received.message().tick < 100:
@@ -93,13 +94,30 @@ def median(rows: list[Cycles]) -> Cycles:
     return Cycles(*[statistics.median(column) for column in zip(*[vars(row).values() for row in rows], strict=True)])
 
 
+def compare_access(robots: int, kinds: list[str], rounds: int) -> None:
+    """Print cycles per second of each kind of protection, and the median of its ratios to the first in each round."""
+    rows = [{kind: measure(robots, kind) for kind in kinds} for _ in range(rounds)]
+    for kind in kinds:
+        ratios = [row[kind].rate / row[kinds[0]].rate for row in rows]
+        cycles = median([row[kind] for row in rows])
+        print(
+            f"{kind}: {cycles.rate:.0f} cycles/s with {robots} agents, {statistics.median(ratios):.3f} of {kinds[0]} "
+            f"({min(ratios):.3f} to {max(ratios):.3f}); host {cycles.host * 1e6:.0f} us a cycle"
+        )
+
+
 def main() -> None:
     """Print cycles per second of each number of robots, and the ratio of the last to the first."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robots", type=int, nargs="+", default=[10, 22], help="numbers of robots, by default 10 22")
     parser.add_argument("--rounds", type=int, default=1, help="matches of each number, in turns")
+    parser.add_argument("--access", choices=ACCESS, nargs="+", default=["none"], help="how the host is protected")
     options = parser.parse_args()
-    rounds = [{robots: measure(robots) for robots in options.robots} for _ in range(options.rounds)]
+    if len(options.access) > 1:
+        compare_access(options.robots[0], options.access, options.rounds)
+        return
+    (access,) = options.access
+    rounds = [{robots: measure(robots, access) for robots in options.robots} for _ in range(options.rounds)]
     for robots in options.robots:
         cycles = median([row[robots] for row in rounds])
         target = f", {cycles.rate / TARGET:.2f} x the target of {TARGET}" if robots == 10 else ""

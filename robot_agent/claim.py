@@ -33,6 +33,11 @@ class Membership:
         Raises:
             TouchlineError: the host refuses, or does not reply for `patience` s of wall time.
         """
+        side = self._bus.account.side if self._bus.account is not None else None
+        if side is not None and self._claim.robot in setup.teams[side.opponent].robots:
+            raise TouchlineError(
+                f"{self._claim.robot} plays for {side.opponent}, and the credentials are those of {side}"
+            )
         if not self._is_declared:
             self._declare(setup)
             self._is_declared = True

@@ -12,11 +12,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, TypeVar
 
-from pydantic import Field
+from pydantic import Field, ValidationError
 
 from schemas.access.accounts import Account
 from schemas.access.certificates import Certificate
-from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError
 from schemas.wire.message import Part
 
@@ -26,7 +25,7 @@ HOST_FILE = "host.json"
 
 Password = Annotated[str, Field(min_length=16, max_length=200, pattern=r"^[A-Za-z0-9_\-]+$")]
 """A password, which is in no representation of its owner."""
-C = TypeVar("C", bound="Credentials | HostCredentials")
+C = TypeVar("C", bound=Part)
 
 
 class Credentials(Part):
@@ -137,4 +136,10 @@ def _read(model: type[C], path: Path, what: str) -> C:
         raise TouchlineError(f"--credentials {path}: not JSON; {_REMEDY}") from None
     if not isinstance(content, dict) or ("passwords" in content) != (model is HostCredentials):
         raise TouchlineError(f"--credentials {path}: not {what}; {_REMEDY}")
-    return validate_tables(model, content, str(path), dict.fromkeys(("password", "passwords"), _REMEDY))
+    try:
+        return model.model_validate_json(json.dumps(content), strict=True)
+    except ValidationError as error:
+        where = ".".join(
+            str(step) for step in error.errors(include_input=False)[0]["loc"]
+        )  # no value: it may be secret
+        raise TouchlineError(f"--credentials {path}: {where} is invalid; {_REMEDY}") from None

@@ -114,3 +114,9 @@ class Rights:
             return [form.format(robot=robot) for side in self._sides for robot in self.robots[side]]
         pattern = form if form == "*" else form.replace("*", "$*")  # Zenoh's wildcard for a part of a chunk
         return [pattern.format(side=side.value) for side in self._sides] if "{side}" in form else [pattern]
+
+
+def writers_of(topic: Topic) -> list[Account]:
+    """The accounts that publish a topic, or send its query."""
+    parties = set(topic.writers) if topic.names_sender else set()
+    return [account for account, row in ACCOUNTS.items() if not parties.isdisjoint(row.parties)]

@@ -268,6 +268,10 @@ class Bus(ABC):
     def connected(self) -> bool:
         """Whether the medium is available: for a client, whether its link to the host is up."""
 
+    def is_cut_off(self) -> bool:
+        """Whether nothing answers at the host's address, neither a listener nor its machine; takes a moment."""
+        return False
+
     @abstractmethod
     def close(self) -> None:
         """Close the connection; further use raises `BusError`. Safe to call twice."""

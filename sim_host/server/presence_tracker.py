@@ -132,12 +132,16 @@ class PresenceTracker:
             known[presence.name] = presence.alive
 
     def _recorder(self, presence: Presence) -> None:
-        """Add a recorder; one that loses its link may only be suspended, and stays until its patience has passed."""
+        """Add a recorder. An admitted one that loses its link may only be suspended: it stays until its patience has
+        passed.
+        """
         name = presence.name
         if presence.alive:
             if name in self.recorders or self._admission.waits_for(name) or len(self.recorders) < _MAX_RECORDERS:
                 self.recorders.setdefault(name, -1)
             self._lost.pop(name, None)
+        elif not self._admission.waits_for(name):
+            self._forget(name)
         elif name in self.recorders:
             self._lost[name] = self._clock.now() + self._patience
 

@@ -1,4 +1,4 @@
-"""docs/health.md explains every column of the ledger and every line of the examination, with commands that can be typed."""
+"""docs/health.md explains each column of the ledger and each line of the examination; its commands can be typed."""
 
 import re
 from collections.abc import Callable
@@ -19,7 +19,9 @@ def page(root: Path) -> str:
 
 def explained(page: str) -> set[str]:
     """The names in the first column of its tables."""
-    return {name for row in re.findall(r"^\| (`[^|]+) \|", page, re.MULTILINE) for name in re.findall(r"`([^`]+)`", row)}
+    return {
+        name for row in re.findall(r"^\| (`[^|]+) \|", page, re.MULTILINE) for name in re.findall(r"`([^`]+)`", row)
+    }
 
 
 def test_every_column_is_explained(page: str) -> None:

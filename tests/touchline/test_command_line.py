@@ -93,7 +93,14 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a match file that is not there": (["match", "cup.toml"], "cup.toml: No such file"),
     "a match name that is no key": (["host", "--match", "The Cup"], "name is 'The Cup'"),
     "an open host without a word on it": (["host", "--listen", "tcp/0.0.0.0:0"], "add --insecure"),
-    "an open match without a word on it": (["host", "--listen", "tcp/[::]:0"], "add --insecure"),
+    "an open match without a word on it": (["match", "--listen", "tcp/[::]:0"], "touchline credentials new"),
+    "TLS without a certificate": (["host", "--listen", "tls/127.0.0.1:0"], "touchline credentials new --tls"),
+    "TLS for a match that admits everybody": (["match", "--tls", "--insecure"], "not for --insecure"),
+    "credentials of a host that are not there": (["host", "--credentials", "host.json"], "host.json: No such file"),
+    "credentials that are not there": (["coach", "start", "--credentials", "cyan.json"], "cyan.json: No such file"),
+    "a name without a certificate": (["credentials", "new", "--host-name", "sim"], "add --tls"),
+    "a name that is none": (["credentials", "new", "--tls", "--host-name", "a b"], "not a host name or address"),
+    "an endpoint of credentials that is none": (["credentials", "new", "--connect", "here"], "--connect is 'here'"),
     "an endpoint that is none": (["host", "--listen", "localhost"], "--listen is 'localhost'; write it as tcp/"),
     "a foreign address to listen on": (["host", "--listen", "tcp/192.0.2.1:7447", "--insecure"], "cannot be listened"),
     "an agent without a robot": (["agent", "--brain", "a:B"], "--robot"),
@@ -138,6 +145,20 @@ def test_wrong_input_gives_one_line_with_the_remedy_and_status_2(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_credentials_are_made_once_and_replaced_only_on_request(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    made = touchline("credentials", "new", "--tls", "--host-name", "sim.example", "--match", "cup")
+    assert made.exit_code == 0 and "touchline host --credentials credentials/host.json" in made.stdout
+    file = tmp_path / "credentials" / "cyan.json"
+    first = file.read_text()
+    again = touchline("credentials", "new")
+    assert (again.exit_code, file.read_text()) == (2, first) and "add --force" in again.stderr
+    assert touchline("credentials", "new", "--force").exit_code == 0
+    assert file.read_text() != first
+
+
 def test_a_host_whose_port_is_in_use_names_it() -> None:
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
@@ -173,7 +194,7 @@ def test_the_topic_table_as_json_has_the_readers_of_each_topic() -> None:
     rows = {row["name"]: row for row in json.loads(touchline("topics", "--json").stdout)}
     assert set(rows) == set(TOPICS)
     assert rows["command"]["key"] == "robot/{robot}/command"
-    assert rows["command"]["from"] == "robot"
+    assert rows["command"]["from"] == ["robot"]
     assert rows["command"]["to"] == ["host", "recorder"]
 
 

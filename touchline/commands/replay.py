@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from recordings.replay.live_view import LiveView
     from recordings.replay.player import Player
     from recordings.replay.replay import Replay
+    from schemas.access.protection import Protection
     from schemas.bus.contract import Bus
     from schemas.bus.zenoh.bus import ZenohBus
     from schemas.process.clock import Clock
@@ -106,15 +107,22 @@ def replay(
     clock = WallClock()
     name = prefix + (match or opened.recording.manifest.match)
     from_options(ClientSettings, match=name)
+    if connect is not None and listening.credentials is not None:
+        raise TouchlineError(
+            f"--connect {connect}: no account of a host with credentials may publish a replay; leave --connect out"
+        )
     listen = options.endpoint_of(listening) if connect is None else None
     with ExitStack() as stack:
-        bus = stack.enter_context(_open_bus(name, clock, connect, listen))
+        protection = _protection(opened, name, listening.credentials)
+        bus = stack.enter_context(_open_bus(name, clock, connect, listen, protection, listening.credentials))
         stop = stack.enter_context(StopSignals())  # before any address is printed
         look_after: Callable[[], list[Notice]] = list
         if opened_page is not None:
             log = partial(typer.echo, err=True)
             look_after = stack.enter_context(
-                serve_page_beside(name, local_endpoint(bus.endpoint), opened_page, clock, log)
+                serve_page_beside(
+                    name, local_endpoint(bus.endpoint), opened_page, clock, log, _operator_of(listening.credentials)
+                )
             )
         view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
         began = clock.now()
@@ -140,8 +148,36 @@ def _compare(file: Path, agent: str, *, json: bool) -> None:
         raise typer.Exit(1)
 
 
+def _protection(opened: "Replay", match: str, credentials: Path | None) -> "Protection | None":
+    """The protection of the replay's own host; None without credentials."""
+    if credentials is None:
+        return None
+    from schemas.access.credentials import read_host_credentials
+    from schemas.access.protection import Protection
+    from schemas.side import Side
+
+    setup = opened.recording.manifest.setup
+    robots = {side: setup.teams[side].robots if setup is not None else [] for side in Side}
+    return Protection.of(read_host_credentials(credentials), match, robots)
+
+
+def _operator_of(credentials: Path | None) -> Path | None:
+    """The file of the operator beside that of the host."""
+    from schemas.access.accounts import Account
+    from schemas.access.credentials import account_file
+
+    return account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
+
+
 @contextmanager
-def _open_bus(match: str, clock: "Clock", connect: str | None, listen: str | None) -> "Iterator[ZenohBus]":
+def _open_bus(
+    match: str,
+    clock: "Clock",
+    connect: str | None,
+    listen: str | None,
+    protection: "Protection | None",
+    credentials: Path | None,
+) -> "Iterator[ZenohBus]":
     """A client's bus beside the running host at `connect`; without one, the bus of a host, which clients find."""
     from schemas.bus.announcement import Announcement, announced_to_user
     from schemas.bus.zenoh.bus import open_client, open_host
@@ -151,9 +187,9 @@ def _open_bus(match: str, clock: "Clock", connect: str | None, listen: str | Non
             parse_endpoint(connect)
             bus = stack.enter_context(open_client(match, clock, connect))
         else:
-            bus = stack.enter_context(open_host(match, clock, listen))
+            bus = stack.enter_context(open_host(match, clock, listen, protection))
             try:
-                stack.enter_context(announced_to_user(Announcement.of(match, bus.endpoint)))
+                stack.enter_context(announced_to_user(Announcement.of(match, bus.endpoint, credentials)))
             except OSError as error:
                 typer.echo(f"touchline: clients do not find this replay by themselves: {error}", err=True)
         typer.echo(f'match "{match}" {"on" if connect is None else "at"} {bus.endpoint}', err=True)

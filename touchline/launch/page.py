@@ -46,16 +46,23 @@ def address_lines(web: WebSettings, tokens: Path) -> list[str]:
 
 @contextmanager
 def serve_page_beside(
-    match: str, connect: str, page: Page, clock: Clock, log: Callable[[str], None]
+    match: str,
+    connect: str,
+    page: Page,
+    clock: Clock,
+    log: Callable[[str], None],
+    credentials: Path | None = None,
 ) -> Iterator[Callable[[], list[Notice]]]:
     """Serve the page of a match within the block; yields a function that supervises it, to be called periodically.
 
-    The tokens are valid within the block.
+    The tokens are valid within the block. `credentials` is the operator's file of a host that has credentials.
     """
     with tempfile.TemporaryDirectory(prefix="touchline-page-") as name:
         folder = Path(name)
         tokens = folder / TOKENS
-        settings = GatewaySettings(connect=connect, match=match, tokens=tokens, web=page.settings)
+        settings = GatewaySettings(
+            connect=connect, match=match, credentials=credentials, tokens=tokens, web=page.settings
+        )
         process = page_process(settings, page.listener, folder)
         supervisor = Supervisor([process], lambda process: ChildProcess(process, folder / "page.log"), clock)
         address = AddressLines(page.settings, partial(address_lines, page.settings, tokens), log)

@@ -11,6 +11,7 @@ import zenoh
 from schemas.access.accounts import Account
 from schemas.access.credentials import read_credentials
 from schemas.access.protection import Protection
+from schemas.access.rights import writers_of
 from schemas.bus.contract import (
     Bus,
     BusError,
@@ -23,6 +24,7 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
+from schemas.bus.endpoint import is_cut_off
 from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.match_at import match_at
 from schemas.bus.zenoh.newest import ZenohNewest
@@ -127,6 +129,7 @@ class ZenohBus(Bus):
 
     def publisher(self, topic: Topic, **chunks: str) -> Publisher:
         check_publishable(topic)
+        self._check_may_write(topic)
         return ZenohPublisher(topic, full_key(topic, chunks), self._open())
 
     def subscribe(self, topic: Topic, *, newest: bool = False, history: bool = False, **chunks: str) -> Subscription:
@@ -150,6 +153,7 @@ class ZenohBus(Bus):
     def query(
         self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
+        self._check_may_write(topic)
         return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, droppable, self._open())
 
     def declare_alive(self, kind: PresenceKind, name: str) -> None:
@@ -173,6 +177,9 @@ class ZenohBus(Bus):
             return False
         return not self._context.is_client or bool(self.session.info.routers_zid())
 
+    def is_cut_off(self) -> bool:
+        return self._context.is_client and not self.connected() and is_cut_off(self.endpoint)
+
     def close(self) -> None:
         if self._closed:
             return
@@ -186,6 +193,12 @@ class ZenohBus(Bus):
             self.session.close()  # type: ignore[no-untyped-call]
         except zenoh.ZError:
             return  # the peer has closed it
+
+    def _check_may_write(self, topic: Topic) -> None:
+        """Report what the host would drop without a notice."""
+        if self.account is not None and self.account not in (known := writers_of(topic)):
+            files = " or ".join(f"{account.value}.json" for account in known)
+            raise BusError(f"the account {self.account.value} may not send {topic.key}; use --credentials with {files}")
 
     def _own_side(self, topic: Topic) -> dict[str, str]:
         """The side of a coach, whose subscription to both sides' keys the host would drop."""

@@ -21,6 +21,7 @@ class HandshakeTap:
     """A listener on loopback, which carries the first connection to the host; `link` is the connection to it."""
 
     def __init__(self, link: socket.socket) -> None:
+        link.setblocking(False)  # TLS has records without content: a read of one would wait for the next
         self._link = link
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.endpoint = f"tcp/127.0.0.1:{self._listener.getsockname()[1]}"

@@ -1,57 +1,152 @@
-"""A host with credentials over real Zenoh: what each account may do arrives, and nothing else does."""
+"""A host with credentials over real Zenoh: what an account may do arrives, and nothing else does, in any mode."""
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+import zenoh
 
 from schemas.access.accounts import Account
-from schemas.access.credentials import HostCredentials, account_file, new_credentials, write_credentials
+from schemas.access.credentials import account_file, new_credentials, read_credentials, write_credentials
 from schemas.access.protection import Protection
-from schemas.bus.contract import PresenceKind
+from schemas.bus.contract import BusError, NoReplyError, PresenceKind, Publisher
 from schemas.bus.zenoh.bus import ZenohBus, open_client, open_host
+from schemas.bus.zenoh.protection_settings import client_settings
 from schemas.messages.command import Command
+from schemas.messages.scene import SceneOperation, SceneRequest
+from schemas.messages.setup import SetupRequest
 from schemas.process.clock import WallClock
 from schemas.side import Side
-from schemas.topics import COMMAND, SIGHT, key_prefix
+from schemas.topics import ACTIVE_ORDER, COMMAND, EVENT, SCENE, SETUP, SIGHT, WORLD, key_prefix
 
 LIMIT = 30.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
 MATCH = "guarded"
 ROBOTS = {side: [f"{side.value}{number}" for number in (1, 2)] for side in Side}
 PREFIX = key_prefix(MATCH)
-
-
-def protection_of(credentials: HostCredentials) -> Protection:
-    return Protection.of(credentials, MATCH, ROBOTS)
+OWN = "robot/cyan1/command"
+FOREIGN_PUTS = (
+    "robot/magenta1/command",
+    "robot/*/command",
+    "robot/**",
+    "**",
+    "robot/cyan1/sight",
+    "robot/cyan1/manual",
+    "team/cyan/order",
+    "team/magenta/order",
+    "team/cyan/belief/cyan1",
+    "world",
+    "game/event",
+    "game/event/@adv/pub/0/0/_",
+    "host/record_batch",
+    "record/recorder/progress",
+)
+FOREIGN_TOKENS = (
+    "alive/agent/magenta1",
+    "alive/session/magenta_0",
+    "alive/session/*",
+    "alive/recorder/x",
+    "alive/host/x",
+    "alive/referee/x",
+    "alive/**",
+    "alive/session/cyan_0/deeper",
+)
+FOREIGN_READS = (
+    "**",
+    "robot/magenta1/sight",
+    "robot/*/sight",
+    "team/magenta/belief/*",
+    "team/*/order",
+    "world",
+    "*/*/*",
+)
+FOREIGN_QUERIES = (
+    "host/scene",
+    "host/parameters",
+    "game/action",
+    "host/claim",
+    "robot/magenta1/claim",
+    "robot/*/claim",
+)
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("credentials")
+    folder = tmp_path_factory.mktemp("credentials")
+    write_credentials(folder, new_credentials())
+    return folder
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def host(folder: Path) -> Iterator[ZenohBus]:
     credentials = new_credentials()
     write_credentials(folder, credentials)
-    with open_host(MATCH, WallClock(), "tcp/127.0.0.1:0", protection_of(credentials)) as bus:
+    protection = Protection.of(credentials, MATCH, ROBOTS)
+    with open_host(MATCH, WallClock(), "tcp/127.0.0.1:0", protection) as bus:
         bus.declare_alive(PresenceKind.HOST, "host")
         yield bus
 
 
+@pytest.fixture(params=["client", "peer", "router"])
+def attacker(request: pytest.FixtureRequest, host: ZenohBus, folder: Path) -> Iterator[zenoh.Session]:
+    """A program of its own with the credentials of cyan's robots."""
+    config = zenoh.Config()
+    settings: dict[str, object] = {
+        "mode": request.param,
+        "connect/endpoints": [host.endpoint],
+        "listen/endpoints": [],
+        "scouting/multicast/enabled": False,
+        "scouting/delay": 0,
+        "transport/shared_memory/enabled": False,
+        **client_settings(read_credentials(account_file(folder, Account.CYAN))),
+    }
+    for key, value in settings.items():
+        config.insert_json5(key, json.dumps(value))
+    with zenoh.open(config) as session:
+        wait_until(lambda: bool([*session.info.routers_zid()]))
+        yield session
+
+
 def join(host: ZenohBus, folder: Path, account: Account) -> ZenohBus:
-    return open_client(None, WallClock(), host.endpoint, credentials=account_file(folder, account))
+    return open_client(None, WallClock(), host.endpoint, LIMIT, account_file(folder, account))
+
+
+def wait_until(is_done: Any) -> None:
+    clock = WallClock()
+    until = clock.now() + LIMIT
+    while not is_done():
+        assert clock.now() < until
+        clock.sleep_until(clock.now() + 0.002)
+
+
+def wait_for_subscriber(publisher: Publisher) -> None:
+    wait_until(publisher.has_subscribers)
+
+
+def keys_until(reader: Any, last: str) -> list[str]:
+    """The keys of all samples up to the one on `last`."""
+    found: list[str] = []
+    while last not in found:
+        wait_until(lambda: (sample := reader.try_recv()) is not None and found.append(key_of(sample)) is None)
+    return found
+
+
+def answer(query: zenoh.Query) -> None:
+    query.reply(query.key_expr, b"{}")
+
+
+def key_of(sample: zenoh.Sample) -> str:
+    return str(sample.key_expr).removeprefix(PREFIX)
 
 
 def test_a_team_s_commands_arrive_and_it_receives_its_own_sights(host: ZenohBus, folder: Path) -> None:
-    commands = host.subscribe(COMMAND)
-    sight = host.publisher(SIGHT, robot="cyan1")
+    commands, sight = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan1")
     with join(host, folder, Account.CYAN) as robot:
-        assert robot.match == MATCH
+        assert (robot.match, robot.account) == (MATCH, Account.CYAN)
         reader = robot.subscribe(SIGHT, robot="cyan1")
-        writer = robot.publisher(COMMAND, robot="cyan1")
-        writer.put(Command(answers_tick=7))
+        robot.publisher(COMMAND, robot="cyan1").put(Command(answers_tick=7))
         received = commands.receive(LIMIT)
         assert received is not None and received.message().answers_tick == 7
         wait_for_subscriber(sight)
@@ -59,9 +154,119 @@ def test_a_team_s_commands_arrive_and_it_receives_its_own_sights(host: ZenohBus,
         assert reader.receive_payload(LIMIT) == b"{}"
 
 
-def wait_for_subscriber(publisher: object) -> None:
-    clock = WallClock()
-    until = clock.now() + LIMIT
-    while not publisher.has_subscribers():  # type: ignore[attr-defined]
-        assert clock.now() < until
-        clock.sleep_until(clock.now() + 0.005)
+def test_of_all_that_a_team_publishes_only_its_own_commands_reach_the_host(
+    host: ZenohBus, attacker: zenoh.Session, request: pytest.FixtureRequest
+) -> None:
+    arrived = host.session.declare_subscriber(PREFIX + "**", zenoh.handlers.FifoChannel(1000))
+    host.subscribe(COMMAND)  # a router sends only what it knows to be subscribed to
+    caches = host.session.declare_subscriber(PREFIX + "**/@adv/**", zenoh.handlers.FifoChannel(1000))
+    host.session.declare_queryable(PREFIX + "host/setup", zenoh.handlers.Callback(answer, indirect=False))
+    for key in FOREIGN_PUTS:
+        attacker.put(PREFIX + key, b"{}")
+        attacker.delete(PREFIX + key)
+    attacker.put(PREFIX + OWN, b"{}")
+    wait_until(lambda: any(reply.ok is not None for reply in attacker.get(PREFIX + "host/setup", timeout=0.5)))
+    own = [] if "router" in request.node.name else [OWN]  # even these are no router's to send on
+    assert [key_of(sample) for sample in iter(arrived.try_recv, None)] == own
+    assert caches.try_recv() is None
+
+
+def test_a_team_declares_only_its_own_tokens(host: ZenohBus, attacker: zenoh.Session) -> None:
+    tokens = host.session.liveliness().declare_subscriber(PREFIX + "**", zenoh.handlers.FifoChannel(1000))
+    declared = [attacker.liveliness().declare_token(PREFIX + key) for key in (*FOREIGN_TOKENS, "alive/session/cyan_1")]
+    assert keys_until(tokens, "alive/session/cyan_1") == ["alive/session/cyan_1"]
+    assert declared
+
+
+def test_a_team_receives_only_its_own_sights_and_public_news(host: ZenohBus, attacker: zenoh.Session) -> None:
+    readers = [attacker.declare_subscriber(PREFIX + key, zenoh.handlers.FifoChannel(1000)) for key in FOREIGN_READS]
+    own = attacker.declare_subscriber(PREFIX + "robot/cyan1/sight", zenoh.handlers.FifoChannel(1000))
+    sight = host.publisher(SIGHT, robot="cyan1")
+    wait_for_subscriber(sight)
+    for key in ("robot/magenta1/sight", "team/magenta/belief/magenta1", "team/magenta/order", "world", "host/applied"):
+        host.session.put(PREFIX + key, b"{}")
+    sight.put_payload(b"{}")
+    assert keys_until(own, "robot/cyan1/sight") == ["robot/cyan1/sight"]
+    heard = [key_of(sample) for reader in readers for sample in iter(reader.try_recv, None)]
+    assert set(heard) <= {"robot/cyan1/sight"}
+
+
+def test_a_team_s_queries_of_others_are_dropped(host: ZenohBus, attacker: zenoh.Session) -> None:
+    asked: list[str] = []
+    queryable = host.session.declare_queryable(
+        PREFIX + "**", zenoh.handlers.Callback(lambda query: asked.append(key_of(query)), indirect=False)
+    )
+    for key in FOREIGN_QUERIES:
+        assert not [reply for reply in attacker.get(PREFIX + key, timeout=0.5) if reply.ok is not None]
+    host.session.declare_queryable(
+        PREFIX + "host/setup", zenoh.handlers.Callback(lambda query: asked.append(key_of(query)), indirect=False)
+    )
+    while "host/setup" not in asked:
+        list(attacker.get(PREFIX + "host/setup", timeout=0.5))
+    assert set(asked) == {"host/setup"}
+    queryable.undeclare()
+
+
+def test_nobody_answers_in_the_place_of_the_host(host: ZenohBus, attacker: zenoh.Session, folder: Path) -> None:
+    """It is declared before that of the host, complete, on the key itself and on all keys."""
+    forged = [
+        attacker.declare_queryable(
+            PREFIX + key,
+            zenoh.handlers.Callback(lambda query: query.reply(PREFIX + "host/setup", b"forged"), indirect=False),
+            complete=True,
+        )
+        for key in ("host/setup", "host/*", "**")
+    ]
+    server = host.serve(SETUP)
+    with join(host, folder, Account.VIEWER) as viewer:
+        pending = viewer.query(SETUP, SetupRequest(), timeout=LIMIT)
+        query = server.receive(LIMIT)
+        assert query is not None
+        query.reply_payload(b"genuine")
+        assert pending.payload(LIMIT) == b"genuine"
+    assert forged
+
+
+def test_history_and_recovery_of_a_topic_work_under_the_rules(host: ZenohBus, folder: Path) -> None:
+    writer = host.publisher(EVENT)
+    for number in range(5):
+        writer.put_payload(b"%d" % number)
+    with join(host, folder, Account.VIEWER) as viewer:
+        reader = viewer.subscribe(EVENT, history=True)
+        received = [reader.receive(LIMIT) for _ in range(5)]
+        assert [one.payload for one in received if one is not None] == [b"0", b"1", b"2", b"3", b"4"]
+        writer.put_payload(b"5")
+        assert reader.receive_payload(LIMIT) == b"5"
+
+
+def test_a_coach_subscribes_to_its_own_side_where_no_side_is_given(host: ZenohBus, folder: Path) -> None:
+    writers = {side: host.publisher(ACTIVE_ORDER, side=side.value) for side in Side}
+    with join(host, folder, Account.CYAN_COACH) as coach:
+        reader = coach.subscribe(ACTIVE_ORDER, history=True)
+        writers[Side.MAGENTA].put_payload(b"magenta")
+        writers[Side.CYAN].put_payload(b"cyan")
+        assert reader.receive_payload(LIMIT) == b"cyan"
+
+
+def test_a_robot_sees_the_host_s_token_and_no_other(host: ZenohBus, folder: Path) -> None:
+    with join(host, folder, Account.MAGENTA) as other, join(host, folder, Account.CYAN) as robot:
+        other.declare_alive(PresenceKind.SESSION, "magenta_7")
+        watch = host.watch_alive()
+        wait_until(lambda: (seen := watch.receive()) is not None and seen.name == "magenta_7")
+        seen = robot.watch_alive()
+        first = seen.receive(LIMIT)
+        assert first is not None and first.kind is PresenceKind.HOST
+        assert seen.is_empty()
+
+
+def test_what_an_account_may_not_send_is_reported_by_its_own_process(host: ZenohBus, folder: Path) -> None:
+    with join(host, folder, Account.VIEWER) as viewer:
+        with pytest.raises(BusError, match=r"^the account viewer may not send host/scene; use .* with operator\.json$"):
+            viewer.query(SCENE, SceneRequest(operation=SceneOperation.RESET))
+        with pytest.raises(BusError, match="may not send world"):
+            viewer.publisher(WORLD)
+
+
+def test_a_query_of_an_account_that_nobody_serves_ends_at_once(host: ZenohBus, folder: Path) -> None:
+    with join(host, folder, Account.VIEWER) as viewer, pytest.raises(NoReplyError):
+        viewer.query(SETUP, SetupRequest(), timeout=LIMIT).payload(LIMIT)
