@@ -72,6 +72,7 @@ class RadioAir:
         self._streams = streams
         self._timing = RadioTiming(air, roster, tick, streams)
         self._budgets = {side: Budget() for side in Side}
+        self.use.follow(self._budgets)
         self._shared = SharedChannel()
         self._index = {name: index for index, name in enumerate(roster.names)}
         names = [(name, index, roster.sides[index]) for name, index in self._index.items()]
@@ -102,6 +103,7 @@ class RadioAir:
             if name in roster.names and roster.side_of(name) is before.side_of(name)
         }
         successor._budgets, successor._shared = self._budgets, self._shared
+        self.use.follow(self._budgets)
         if not kept:
             return successor
         old, new = list(kept), list(kept.values())
@@ -133,9 +135,9 @@ class RadioAir:
             end, refusal = self._transmit(left, bits, side)
             if refusal is not None:
                 refusals[name] = refusal
-                self.use.add_refused(name)
+                self.use.refused[name] += 1
                 continue
-            self.use.add_sent(name, side, bits, self._budgets[side].bits)
+            self.use.bits[name] += bits
             messages[name] = _RadioMessage(left, ReceivedRadio.of(content))
             ends[index] = end
         if self._air.model == "shared":

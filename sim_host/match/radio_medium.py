@@ -18,6 +18,8 @@ class Budget:
         """(time in s, bits) of each message of the last second."""
         self.bits = 0
         """Bits of the last second before the newest message, which they include."""
+        self.busiest = 0
+        """Most bits of a second so far."""
 
     def refusal(self, at: float, bits: int, budget: float) -> str | None:
         """Why the team may not send these bits at this time, or None; `budget` in bit/s."""
@@ -31,6 +33,8 @@ class Budget:
         """Count a message that is sent at this time."""
         self._sent.append((at, bits))
         self.bits += bits
+        if self.bits > self.busiest:
+            self.busiest = self.bits
 
 
 class SharedChannel:

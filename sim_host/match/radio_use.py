@@ -1,9 +1,11 @@
 """How much of the radio the robots and teams of a match have used."""
 
-from dataclasses import dataclass, field
+from collections import defaultdict
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from schemas.side import Side
+from sim_host.match.radio_medium import Budget
 
 
 class RobotRadio(NamedTuple):
@@ -18,26 +20,26 @@ class RobotRadio(NamedTuple):
 NO_RADIO = RobotRadio()
 
 
-@dataclass(slots=True)
 class RadioUse:
     """Counts that outlast the roster and the episode."""
 
-    bits: dict[str, int] = field(default_factory=dict)
-    """Robot → bits sent since the match began."""
-    refused: dict[str, int] = field(default_factory=dict)
-    """Robot → messages refused since the match began."""
-    busiest: dict[Side, int] = field(default_factory=lambda: dict.fromkeys(Side, 0))
-    """Side → bits sent in its busiest second."""
+    def __init__(self) -> None:
+        self.bits: defaultdict[str, int] = defaultdict(int)
+        """Robot → bits sent since the match began."""
+        self.refused: defaultdict[str, int] = defaultdict(int)
+        """Robot → messages refused since the match began."""
+        self._budgets: Mapping[Side, Budget] = {side: Budget() for side in Side}
+        self._before = dict.fromkeys(Side, 0)
+        """Side → bits in the busiest second of earlier budgets."""
 
-    def add_sent(self, robot: str, side: Side, bits: int, second: int) -> None:
-        """Count a message of `bits`; `second` has the team's bits of the last second, with this message."""
-        self.bits[robot] = self.bits.get(robot, 0) + bits
-        if second > self.busiest[side]:
-            self.busiest[side] = second
+    def follow(self, budgets: Mapping[Side, Budget]) -> None:
+        """Count what is spent of these budgets from now on, beside what was spent of others."""
+        self._before = {side: self.busiest(side) for side in Side}
+        self._budgets = budgets
 
-    def add_refused(self, robot: str) -> None:
-        """Count a message that was refused."""
-        self.refused[robot] = self.refused.get(robot, 0) + 1
+    def busiest(self, side: Side) -> int:
+        """Bits that a team has sent in its busiest second."""
+        return max(self._before[side], self._budgets[side].busiest)
 
     def of_robot(self, robot: str) -> RobotRadio:
         """What one robot has used."""

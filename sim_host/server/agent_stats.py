@@ -63,10 +63,8 @@ class AgentStats:
     """All latencies since the match began, by class."""
     _ticks_without_sight: int = 0
     """Ticks since its newest answer in which no sight was sent to it."""
-    _next_sequence: int | None = None
-    """Sequence number of its next message; None before the first."""
-    _newest_at: int = 0
-    """Tick at which its newest message arrived."""
+    next_sequence: int = -1
+    """Sequence number of its next message; -1 before the first."""
 
     @property
     def is_silent(self) -> bool:
@@ -81,7 +79,7 @@ class AgentStats:
     def end_tick(self, answered: bool) -> None:
         """Count a tick that ended with or without its command."""
         self.answering = answered
-        if self.alive and not self.removed:
+        if answered or (self.alive and not self.removed):
             self.sights += 1
         else:
             self._ticks_without_sight += 1
@@ -92,16 +90,15 @@ class AgentStats:
             self.missed_in_a_row += 1
             self.silent += 1
 
-    def add_sequence(self, sequence: int, tick: int) -> None:
-        """Count the messages that are missing before this sequence number, which arrives at this tick.
+    def jump_to(self, sequence: int, tick: int) -> None:
+        """Count the messages that are missing before this sequence number, which is not the next and arrives at `tick`.
 
         A restarted agent counts from 0 again. A gap that is longer than an agent can make is one of another agent.
         """
-        if self._next_sequence is not None and sequence != self._next_sequence:
-            gap = sequence - self._next_sequence
-            if 0 < gap <= tick - self._newest_at + _REPEATED_COMMANDS:
-                self.lost_commands += gap
-        self._next_sequence, self._newest_at = sequence + 1, tick
+        gap = sequence - self.next_sequence
+        if self.next_sequence >= 0 and 0 < gap <= tick - self.newest + _REPEATED_COMMANDS:
+            self.lost_commands += gap
+        self.next_sequence = sequence
 
     def add_latency(self, latency_s: float) -> None:
         """Add the wall time in s from a sight to its command."""
@@ -123,8 +120,9 @@ class AgentStats:
         if answered <= self.newest:
             self.duplicates += 1
             return False
-        self.unanswered += max(0, answered - self.newest - 1 - self._ticks_without_sight)
-        self._ticks_without_sight = 0
+        if answered != self.newest + 1:
+            self.unanswered += max(0, answered - self.newest - 1 - self._ticks_without_sight)
+            self._ticks_without_sight = 0
         self.newest = answered
         self.answers += 1
         if answered < tick:

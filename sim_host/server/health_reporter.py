@@ -67,6 +67,6 @@ class HealthReporter:
             robots={name: stats.health(tick, radio.of_robot(name)) for name, stats in inbox.agent_stats.items()},
             strangers=dict(inbox.unknown_senders),
             recorders=presence.recorder_lags(tick),
-            radio={side: TeamRadio(budget=radio_budget, busiest=radio.busiest[side]) for side in Side},
+            radio={side: TeamRadio(budget=radio_budget, busiest=radio.busiest(side)) for side in Side},
             accounts=accounts.health(),
         )

@@ -90,7 +90,9 @@ class Inbox:
         if stats.removed:
             return None  # it answers a sight from before it was removed
         if received.stamp is not None:
-            stats.add_sequence(received.stamp.sequence, tick)
+            if received.stamp.sequence != stats.next_sequence:
+                stats.jump_to(received.stamp.sequence, tick)
+            stats.next_sequence += 1
         try:
             command = Command.decode(received.payload)
             if command.answers_tick > tick:

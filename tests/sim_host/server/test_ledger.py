@@ -88,8 +88,9 @@ def test_a_second_writer_with_other_numbers_is_no_loss(bus, inbox):
 
 def test_commands_that_are_lost_in_a_long_cut_are_counted():
     stats = AgentStats(alive=True)
-    stats.add_sequence(10, 10)
-    stats.add_sequence(4010, 4010)
+    stats.add_answer(10, 10)
+    stats.next_sequence = 11
+    stats.jump_to(4010, 4010)
     assert stats.lost_commands == 3999
 
 
@@ -179,6 +180,7 @@ def test_a_quantile_is_exact_within_a_fifth(latency_ms):
 def test_the_shortest_and_the_longest_latencies_have_a_class():
     assert class_of(0.0) == class_of(-1.0) == 0
     assert class_of(3600.0) == CLASSES - 1
+    assert quantile_ms([*[0] * (CLASSES - 1), 1], 0.5) == pytest.approx(4096, rel=0.2)
     assert quantile_ms([], 0.5) is None
 
 
