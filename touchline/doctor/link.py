@@ -17,7 +17,7 @@ from touchline.doctor.clock_offset import ClockOffset, clock_offset
 from touchline.doctor.finding import Finding, Status
 
 _ROUND_TRIPS = 50
-_LISTEN_S = 1.5
+LISTEN_S = 1.5
 """Wall time for which the host's messages are received, in s; it reports its health four times a second."""
 _REPLY_S = 3.0
 """Wall time for the setup of the match, in s."""
@@ -102,7 +102,7 @@ def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
     """The newest report on the host's health, and times of sending and arrival of its messages, in ns."""
     subscriptions = [bus.subscribe(HEALTH, history=True), bus.subscribe(WORLD)]
     newest, stamps = None, []
-    until = bus.clock.now() + _LISTEN_S
+    until = bus.clock.now() + LISTEN_S
     while bus.clock.now() < until:
         for subscription in subscriptions:
             received = subscription.receive(0.01)

@@ -9,7 +9,6 @@ import pytest
 
 from schemas.config.settings_file import exit_status
 from schemas.errors import TouchlineError
-from schemas.process import process_log
 from schemas.process.log_format import LogFormat
 from schemas.process.process_log import Level, configure_log, log_line, message_of
 
@@ -18,9 +17,10 @@ from schemas.process.process_log import Level, configure_log, log_line, message_
 def fresh(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """No format is in force, before and after; the handlers of the test runner come back."""
     monkeypatch.delenv("TOUCHLINE_LOG", raising=False)
-    monkeypatch.setattr(process_log, "_LOG", process_log._ProcessLog())
+    configure_log("touchline", LogFormat.TEXT)
     handlers, level = logging.root.handlers[:], logging.root.level
     yield
+    configure_log("touchline", LogFormat.TEXT)
     logging.root.handlers[:] = handlers
     logging.root.setLevel(level)
 

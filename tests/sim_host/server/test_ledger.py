@@ -13,6 +13,8 @@ from schemas.messages.radio import Radio
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import COMMAND, HEALTH
+from sim_host.match.radio_medium import Budget
+from sim_host.match.radio_use import RadioUse
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.inbox import Inbox
@@ -100,8 +102,9 @@ def test_in_real_time_answers_on_time_and_late_ones_double_and_missing_ones_are_
     rig.agents["cyan2"].thinks_s = 0.03
     rig.ticks(10)
     runner = rig.agents["cyan1"].runner
-    runner.answer(runner.next_sight(0.0))
-    runner._commands.put_payload(runner._last_answer)
+    sight = runner.next_sight(0.0)
+    runner.answer(sight)
+    runner.answer(sight)
     rig.agents["magenta1"].frozen = True
     rig.ticks(5)
     robots = rig.health().robots
@@ -221,19 +224,14 @@ def test_messages_beyond_the_budget_are_counted_as_refused(rig_of):
     assert 4000 < health.radio[Side.CYAN].busiest <= 5000
 
 
-def test_what_was_sent_by_radio_outlasts_an_episode(rig_of):
-    rig = rig_of()
-    rig.join("cyan1", Talker())
-    rig.join("cyan2")
-    rig.join("magenta1")
-    rig.begin()
-    rig.ticks(20)
-    before = rig.health().robots["cyan1"].radio_bytes
-    use = rig.host.simulation.radio_use
-    rig.host.simulation._subsystems.set_roster(rig.host.simulation._subsystems._robots, new_episode=True)
-    rig.ticks(1)
-    assert rig.host.simulation.radio_use is use
-    assert rig.health().robots["cyan1"].radio_bytes > before
+def test_the_busiest_second_of_a_team_outlasts_an_episode():
+    use, first, second = RadioUse(), {side: Budget() for side in Side}, {side: Budget() for side in Side}
+    use.follow(first)
+    first[Side.CYAN].spend(0.0, 800)
+    use.follow(second)
+    second[Side.CYAN].spend(0.0, 300)
+    second[Side.MAGENTA].spend(0.0, 200)
+    assert (use.busiest(Side.CYAN), use.busiest(Side.MAGENTA)) == (800, 200)
 
 
 def test_the_last_report_of_a_match_has_the_counts_of_its_last_tick(rig):
