@@ -78,7 +78,7 @@ def _page(
     binding = bind_page(web, tokens, settings.tokens, listener)
     for line in binding.lines():
         say(line)
-    return (lambda bus: WebServer(bus, binding, say, settings.result)), WaitingPage(binding, settings.match)
+    return (lambda bus: WebServer(bus, binding, say, settings.result)), WaitingPage(binding, settings.match, log=say)
 
 
 def say(line: str) -> None:

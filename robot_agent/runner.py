@@ -156,7 +156,7 @@ def serve(
                 runner.restart(build(setup))
                 membership.join(setup, patience)
                 is_new_match = False
-        elif host.unreachable_s() >= patience:
+        elif host.is_given_up(patience):
             sys.stderr.write(f"{robot}: the host has been gone for {patience:g} s; leaving\n")
             return 0
         else:

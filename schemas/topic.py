@@ -8,6 +8,9 @@ from functools import cache
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.message import WireMessage
 
+MAX_CHUNK = 64
+"""Most characters of one chunk of a key that is read."""
+
 
 class Party(StrEnum):
     """The roles of the processes on the bus."""
@@ -85,10 +88,23 @@ class Topic:
                 raise TouchlineError(f"topic {self.key} has no chunk {{{name}}}; {did_you_mean(name, self.chunks)}")
         return self.key.format_map({name: chunks.get(name, "*") for name in self.chunks})
 
+    def has_key(self, key: str) -> bool:
+        """Whether this is a key of the topic, without wildcards and with chunks of ordinary length.
+
+        A client may publish on a key with wildcards, which reaches all subscriptions that intersect with it.
+        """
+        return _usual_pattern(self.key).fullmatch(key) is not None
+
     def match(self, key: str) -> dict[str, str] | None:
         """The chunks of a filled-in key; None where the key belongs to another topic."""
         found = _pattern(self.key).fullmatch(key)
         return found.groupdict() if found else None
+
+
+@cache
+def _usual_pattern(key: str) -> re.Pattern[str]:
+    """The pattern of filled-in keys that are read."""
+    return re.compile(re.sub(r"{(\w+)}", rf"[^/*$]{{1,{MAX_CHUNK}}}", key))
 
 
 @cache

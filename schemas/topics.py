@@ -4,6 +4,7 @@ Access rules, the recorder, `docs/protocol.md` and the tests are derived from th
 All keys are below `touchline/{match}/`.
 """
 
+from schemas.messages.admission import AdmissionReply, AdmissionRequest
 from schemas.messages.applied import Applied
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachOrder
@@ -219,6 +220,17 @@ SCENE = Topic(
     "loads a scene, places, adds or removes bodies, or resets the world, or is refused with the reason",
     reply=SceneReply,
 )
+ADMISSION = Topic(
+    "host/admission",
+    AdmissionRequest,
+    Party.REFEREE,
+    (Party.HOST,),
+    "on demand",
+    Delivery.QUERY,
+    False,
+    "admits a recorder that the host waits for, or an account that was cut off",
+    reply=AdmissionReply,
+)
 APPLIED = Topic(
     "host/applied",
     Applied,
@@ -333,6 +345,7 @@ TOPICS: dict[str, Topic] = {
     "robot_claim": ROBOT_CLAIM,
     "parameters": PARAMETERS,
     "scene": SCENE,
+    "admission": ADMISSION,
     "applied": APPLIED,
     "health": HEALTH,
     "invalid": INVALID,

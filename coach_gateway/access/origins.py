@@ -37,7 +37,21 @@ class Origins:
             return False
         if parts.scheme != "http" or host is None or parts.netloc.lower() != host.lower():
             return False
-        name = parts.hostname or ""
+        return self._is_own(parts.hostname or "")
+
+    def knows(self, host: str | None) -> bool:
+        """Whether a Host header names this server: a foreign DNS entry that points here is not its name.
+
+        Without the header it is no browser that asks.
+        """
+        if host is None or any(urlsplit(origin).netloc == host.lower() for origin in self._allowed):
+            return True
+        try:
+            return self._is_own(urlsplit(f"http://{host}").hostname or "")
+        except ValueError:
+            return False
+
+    def _is_own(self, name: str) -> bool:
         return name in self._names or _is_numeric(name)
 
 

@@ -10,11 +10,21 @@ class TokenBucket:
         self._left = at_once
         self._looked_at = now
 
-    def allow(self, now: float) -> bool:
-        """Whether one more message is allowed at this wall time in s; if so, it is counted."""
+    def has_room(self, now: float, amount: float = 1.0) -> bool:
+        """Whether this amount is within the limit at this wall time in s; counts nothing."""
         self._left = min(self._at_once, self._left + (now - self._looked_at) * self._per_second)
         self._looked_at = now
-        if self._left < 1.0:
+        return self._left >= amount
+
+    def allow(self, now: float) -> bool:
+        """Whether one more message is allowed at this wall time in s; if so, it is counted."""
+        if not self.has_room(now):
             return False
         self._left -= 1.0
         return True
+
+    def delay(self, now: float, amount: float) -> float:
+        """Count an amount in any case; returns the s of wall time after which the limit holds again."""
+        self.has_room(now)
+        self._left -= amount
+        return max(0.0, -self._left / self._per_second)

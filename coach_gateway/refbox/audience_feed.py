@@ -21,8 +21,6 @@ EVERY_S = 0.05
 """s of wall time between two datagrams, as of the league's box."""
 _OLD_S = 1.0
 """s of wall time after which a base station's world state is replaced by ours."""
-_MAX_BYTES = 65_507
-"""Bytes of one UDP datagram over IPv4, at most."""
 
 
 class AudienceFeed:
@@ -44,7 +42,6 @@ class AudienceFeed:
         self._audience = Audience()
         self._call_generator = CallGenerator()
         self._transport: asyncio.DatagramTransport | None = None
-        self._warned = False
         live.on_state(self._send_calls)
 
     async def serve(self, stop: asyncio.Event) -> None:
@@ -83,12 +80,7 @@ class AudienceFeed:
         state, setup = self._live.state, self._live.setup
         if state is None or setup is None:
             return
-        if self._send(self._audience.teams(state, setup, {side: self._world(side) for side in Side})):
-            return
-        if not self._warned:
-            self._warned = True
-            self._log("audience feed: a world state is larger than a datagram; that of our robots is sent instead")
-        self._send(self._audience.teams(state, setup, {side: self._own(side) for side in Side}))
+        self._send(self._audience.teams(state, setup, {side: self._world(side) for side in Side}))
 
     def _world(self, side: Side) -> Mapping[str, Any]:
         live, view = self._live, self._team_states.get(side)
@@ -103,12 +95,9 @@ class AudienceFeed:
             return {}
         return own_world_state(side, setup, live.sides, live.state, world, live.beliefs([side]))
 
-    def _send(self, content: Mapping[str, Any]) -> bool:
-        """Send an object to all addresses; returns False if it does not fit into a datagram."""
+    def _send(self, content: Mapping[str, Any]) -> None:
+        """Send an object to all addresses; it fits into a datagram, as do the world states of both teams."""
         datagram = json.dumps(content, separators=(",", ":")).encode() + b"\x00"
-        if len(datagram) > _MAX_BYTES:
-            return False
         if self._transport is not None and not self._transport.is_closing():
             for address in self._targets:
                 self._transport.sendto(datagram, address)
-        return True

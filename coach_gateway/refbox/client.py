@@ -66,13 +66,11 @@ class RefBoxClient:
         self._target: str | None = None
         """The address that the box uses for this team, from its WELCOME."""
         self._parked = False
-        self._error_notices = TokenBucket(1.0, 5.0, live.now)
-        """How often an unreadable command is logged."""
+        self._notices = TokenBucket(1.0, 20.0, live.now)  # lines about commands of the box
         self._signals = SignalQueue()
         self.connected = False
         self.counts: Counter[str] = Counter()
-        """`received`, `forwarded`, `refused`, `not forwarded`, `unreadable`, `dropped`, `uploaded`, `left out`,
-        `connections`."""
+        """Among others `received`, `forwarded`, `refused`, `not forwarded`, `unreadable`, `dropped`, `left out`."""
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Stay connected whenever the box is there, until `stop` is set."""
@@ -140,8 +138,13 @@ class RefBoxClient:
             self._log(f"the referee box is gone; {self.summary()}")
 
     def summary(self) -> str:
-        """All counts as text."""
+        """All counts."""
         return ", ".join(f"{count} {what}" for what, count in sorted(self.counts.items()))
+
+    def _note_refusal(self, why: str) -> None:
+        """Log why a command is unreadable or not forwarded, unless there are very many; all are counted."""
+        if self._notices.allow(self._live.now):
+            self._log(f"referee box: {why}")
 
     def _set_connected(self, connected: bool) -> None:
         self.connected = connected
@@ -154,6 +157,7 @@ class RefBoxClient:
                 self._read_message(message)
             self.counts["unreadable"] += framer.garbage
             framer.garbage = 0
+            await asyncio.sleep(0)  # a box that floods takes turns with everything else
 
     def _read_message(self, message: dict[str, Any] | str) -> None:
         """Queue the signal of a message. Its team is resolved here, in the order the box sent the messages."""
@@ -165,8 +169,7 @@ class RefBoxClient:
             command = commands.read(message)
         except commands.NoCommandError as error:
             self.counts["unreadable"] += 1
-            if self._error_notices.allow(self._live.now):
-                self._log(f"referee box: {error}")
+            self._note_refusal(str(error))
             return
         if command.signal.name == "WELCOME" and command.target:
             self._target = command.target
@@ -201,11 +204,11 @@ class RefBoxClient:
                 continue
             robot = self._robot(side, number)
             if number is not None and robot is None and side is not None:
-                self._log(f"referee box: {signal.name} names robot {number}, and no robot of {side} has that number")
+                self._note_refusal(f"{signal.name} names robot {number}, and no robot of {side} has that number")
             wanted = response_to(signal, side, robot, self._live.state)
             if wanted.reason:
                 self.counts["not forwarded"] += 1
-                self._log(f"referee box: {wanted.reason}")
+                self._note_refusal(wanted.reason)
             await self._order(wanted.order, signal)
             await self._act(wanted)
 
@@ -226,7 +229,7 @@ class RefBoxClient:
         reply = await self._live.act(self._named(action))
         self.counts["forwarded" if reply.accepted else "refused"] += 1
         if not reply.accepted:
-            self._log(f"referee box: {reply.reason}")
+            self._note_refusal(reply.reason)
 
     def _named(self, action: RefereeAction) -> RefereeAction:
         """The action with the name of the box, which is one referee for all base stations that are connected to it."""
@@ -251,7 +254,7 @@ class RefBoxClient:
         lost = bool(reason) and self._waits_for_start()
         self.counts["refused" if lost else "forwarded"] += 1
         if lost:
-            self._log(f"referee box: {reason}")
+            self._note_refusal(reason)
 
     def _waits_for_start(self) -> bool:
         state = self._live.state
@@ -270,7 +273,7 @@ class RefBoxClient:
                 self.counts["forwarded"] += 1
             except TouchlineError as error:
                 self.counts["refused"] += 1
-                self._log(f"referee box: {error}")
+                self._note_refusal(str(error))
 
     async def _upload_states(self, writer: asyncio.StreamWriter) -> None:
         """Send the newest world state at a steady rate; returns when the box has not read for too long."""

@@ -5,6 +5,7 @@ resumes after the next zero byte.
 """
 
 import json
+import re
 from collections.abc import Iterator
 from enum import StrEnum
 from typing import Any
@@ -14,9 +15,14 @@ from schemas.league.signals import BY_CHARACTER
 LIMIT = 65_536
 """Bytes of one JSON message, at most; a larger one comes from a sender without zero bytes. World states of teams have
 2 to 10 kB."""
+MOST_OBJECTS = 100
+"""Objects between two zero bytes; software that sends none of these bytes is read all the same."""
+DEEPEST = 20
+"""Levels of objects and lists in one another; world states have five."""
 _END = b"\x00"
 _SILENT = b"\x00\r\n"
 """Bytes without meaning between characters."""
+_NOT_BLANK = re.compile(r"\S")
 _DECODER = json.JSONDecoder(strict=False)
 
 
@@ -41,6 +47,11 @@ class Framer:
         self._limit = limit
         self._piece = bytearray()
         self._skipping = False
+
+    @property
+    def held(self) -> int:
+        """Bytes of a message that is not complete."""
+        return len(self._piece)
 
     def feed(self, data: bytes) -> list[dict[str, Any] | str]:
         """The messages that these bytes complete: objects, or single characters."""
@@ -92,15 +103,35 @@ class Framer:
     def _objects(self, text: str) -> Iterator[dict[str, Any]]:
         """The objects of a piece; after a broken one, the rest of the piece is skipped."""
         at = 0
-        while text[at:].strip():
-            begin = text.find("{", at)
-            if begin < 0 or text[at:begin].strip():
+        for _ in range(MOST_OBJECTS):
+            begin = _NOT_BLANK.search(text, at)
+            if begin is None:
+                return
+            if begin[0] != "{":
                 self.garbage += 1
-            if begin < 0:
+            brace = text.find("{", begin.start())
+            if brace < 0:
                 return
             try:
-                found, at = _DECODER.raw_decode(text, begin)
+                found, at = _DECODER.raw_decode(text, brace)
             except (ValueError, RecursionError):
                 self.garbage += 1
                 return
-            yield found
+            if is_deeper(found, DEEPEST):
+                self.garbage += 1
+            else:
+                yield found
+        self.garbage += _NOT_BLANK.search(text, at) is not None
+
+
+def is_deeper(value: Any, levels: int) -> bool:
+    """Whether objects and lists are nested in more levels than these: a text of few kB can have a thousand."""
+    layer = [value]
+    for _ in range(levels + 1):
+        layer = [
+            inner
+            for one in layer
+            if isinstance(one, dict | list)
+            for inner in (one.values() if isinstance(one, dict) else one)
+        ]
+    return bool(layer)

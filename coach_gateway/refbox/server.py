@@ -10,16 +10,21 @@ import asyncio
 import contextlib
 import socket
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
+from coach_gateway.access.client_network import client_network
+from coach_gateway.access.network_limits import NetworkLimits
+from coach_gateway.access.refusals import Refusals
+from coach_gateway.access.token_checks import GuessLimit
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.commands import BoxCommand
-from coach_gateway.refbox.framing import BoxProtocol, Framer
-from coach_gateway.refbox.identity import Identity, UnknownTeamError, identify, targets
+from coach_gateway.refbox.framing import BoxProtocol
+from coach_gateway.refbox.identity import HELLO, Identity, UnknownTeamError, identify, targets
+from coach_gateway.refbox.peers import MOST, Peer, Peers, Proof
 from coach_gateway.refbox.team_world_state import TeamWorldState
 from schemas.league.calls import Call
 from schemas.league.robot_numbers import numbers_of
@@ -27,10 +32,10 @@ from schemas.league.signals import BY_NAME, START, STOP
 from schemas.messages.game import GameState
 from schemas.side import Side
 
-MOST = 16
-"""Base stations at the same time. A further one replaces one that has not identified itself, or is turned away."""
 UNREAD = 65_536
 """Bytes that may wait for a base station that does not read, about a thousand commands. Chosen here."""
+NEW_PER_S, NEW_AT_ONCE = 5.0, 100.0
+"""New connections of one network per s of wall time, and at once."""
 _SILENCE_S = 1.0
 """s of wall time after which a base station that has not identified itself is welcomed without an address: some
 software waits for the welcome before it sends anything."""
@@ -46,18 +51,6 @@ class ServerAddress:
     host: str = LOOPBACK
     protocol: BoxProtocol = BoxProtocol.JSON
     """Protocol of the commands that are sent there."""
-
-
-@dataclass(eq=False)
-class _Peer:
-    """One base station."""
-
-    writer: asyncio.StreamWriter
-    name: str
-    side: Side | None = None
-    protocol: BoxProtocol = BoxProtocol.JSON
-    """Protocol of the commands that are sent to it; its own messages are JSON in any case."""
-    framer: Framer = field(default_factory=lambda: Framer(BoxProtocol.JSON))
 
 
 class RefBoxServer:
@@ -89,7 +82,11 @@ class RefBoxServer:
         self._of_token = of_token
         self._call_generator = CallGenerator()
         self._addresses: dict[Side, str] = dict(addresses or {})
-        self._peers: list[_Peer] = []
+        self._peers = Peers()
+        self._guesses = GuessLimit()
+        self._new = NetworkLimits(NEW_PER_S, NEW_AT_ONCE)
+        self.refusals = Refusals("referee box", log)
+        """Refused connections and messages by kind."""
         self.ports: list[int] = []
         """Ports that it listens on, once it does."""
         self.team_states: dict[Side, TeamWorldState] = {side: TeamWorldState() for side in Side}
@@ -116,6 +113,8 @@ class RefBoxServer:
             await stop.wait()
             for peer in self._peers:
                 peer.writer.transport.abort()
+            if refused := self.refusals.summary():
+                self._log(f"referee box: refused {refused}")
 
     async def _open(self, address: ServerAddress, bound: socket.socket) -> asyncio.Server:
         return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound)
@@ -135,7 +134,7 @@ class RefBoxServer:
                 BoxProtocol.JSON: json_text,
                 BoxProtocol.CHARACTERS: b"".join(characters.write(call.signal, call.side) for call in calls),
             }
-            for peer in tuple(self._peers):
+            for peer in self._peers:
                 self._send(peer, text[peer.protocol])
 
     def _send_calls(self, state: GameState) -> None:
@@ -153,56 +152,95 @@ class RefBoxServer:
     ) -> None:
         """Serve one connection from its beginning to its end."""
         host, port = (writer.get_extra_info("peername") or ("gone", 0))[:2]
-        peer = _Peer(writer, f"{host}:{port}", protocol=address.protocol)
-        if len(self._peers) >= MOST and not self._make_room():
-            self._log(f"base station {peer.name} turned away: {MOST} are connected")
-            writer.transport.abort()
+        now, network = self._live.now, client_network(host)
+        peer = Peer(writer, f"{host}:{port}", network, now, protocol=address.protocol)
+        if not self._new.allow(network, now):
+            self._refuse(peer, "connections beyond the rate limit")
             return
-        self._peers.append(peer)
+        if len(self._peers) >= MOST and not self._make_room(peer):
+            return
+        self._peers.add(peer)
         late = asyncio.get_running_loop().call_later(_SILENCE_S, self._welcome_unidentified, peer)
         try:
             if address.side is not None:
-                self._settle(peer, Identity(address.side))
+                self._settle(peer, Identity(address.side), Proof.PORT)
             while data := await reader.read(16_384):
-                for message in peer.framer.feed(data):
-                    if isinstance(message, dict):
-                        self._read_object(peer, message)
-        except (OSError, UnknownTeamError) as error:
+                messages = [one for one in peer.framer.feed(data) if isinstance(one, dict)]
+                for message in messages:
+                    await self._pause_guesser(peer, message)
+                    self._read_object(peer, message, address.side)
+                await asyncio.sleep(peer.delay(self._live.now, len(data), len(messages)))
+        except OSError as error:
             self._log(f"base station {peer.name}: {error}")
+        except UnknownTeamError as error:
+            self._refuse(peer, "refused hellos", str(error))
         finally:
             late.cancel()
             self._forget(peer)
 
-    def _make_room(self) -> bool:
-        """Drop the first base station that has not identified itself; returns whether there was one."""
-        unidentified = next((peer for peer in self._peers if peer.side is None), None)
+    def _make_room(self, newcomer: Peer) -> bool:
+        """Drop a base station that has not identified itself; returns whether there was one."""
+        unidentified = self._peers.to_make_room(newcomer.network)
         if unidentified is None:
+            self._refuse(newcomer, "connections turned away", f"{MOST} base stations are connected")
             return False
-        self._log(f"base station {unidentified.name} is dropped: it has no identity, and {MOST} are connected")
-        self._drop(unidentified)
+        self._refuse(unidentified, "connections without an identity that made room")
         return True
 
-    def _read_object(self, peer: _Peer, message: dict[str, Any]) -> None:
+    def _refuse(self, peer: Peer, kind: str, reason: str = "") -> None:
+        """Count a refusal, and close the connection."""
+        self.refusals.note(kind, peer.network, self._live.now, reason)
+        self._drop(peer)
+
+    async def _pause_guesser(self, peer: Peer, message: Mapping[str, Any]) -> None:
+        """Wait before a token is checked, where too many unknown ones have come from its network."""
+        if message.get("type") == HELLO and message.get("token"):
+            await asyncio.sleep(self._guesses.pause(peer.network, self._live.now))
+
+    def _read_object(self, peer: Peer, message: dict[str, Any], port_of: Side | None) -> None:
         """Handle one object of a base station: its identity, or its world state.
 
         Raises:
-            UnknownTeamError: it identifies itself as an unknown team.
+            UnknownTeamError: it identifies itself as an unknown team, or as one that it is not.
         """
-        if peer.side is None or message.get("type") == "hello":
-            identity = identify(message, self._names(), self._of_token)
+        now = peer.heard_at = self._live.now
+        is_hello = message.get("type") == HELLO
+        if is_hello and not peer.hellos.allow(now):
+            raise UnknownTeamError("too many hellos; one is enough")
+        if peer.side is None or is_hello:
+            try:
+                identity = identify(message, self._names(), self._of_token)
+            except UnknownTeamError:
+                if message.get("token"):
+                    self._guesses.note_unknown(peer.network, now)
+                raise
             if identity is not None:
-                self._settle(peer, identity)
-        if peer.side is not None and message.get("type") != "hello":
-            self.team_states[peer.side].update(message, self._live.now)
+                proof = Proof.PORT if port_of is not None else Proof.NAME
+                if port_of not in (None, identity.side):
+                    raise UnknownTeamError(f"this port is for {port_of}'s base station alone")
+                self._settle(peer, identity, Proof.TOKEN if is_hello and message.get("token") else proof)
+        if peer.side is not None and not is_hello:
+            fault = self.team_states[peer.side].update(message, now)
+            if fault:
+                self.refusals.note("world states that are not passed on", peer.network, now, fault)
 
-    def _settle(self, peer: _Peer, identity: Identity) -> None:
-        """Note the identity of a base station; it replaces an earlier one of its team, and is sent its address."""
-        for other in [other for other in self._peers if other is not peer and other.side is identity.side]:
+    def _settle(self, peer: Peer, identity: Identity, proof: Proof) -> None:
+        """Note the identity of a base station; it replaces an earlier one of its team, and is sent its address.
+
+        Raises:
+            UnknownTeamError: the earlier one stays.
+        """
+        others = self._peers.of(identity.side, peer)
+        for other in others:
+            if why := self._peers.why_kept(other, proof, peer.network, self._live.now):
+                raise UnknownTeamError(f"it claims to be {identity.side}'s, and {why}")
+        for other in others:
             self._log(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
             self._drop(other)
         protocol = identity.protocol or peer.protocol
         changed = (peer.side, peer.protocol) != (identity.side, protocol)
         peer.side, peer.protocol = identity.side, protocol
+        peer.proof = max(proof, peer.proof) if not changed else proof
         if identity.address is not None:
             changed = changed or self._addresses.get(peer.side) != identity.address
             self._addresses[peer.side] = identity.address
@@ -210,11 +248,11 @@ class RefBoxServer:
             self._log(f"{peer.side}'s base station is {peer.name}")
             self._welcome(peer)
 
-    def _welcome_unidentified(self, peer: _Peer) -> None:
+    def _welcome_unidentified(self, peer: Peer) -> None:
         if peer.side is None:
             self._welcome(peer)
 
-    def _welcome(self, peer: _Peer) -> None:
+    def _welcome(self, peer: Peer) -> None:
         """Send its own address, and whether the game runs: a team that connects late must know of a stop."""
         state = self._live.state
         running = START if state is not None and state.running else STOP
@@ -224,23 +262,23 @@ class RefBoxServer:
         address = self._targets()[peer.side] if peer.side is not None else ""
         self._send(peer, commands.write(BoxCommand(_WELCOME, address)) + commands.write(BoxCommand(running)))
 
-    def _send(self, peer: _Peer, text: bytes) -> None:
+    def _send(self, peer: Peer, text: bytes) -> None:
         transport = peer.writer.transport
         if not text or transport.is_closing():
             return
         peer.writer.write(text)
         if transport.get_write_buffer_size() > UNREAD:
-            self._log(f"base station {peer.name} does not read and is dropped")
-            self._drop(peer)
+            self._refuse(peer, "base stations that do not read")
 
-    def _drop(self, peer: _Peer) -> None:
-        if peer in self._peers:
-            self._peers.remove(peer)
+    def _drop(self, peer: Peer) -> None:
+        self._peers.remove(peer)
         peer.writer.transport.abort()
 
-    def _forget(self, peer: _Peer) -> None:
+    def _forget(self, peer: Peer) -> None:
         self._drop(peer)
-        who = f"{peer.side}'s base station {peer.name}" if peer.side is not None else f"base station {peer.name}"
-        summary = f"; {self.team_states[peer.side].summary()}" if peer.side is not None else ""
         odd = f"; {peer.framer.garbage} pieces that were not a message" if peer.framer.garbage else ""
-        self._log(f"{who} is gone{summary}{odd}")
+        if peer.side is not None:
+            summary = self.team_states[peer.side].summary()
+            self._log(f"{peer.side}'s base station {peer.name} is gone; {summary}{odd}")
+        elif peer.framer.garbage:
+            self.refusals.note("connections without an identity", peer.network, self._live.now, odd[2:])

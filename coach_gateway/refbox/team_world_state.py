@@ -1,9 +1,13 @@
 """The world states of a team's base station: read leniently, counted, and kept as they came."""
 
+import json
 from typing import Any
 
 from schemas.league.findings import Findings
 from schemas.league.lenient_json import REQUIRED, fields_of, items_of, vector
+
+MOST_BYTES = 30_000
+"""Bytes of a world state that is passed on: the audience feed has those of both teams in one datagram."""
 
 
 class TeamWorldState:
@@ -17,18 +21,25 @@ class TeamWorldState:
         self.findings = Findings()
         """How they differ from the league's schema."""
         self.newest: dict[str, Any] | None = None
-        """The newest world state as it came."""
+        """The newest world state as it came, of those that can be passed on."""
         self.newest_at = 0.0
         """Wall time in s at which it came."""
 
-    def update(self, content: dict[str, Any], now: float) -> None:
-        """Take in an object that came at wall time `now` in s."""
+    def update(self, content: dict[str, Any], now: float) -> str:
+        """Take in an object that came at wall time `now` in s.
+
+        Returns why others do not receive it; empty where they do, and for what is no world state.
+        """
         fields = fields_of(content, self.findings)
         if "robots" not in fields and fields.get("type") != "worldstate":
             self.others += 1
-            return
+            return ""
         self.states += 1
-        self.newest, self.newest_at = content, now
+        fault = _fault(content)
+        if fault:
+            self.findings.note(fault, lost=True)
+        else:
+            self.newest, self.newest_at = content, now
         self.findings.place = f"world state {self.states}"
         for key in REQUIRED:
             if key not in fields:
@@ -38,6 +49,7 @@ class TeamWorldState:
             x, y, _ = vector(robot.get("pose"), 3, "pose", self.findings)
             if x is None or y is None:
                 self.findings.note("robot without a position", lost=True)
+        return fault
 
     def summary(self) -> str:
         """Counts and findings as text."""
@@ -47,3 +59,12 @@ class TeamWorldState:
         unlike = f", unlike the schema: {kinds}{more}" if odd else ""
         others = f", {self.others} other objects" if self.others else ""
         return f"{self.states} world states{others}{unlike}"
+
+
+def _fault(content: dict[str, Any]) -> str:
+    """Why a world state cannot be passed on: it has to be valid JSON, and both teams' have to fit into one datagram."""
+    try:
+        size = len(json.dumps(content, allow_nan=False))
+    except ValueError:
+        return "a number that is not finite"
+    return f"more than {MOST_BYTES} bytes" if size > MOST_BYTES else ""

@@ -10,7 +10,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from coach_gateway.access import rights
+from coach_gateway.access.client_network import client_network
 from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import COACHES, Role
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
 from coach_gateway.udp.protocol import (
@@ -26,6 +28,7 @@ from coach_gateway.udp.protocol import (
     ProgramRequest,
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
+from coach_gateway.udp.strangers import Address, Strangers
 from schemas.game import ActionName
 from schemas.messages.coach import CoachMode
 from schemas.messages.game import RefereeAction
@@ -36,10 +39,8 @@ MOST = 64
 """Programs that may be connected at the same time."""
 MOST_WAITING = 8
 """Datagrams of one program that may wait for the host's reply; a stop is always accepted."""
-UNKNOWN_PER_SECOND, UNKNOWN_AT_ONCE = 20.0, 50.0
-"""Datagrams without a session that are read per second; others are dropped without a reply."""
-
-Address = tuple[Any, ...]
+MOST_OF_A_SIDE = 20
+"""Of these for one side: coaches leave room for the other side and for the referee."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,10 +78,14 @@ _NOTHING = DatagramResult()
 class CoachPrograms:
     """The sessions, by the source address of their datagrams."""
 
-    def __init__(self, role_of: Callable[[str], Role | None], now: float) -> None:
+    def __init__(
+        self, role_of: Callable[[str], Role | None], now: float, log: Callable[[str], None] = lambda _: None
+    ) -> None:
         """`role_of` returns the role of a token; `now` is wall time in s."""
         self._role_of = role_of
-        self._unknown_limit = TokenBucket(UNKNOWN_PER_SECOND, UNKNOWN_AT_ONCE, now)
+        self.strangers = Strangers(now)
+        self.refusals = Refusals("coach programs", log)
+        """Refused datagrams by kind."""
         self.sessions: dict[Address, Session] = {}
         self.invalid = 0
         """Datagrams that were invalid."""
@@ -90,27 +95,39 @@ class CoachPrograms:
     def handle(self, data: bytes, address: Address, now: float, robots: Mapping[str, Side]) -> DatagramResult:
         """Handle a datagram at wall time `now` in s; `robots` are all robots of the match with their sides."""
         session = self.sessions.get(address)
-        if session is None and not self._unknown_limit.allow(now):
+        if session is not None and session.key.encode() in data:  # the key is compared in constant time below
+            if not session.is_within_limit(now):
+                self._note("datagrams beyond the rate limit", address, now)
+                return _NOTHING
+        elif not self.strangers.allow(address, now):
             self.left_out += 1
-            return _NOTHING
-        if session is not None and not session.is_within_limit(now):
+            self._note("datagrams without a session beyond the rate limit", address, now)
             return _NOTHING
         ask = _read(data)
         if isinstance(ask, Ack):
             self.invalid += 1
+            self._note("unreadable datagrams", address, now, ask.reason)
             return DatagramResult(ask)
         if isinstance(ask, Hello):
-            return DatagramResult(self._begin(ask, address, now))
+            ack = self._begin(ask, address, now)
+            if not ack.accepted:
+                self._note("refused hellos", address, now, ack.reason)
+            return DatagramResult(ack)
         if session is None or not hmac.compare_digest(session.key.encode(), ask.session.encode()):
+            self._note("datagrams of an unknown session", address, now)
             return DatagramResult(
                 _refused(ask, "unknown session; send a hello, and use the session of its acknowledgement")
             )
         session.heard_at = now
         return self._dispatch(session, ask, address, robots)
 
+    def _note(self, kind: str, address: Address, now: float, reason: str = "") -> None:
+        self.refusals.note(kind, client_network(address[0]), now, reason)
+
     def end(self, address: Address) -> None:
         """End the session of an address."""
-        self.sessions.pop(address, None)
+        if self.sessions.pop(address, None) is not None:
+            self.strangers.remember(address)
 
     def finish(self, request: PendingRequest, ack: Ack) -> None:
         """Keep the acknowledgement of a request, in case its datagram comes again."""
@@ -132,6 +149,11 @@ class CoachPrograms:
                 return known.model_copy(update={"duplicate": True})
         if session is None and len(self.sessions) >= MOST:
             return _refused(hello, f"{MOST} coach programs are connected, which is the limit")
+        of_role = sum(other.role is role for at, other in self.sessions.items() if at != address)
+        if role in COACHES and of_role >= MOST_OF_A_SIDE:
+            return _refused(
+                hello, f"{MOST_OF_A_SIDE} programs of {role.value}'s coach are connected: the limit of a side"
+            )
         rate_limit = session.rate_limit if session is not None else TokenBucket(PER_SECOND, AT_ONCE, now)
         session = Session(secrets.token_urlsafe(12), role, hello.name, now, hello.rate, rate_limit=rate_limit)
         self.sessions[address] = session

@@ -1,10 +1,12 @@
 """The open pages: what is sent to each, and what each has done wrong."""
 
 import asyncio
+import hmac
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import Role
 from coach_gateway.web.send_queue import SendQueue
 
@@ -19,6 +21,13 @@ _WRONG_TOKENS = 20
 """Unknown tokens after which a page is disconnected."""
 
 _FAULTS = {
+    "connections": ("connection beyond the rate limit", "connections beyond the rate limit"),
+    "requests": ("request beyond the rate limit", "requests beyond the rate limit"),
+    "crowded": ("connection closed to make room", "connections closed to make room"),
+    "late": ("request that was not complete in time", "requests that were not complete in time"),
+    "broken": ("connection that broke the protocol", "connections that broke the protocol"),
+    "control frames": ("flood of control frames", "floods of control frames"),
+    "host": ("request for an unknown host name", "requests for an unknown host name"),
     "foreign": ("page refused for its origin", "pages refused for their origin"),
     "full": ("page refused for lack of room", "pages refused for lack of room"),
     "bad": ("unreadable message", "unreadable messages"),
@@ -50,6 +59,9 @@ class Page:
         """Set when it is to be disconnected."""
         self.close_reason = ""
         """Why it is disconnected; empty where it does not read."""
+        self.checks_later = False
+        """A token of its is to be checked after a pause."""
+        self._proven = b""
         self._bad = 0
         self._wrong_tokens = 0
 
@@ -70,6 +82,14 @@ class Page:
         if self._wrong_tokens > _WRONG_TOKENS:
             self.disconnect("this page has tried too many tokens")
 
+    def note_right_token(self, token: str) -> None:
+        """Keep the token that it has proven to know; it is not held up by wrong ones from its network."""
+        self._proven = token.encode(errors="replace")
+
+    def has_proven(self, token: str) -> bool:
+        """Whether it has used this token before, or uses none."""
+        return not token or hmac.compare_digest(self._proven, token.encode(errors="replace"))
+
     def is_stuck(self, now: float) -> bool:
         """Whether it does not read what it is sent."""
         since = self.sending_since
@@ -79,12 +99,17 @@ class Page:
 class Pages:
     """All open pages."""
 
-    def __init__(self, most: int, each: int) -> None:
+    def __init__(self, most: int, each: int, log: Callable[[str], None] = lambda _: None) -> None:
         """At most `most` pages at once, of these at most `each` from one network."""
         self._most, self._each = most, each
         self._open: dict[Page, None] = {}
-        self.counts: Counter[str] = Counter()
+        self.refusals = Refusals("page", log, {kind: one for kind, (one, _) in _FAULTS.items()})
         """Faults by kind."""
+
+    @property
+    def counts(self) -> Counter[str]:
+        """Faults by kind."""
+        return self.refusals.counts
 
     def fault_summary(self) -> str:
         """All faults with their numbers, as text; empty where there are none."""
@@ -107,6 +132,11 @@ class Pages:
         if network is not None and sum(page.network == network for page in self._open) >= self._each:
             return f"{self._each} pages of your address are open; close one, or raise --pages-per-address"
         return ""
+
+    @property
+    def beyond_limit(self) -> int:
+        """Pages that are open beyond the limit of all."""
+        return max(0, len(self) - self._most)
 
     def enter(self, page: Page) -> None:
         """Send a page everything from now on."""
@@ -137,5 +167,5 @@ class Pages:
         """Drop pages that do not read."""
         for page in self:
             if page.is_stuck(now):
-                self.counts["stuck"] += 1
+                self.refusals.note("stuck", page.network, now)
                 page.leave.set()

@@ -191,7 +191,7 @@ Token = Annotated[str, StringConstraints(max_length=200)]
 class _PageRequest(Part):
     """Fields of every message of the page."""
 
-    id: Annotated[int, Field(ge=0)]
+    id: Annotated[int, Field(ge=0, lt=2**53)]
     """Counted by the page; the reply has the same."""
     token: Token = ""
     """Empty for a spectator."""

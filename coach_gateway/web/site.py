@@ -5,8 +5,9 @@ from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 from starlette.applications import Starlette
-from starlette.datastructures import MutableHeaders
+from starlette.datastructures import Headers, MutableHeaders
 from starlette.middleware import Middleware
+from starlette.responses import PlainTextResponse
 from starlette.routing import Mount, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -47,8 +48,16 @@ RESULT_HEADERS = HEADERS | {
 """Headers of the statistics: one file with its scripts in it, which reaches neither the page nor its server."""
 
 
-def site(enter: Callable[[WebSocket], Awaitable[None]], folder: Path = PAGE, result: Path | None = None) -> Starlette:
-    """The whole site; `enter` handles the WebSocket of a page, `result` is the folder of a match's result."""
+def site(
+    enter: Callable[[WebSocket], Awaitable[None]],
+    is_known: Callable[[str | None, str | None], bool],
+    folder: Path = PAGE,
+    result: Path | None = None,
+) -> Starlette:
+    """The whole site; `enter` handles the WebSocket of a page, `result` is the folder of a match's result.
+
+    `is_known` returns whether a Host header names this server; its other argument is the client's address.
+    """
     for ending, kind in _TYPES.items():
         mimetypes.add_type(kind, ending)
     return Starlette(
@@ -58,8 +67,14 @@ def site(enter: Callable[[WebSocket], Awaitable[None]], folder: Path = PAGE, res
             *([Mount(_RESULT, _Files(directory=result, check_dir=False))] if result is not None else []),
             Mount("/", _Files(directory=folder, html=True)),
         ],
-        middleware=[Middleware(_Strict)],
+        middleware=[Middleware(_Strict, is_known=is_known)],
     )
+
+
+_MISDIRECTED = (
+    "This server does not have that name: open the page by a numeric address, "
+    "or start it with --allow-origin and the origin that your browser shows.\n"
+)
 
 
 class _Files(StaticFiles):
@@ -74,10 +89,10 @@ class _Files(StaticFiles):
 
 
 class _Strict:
-    """Adds the headers to every response."""
+    """Adds the headers to every response, and refuses requests for another host: they come by a forged DNS entry."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
+    def __init__(self, app: ASGIApp, is_known: Callable[[str | None, str | None], bool]) -> None:
+        self._app, self._is_known = app, is_known
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one request."""
@@ -89,4 +104,9 @@ class _Strict:
                 MutableHeaders(scope=message).update(headers)
             await send(message)
 
-        await self._app(scope, receive, with_headers if scope["type"] == "http" else send)
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+        elif not self._is_known(Headers(scope=scope).get("host"), scope["client"][0] if scope["client"] else None):
+            await PlainTextResponse(_MISDIRECTED, 421)(scope, receive, with_headers)
+        else:
+            await self._app(scope, receive, with_headers)

@@ -10,8 +10,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from coach_gateway.access.client_network import client_network
 from coach_gateway.access.origins import Origins
 from coach_gateway.access.roles import Role
-from coach_gateway.access.tokens import UNKNOWN_TOKEN, Tokens
 from coach_gateway.web.broadcaster import PageBroadcaster
+from coach_gateway.web.door import Door
 from coach_gateway.web.manual_control import ManualControl
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import (
@@ -25,6 +25,7 @@ from coach_gateway.web.protocol import (
     fault_sentence,
 )
 from coach_gateway.web.requests import RequestHandler, is_stop, refusal
+from coach_gateway.web.token_gate import TokenGate
 from schemas.process.clock import Clock
 
 _MOST_PENDING = 8
@@ -43,30 +44,36 @@ class SocketEndpoint:
         broadcaster: PageBroadcaster,
         pages: Pages,
         requests: RequestHandler,
-        tokens: Tokens,
+        gate: TokenGate,
         origins: Origins,
         clock: Clock,
     ) -> None:
         self._broadcaster, self._pages, self._requests = broadcaster, pages, requests
-        self._tokens, self._origins, self._clock = tokens, origins, clock
+        self._gate, self._origins, self._clock = gate, origins, clock
+        self._door = Door(gate, pages)
         self._manual_control = ManualControl()
 
     async def enter(self, socket: WebSocket) -> None:
         """Serve one page from its connection to its end."""
         origin, host = socket.headers.get("origin"), socket.headers.get("host")
+        network = client_network(socket.client.host if socket.client is not None else None)
         if not self._origins.allows(origin, host):
-            self._pages.counts["foreign"] += 1
+            self._pages.refusals.note("foreign", network, self._clock.now(), f"origin {origin}")
             await socket.close(_POLICY)  # before it is accepted: HTTP 403
             return
         await socket.accept()
-        network = client_network(socket.client.host if socket.client is not None else None)
-        if why := self._pages.why_no_room(network):
-            self._pages.counts["full"] += 1
-            await _close(socket, why, _TRY_AGAIN)
-            return
         page = Page(origin, host, self._clock.now(), network)
+        first: str | None = None
+        if why := self._pages.why_no_room(network):
+            first = await self._door.first_message(socket, page)
+            if first is None:
+                self._pages.refusals.note("full", network, self._clock.now())
+                await _close(socket, why, _TRY_AGAIN)
+                return
         self._pages.enter(page)
         self._broadcaster.welcome(page)
+        if first is not None:
+            self._read_text(page, first)
         try:
             await self._run(socket, page)
         finally:
@@ -105,12 +112,15 @@ class SocketEndpoint:
             if not page.rate_limit.allow(self._clock.now()):
                 self._reject_excess(page)
                 continue
-            request = self._parsed(page, message.get("text"))
-            if request is not None:
-                self._handle(page, request)
+            self._read_text(page, message.get("text"))
+
+    def _read_text(self, page: Page, text: str | None) -> None:
+        request = self._parsed(page, text)
+        if request is not None:
+            self._gate.check(page, request, self._handle)
 
     def _reject_excess(self, page: Page) -> None:
-        self._pages.counts["too much"] += 1
+        self._pages.refusals.note("too much", page.network, self._clock.now())
         page.note_bad()
         if page.rate_limit_notice.allow(self._clock.now()):
             _reply(page, Reply(id=None, accepted=False, reason="too many messages; send them more slowly"))
@@ -127,19 +137,13 @@ class SocketEndpoint:
                 return PAGE_REQUEST.validate_json(text)
             except ValidationError as error:
                 number, why = _number(text), fault_sentence(error)
-        self._pages.counts["bad"] += 1
+        self._pages.refusals.note("bad", page.network, self._clock.now(), why)
         page.note_bad()
         _reply(page, Reply(id=number, accepted=False, reason=why))
         return None
 
-    def _handle(self, page: Page, request: PageRequest) -> None:
-        """Carry out a request, or reply why not; origin, token and right are checked each time."""
-        role = self._tokens.role_of(request.token) if self._origins.allows(page.origin, page.host) else None
-        if role is None:
-            self._pages.counts["wrong token"] += 1
-            page.note_wrong_token()
-            _reply(page, Reply(id=request.id, accepted=False, reason=UNKNOWN_TOKEN))
-            return
+    def _handle(self, page: Page, role: Role, request: PageRequest) -> None:
+        """Carry out a request, or reply why not; token and right are checked each time."""
         why = (
             refusal(role, request, self._broadcaster.robots())
             or self._broadcaster.refusal(request)

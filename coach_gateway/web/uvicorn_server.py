@@ -3,26 +3,39 @@
 import contextlib
 import logging
 from collections.abc import Iterator
+from typing import Any
 
 import uvicorn
 from starlette.types import ASGIApp
 
+from coach_gateway.web.connections import Connections
+from coach_gateway.web.http_protocol import REQUEST_S, HttpProtocol
 from coach_gateway.web.protocol import MAX_BYTES
+from coach_gateway.web.socket_protocol import SocketProtocol
 
-_SPARE = 100
-"""Connections beyond those of open pages: requests for files, and pages that are refused."""
 _PING_S = 10.0
 """s of wall time between two pings to a page, and until a ping must be answered."""
+_MOST_HEADER_BYTES = 16_384
+"""Bytes of a request's first line and headers."""
 
 
-def web_server(app: ASGIApp, pages: int) -> uvicorn.Server:
-    """A server for this number of pages, which leaves signals and log to the process."""
-    logging.getLogger("uvicorn").setLevel(logging.WARNING)
+class PageConfig(uvicorn.Config):
+    """The server's configuration, with which its connections find each other."""
+
+    def __init__(self, app: ASGIApp, connections: Connections, **options: Any) -> None:
+        super().__init__(app, **options)
+        self.connections = connections
+
+
+def web_server(app: ASGIApp, connections: Connections) -> uvicorn.Server:
+    """A server that leaves signals and log to the process."""
+    logging.getLogger("uvicorn").setLevel(logging.ERROR)  # what clients do wrong is counted by `connections`
     return _Server(
-        uvicorn.Config(
+        PageConfig(
             app,
-            ws="websockets-sansio",
-            http="h11",
+            connections,
+            ws=SocketProtocol,
+            http=HttpProtocol,
             loop="asyncio",
             lifespan="off",
             log_config=None,
@@ -33,7 +46,8 @@ def web_server(app: ASGIApp, pages: int) -> uvicorn.Server:
             ws_per_message_deflate=True,
             ws_ping_interval=_PING_S,
             ws_ping_timeout=_PING_S,
-            limit_concurrency=pages + _SPARE,
+            h11_max_incomplete_event_size=_MOST_HEADER_BYTES,
+            timeout_keep_alive=round(REQUEST_S),
             timeout_graceful_shutdown=1,
         )
     )

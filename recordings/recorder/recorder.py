@@ -175,7 +175,7 @@ class Recorder:
         self._host.update()
         if self._host.is_reachable():
             return False
-        return self._is_complete() or self._host.unreachable_s() >= RECONNECT_S
+        return self._is_complete() or self._host.is_given_up(RECONNECT_S)
 
     def _is_complete(self) -> bool:
         """Whether the match is over and no batch is known to be missing."""

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, Self
 from uuid import uuid4
 
 from schemas.access.accounts import Account
+from schemas.bus.refusals import Refusals
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from schemas.tokens import PresenceKind as PresenceKind
@@ -217,6 +218,8 @@ class Bus(ABC):
     """A name that no other connection has."""
     account: Account | None = field(default=None, init=False)
     """The account of a client with credentials."""
+    refusals: Refusals = field(default_factory=Refusals, init=False)
+    """What was refused before any reader received it."""
     _closed: bool = field(default=False, init=False)
 
     @abstractmethod
@@ -264,6 +267,10 @@ class Bus(ABC):
     @abstractmethod
     def connected(self) -> bool:
         """Whether the medium is available: for a client, whether its link to the host is up."""
+
+    def is_cut_off(self) -> bool:
+        """Whether nothing answers at the host's address, neither a listener nor its machine; takes a moment."""
+        return False
 
     @abstractmethod
     def close(self) -> None:

@@ -14,6 +14,8 @@ FREE_ENDPOINT = "tcp/127.0.0.1:0"
 ENCRYPTED = ("tls", "quic")
 """Protocols whose listener needs a certificate."""
 _CONNECTIONLESS = ("udp", "quic")
+_PROBE_S = 0.3
+"""Wall time in which a machine has to answer a probe."""
 
 
 def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
@@ -37,6 +39,23 @@ def is_loopback(endpoint: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+def is_cut_off(endpoint: str) -> bool:
+    """Whether nothing answers at an endpoint: its machine is off, or the network to it is cut.
+
+    False where it accepts a connection or refuses it, and for protocols without connections.
+    """
+    protocol, host, port = parse_endpoint(endpoint)
+    if protocol in _CONNECTIONLESS:
+        return False
+    try:
+        socket.create_connection((host, port), _PROBE_S).close()
+    except ConnectionError:
+        return False
+    except OSError:  # no answer, or no way to the machine
+        return True
+    return False
 
 
 def local_endpoint(listen: str) -> str:

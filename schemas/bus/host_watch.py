@@ -10,6 +10,8 @@ LINK_GRACE_S = LEASE_S + 0.5
 """Wall time for which watchers tolerate a broken link."""
 RECONNECT_S = 10.0
 """Wall time for which agents and recorders wait for an unreachable host before they give up the match."""
+CUT_OFF_S = 3600.0
+"""The same where the network to the host is cut: the match goes on there, and lasts no longer."""
 _POLL_S = 0.02
 """Wall time between two checks while waiting for a host."""
 
@@ -24,6 +26,8 @@ class HostWatch:
         self._hosts: set[str] = set()
         self._active = ActiveClock(bus.clock.now())
         self._reached_at = self._linked_at = 0.0
+        self._cut_off_at = 0.0
+        """When the network was last found to be cut."""
         self.seen = False
         """Whether a host has been present."""
 
@@ -54,6 +58,19 @@ class HostWatch:
     def unreachable_s(self) -> float:
         """Wall time since the host was last reachable, in s."""
         return self._now() - self._reached_at
+
+    def is_given_up(self, patience: float) -> bool:
+        """For agents and recorders: whether the host has been unreachable for `patience` s of wall time.
+
+        The wait begins again while the network is cut, for up to `CUT_OFF_S`.
+        """
+        now = self._now()
+        if now - max(self._reached_at, self._cut_off_at) < patience:
+            return False
+        if now - self._reached_at < CUT_OFF_S and self._bus.is_cut_off():
+            self._cut_off_at = now
+            return False
+        return True
 
     def has_left(self) -> bool:
         """For watchers: whether the host was present and its token is gone, or the link has been down for too long."""

@@ -38,6 +38,9 @@ class FifoMailbox(Generic[T]):
         self.is_empty = self._queue.empty
         """Whether neither an item nor the end is waiting."""
 
+    def __len__(self) -> int:
+        return self._queue.qsize()
+
     def put(self, key: str, item: T) -> None:
         """Add an item; the key has no effect."""
         del key

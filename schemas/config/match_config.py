@@ -118,6 +118,8 @@ class MatchConfig(Part):
     """What is recorded, and into which files."""
     patience: Patience = Patience()
     """How long the host waits, in s of wall time."""
+    forgiving: bool = False
+    """A client that goes on above its limit of messages is limited only, and never cut off."""
 
     @field_validator("pace")
     @classmethod

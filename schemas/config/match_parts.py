@@ -114,6 +114,8 @@ class OfficiatingConfig(Part):
 class RecordingConfig(RecordOptions):
     """What is recorded, and whether the match waits for a recorder."""
 
+    admit: list[Name] = Field(default_factory=list)
+    """Recorders that a lockstep host waits for when they fall behind, beside that of the launch."""
     wait: bool = False
     """The first tick waits for a recorder, so that the recording is complete."""
 

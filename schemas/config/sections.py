@@ -299,6 +299,9 @@ class Safety:
     """Protection from agents that have stopped answering."""
 
     watchdog: Annotated[float, Quantity("s", "age of a command at which the robot brakes", 0.01, 10)]
+    silence: Annotated[
+        float, Quantity("s", "time since the last new command at which the robot brakes, whatever its age", 0.01, 10)
+    ] = 10.0
 
 
 SECTIONS: dict[str, type] = {

@@ -38,6 +38,19 @@ class RobotHealth(Part):
     """Why its messages are not answers to the newest sight; empty if it answers, or if nothing comes from it."""
 
 
+class AccountHealth(Part):
+    """What one account has sent; counts are since the match began."""
+
+    messages: int = 0
+    """Messages that reached the host. The router drops what is far above the limits before that, without a count."""
+    size: int = 0
+    """Bytes of these messages."""
+    dropped: dict[str, int] = Field(default_factory=dict)
+    """Reason → messages that were dropped for it."""
+    cut_off: bool = False
+    """It went on above its limit, and its messages are ignored until an operator or a referee admits it."""
+
+
 class Health(Message):
     """State of the host, its agents and recorders."""
 
@@ -59,6 +72,8 @@ class Health(Message):
     """Command key → messages on it, for names that no robot of this match has."""
     recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
     """Recorder → ticks that it is behind."""
+    accounts: dict[str, AccountHealth] = Field(default_factory=dict)
+    """Account → what it has sent; without credentials, each key counts as an account of its own."""
 
 
 class Invalid(Message):

@@ -3,12 +3,13 @@
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
 from schemas.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
+from schemas.messages.admission import AdmissionReply, AdmissionRequest
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
-from schemas.messages.health import Health, Invalid, RobotHealth
+from schemas.messages.health import AccountHealth, Health, Invalid, RobotHealth
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
@@ -120,6 +121,8 @@ def _game() -> tuple[WireMessage, ...]:
         ActionReply(accepted=False, reason="free_kick: no half is being played, the phase is half_time"),
         SeatRequest(operation=SeatOperation.TAKE, referee="gateway_5f0c6e1d", source="referee's page"),
         SeatReply(accepted=True, holder="referee's page (gateway_5f0c6e1d)"),
+        AdmissionRequest(account="cyan"),
+        AdmissionReply(accepted=True),
     )
 
 
@@ -149,6 +152,7 @@ def _host() -> tuple[WireMessage, ...]:
             worst_tick_ms=11.8,
             robots={"cyan2": RobotHealth(alive=True, answering=True, answers=412, refused=1, latency_ms=1.9)},
             recorders={"recorder": 9},
+            accounts={"cyan": AccountHealth(messages=2060, size=329600, dropped={"over the limit of messages": 12})},
         ),
         Invalid(
             tick=_TICK,

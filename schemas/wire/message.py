@@ -29,10 +29,16 @@ Name = Annotated[
     ),
 ]
 """A key chunk: the name of a robot, a match or a process."""
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 Source = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$", max_length=80)]
 """Name of the sender of a request, for display: one line without control characters, which a terminal would obey."""
 ShortText = Annotated[str, Meta(max_length=80)]
 M = TypeVar("M", bound="WireMessage")
+
+
+def is_name(text: str) -> bool:
+    """Whether a text is a `Name`."""
+    return _NAME.fullmatch(text) is not None
 
 
 class BadMessageError(ValueError):

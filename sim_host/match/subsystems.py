@@ -7,7 +7,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import RosterEntry
 from schemas.config.rule_book import RuleBook
-from sim_host.actuation.latest_commands import LatestCommands
+from sim_host.actuation.latest_commands import CommandLimits, LatestCommands
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.radio import RadioAir
 from sim_host.match.referee_factory import make_referee
@@ -32,7 +32,7 @@ class Subsystems:
         self.roster = Roster.of_entries(robots, live_parameters.types)
         """The robots that take part from the next tick on."""
         self.referee = self._new_referee()
-        self.commands = LatestCommands(self.roster.names, self._watchdog, self.roster.still)
+        self.commands = LatestCommands(self.roster.names, self._command_limits, self.roster.still)
         self.radio, self._perception = self._new_radio(), self._new_perception()
         self.sights = Sights(self.roster, self._perception, self.radio)
 
@@ -50,7 +50,7 @@ class Subsystems:
             self.roster = Roster.of_entries(self._robots, live_parameters.types)
             self._perception = self._perception.with_roster(live_parameters.sensing, self.roster)
             self.sights = Sights(self.roster, self._perception, self.radio)
-        self.commands = self.commands.with_roster(self.roster.names, self._watchdog, self.roster.still)
+        self.commands = self.commands.with_roster(self.roster.names, self._command_limits, self.roster.still)
         return concerns_world
 
     def set_roster(self, robots: Sequence[RosterEntry], *, new_episode: bool) -> None:
@@ -59,19 +59,19 @@ class Subsystems:
         self.roster = Roster.of_entries(robots, self._live_parameters.types)
         self.referee = self._new_referee()
         if new_episode:
-            self.commands = LatestCommands((), self._watchdog)
+            self.commands = LatestCommands((), self._command_limits)
             self.radio, self._perception = self._new_radio(), self._new_perception()
         elif robots != before:
             self.radio = self.radio.with_roster(self.roster)
             self._perception = self._perception.with_roster(self._live_parameters.sensing, self.roster)
         self.sights = Sights(self.roster, self._perception, self.radio)
-        self.commands = self.commands.with_roster(self.roster.names, self._watchdog, self.roster.still)
+        self.commands = self.commands.with_roster(self.roster.names, self._command_limits, self.roster.still)
 
     @property
-    def _watchdog(self) -> float:
-        """Ticks after which an old command no longer counts."""
+    def _command_limits(self) -> CommandLimits:
+        """For how long a command is in force."""
         profile = self._live_parameters.profile
-        return profile.safety.watchdog / profile.time.tick
+        return CommandLimits.of(profile.safety, profile.time.tick)
 
     def _new_radio(self) -> RadioAir:
         """A radio without messages."""

@@ -4,6 +4,7 @@ from collections import deque
 
 from schemas.messages.health import Health
 from schemas.process.clock import Clock
+from sim_host.server.account_limits import AccountLimits
 from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import PresenceTracker
 
@@ -40,7 +41,9 @@ class HealthReporter:
             self._tick_times.popleft()
         return True
 
-    def report(self, tick: int, time: float, late: int, inbox: Inbox, presence: PresenceTracker) -> Health:
+    def report(
+        self, tick: int, time: float, late: int, inbox: Inbox, presence: PresenceTracker, accounts: AccountLimits
+    ) -> Health:
         """The report on the last second; `late` counts ticks that began late."""
         (began, then), (now, until) = self._marks[0], self._marks[-1]
         return Health(
@@ -53,4 +56,5 @@ class HealthReporter:
             robots={name: stats.health(tick) for name, stats in inbox.agent_stats.items()},
             strangers=dict(inbox.unknown_senders),
             recorders=presence.recorder_lags(tick),
+            accounts=accounts.health(),
         )

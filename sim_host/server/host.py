@@ -1,7 +1,7 @@
 """The host of one match: steps the simulation on the bus, tick by tick, at the pace of the match."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
@@ -11,8 +11,12 @@ from schemas.config.profile import Profile
 from schemas.game import EventKind
 from schemas.messages.game import GameEvent
 from schemas.recovery_window import PARTING_S
+from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
+from sim_host.server.account_limits import AccountLimits
+from sim_host.server.account_supervision import AccountSupervision
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
+from sim_host.server.admission import Admission
 from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
@@ -33,22 +37,51 @@ heartbeat, half a second later, and can be fetched as long as the host is runnin
 class Host:
     """Connects a simulation to agents, coaches, recorders and watchers."""
 
-    def __init__(self, config: MatchConfig, bus: Bus, launch_token: str | None = None) -> None:
-        """With `launch_token`, only agents that know it may play."""
+    def __init__(
+        self,
+        config: MatchConfig,
+        bus: Bus,
+        launch_token: str | None = None,
+        *,
+        recorders: Sequence[str] = (),
+        has_accounts: bool = False,
+        forgiving: bool = False,
+    ) -> None:
+        """Make the host of a match, without stepping it.
+
+        Args:
+            config: the match.
+            bus: the host's bus.
+            launch_token: only agents that know it may play; None admits every agent.
+            recorders: recorders that a lockstep host waits for, beside those of the match file.
+            has_accounts: credentials bind each key to an account.
+            forgiving: no account is cut off, as the match file may also set.
+        """
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
+        self.accounts = AccountLimits(self._sides(), has_accounts=has_accounts, forgiving=forgiving or config.forgiving)
+        admission = Admission([*config.record.admit, *recorders], self.accounts, any_recorder=has_accounts)
         self._batches = BatchPublisher(bus, self._invalid_log.add)
-        self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches)
+        self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches, self.accounts)
         self.presence = PresenceTracker(
-            bus, self.inbox.agent_stats, config.patience.recorder, self._invalid_log, launch_token
+            bus,
+            self.inbox.agent_stats,
+            config.patience.recorder,
+            self._invalid_log,
+            self.accounts,
+            admission,
+            launch_token,
         )
-        self._manual = ManualControl(bus, self._invalid_log)
+        self._manual = ManualControl(bus, self._invalid_log, self.accounts)
         self._first = self.simulation.now, self.simulation.state
         self._config = config
         self._clock = bus.clock
         self._seat = RefereeSeat()
-        self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self._seat)
+        self._services = Services(
+            bus, self.simulation, self._invalid_log, self._batches, self._seat, self.accounts, admission
+        )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
+        self._supervision = AccountSupervision(bus, self.accounts, admission, self.inbox.agent_stats)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
         self._active_orders = ActiveOrderPublisher(
@@ -156,12 +189,18 @@ class Host:
             self.inbox.set_roster(roster)
             self.presence.refresh_agents()
             self._outbox.set_roster(roster)
+            self.accounts.sides = {**self.accounts.sides, **self._sides()}
             self._silent = {name: self._silent.get(name, False) for name in roster.names}
         self._roster = roster
+
+    def _sides(self) -> dict[str, Side]:
+        roster = self.simulation.roster
+        return dict(zip(roster.names, roster.sides, strict=True))
 
     def _while_waiting(self) -> None:
         """While the host waits for robots or recorders: publish batches that are due, and reply to requests."""
         self._services.serve_while_waiting()
+        self._supervision.update()
         self._batches.send_if_due()
 
     def _send_sight(self, robot: str, sight: bytes) -> None:
@@ -207,6 +246,8 @@ class Host:
         for text in self._seat.pop_changes():
             log.warning(text)
             self._publish_report(tick, "referee_seat", text)
+        for text in self._supervision.pop_reports():
+            self._publish_report(tick, "account", text)
 
     def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
         if name not in self._roster.names:
@@ -221,12 +262,15 @@ class Host:
 
     def _report(self, tick: TickResult) -> None:
         """Publish the host's health when a report is due, and at most one invalid payload: a flood is not echoed."""
+        self._supervision.update()
         invalid = self._invalid_log.pop(tick.tick, tick.time)
         if invalid is not None:
             self._outbox.publish_invalid(invalid)
         if self._health.end_tick(tick.time):
             late = self.pace.late_ticks
-            self._outbox.publish_health(self._health.report(tick.tick, tick.time, late, self.inbox, self.presence))
+            self._outbox.publish_health(
+                self._health.report(tick.tick, tick.time, late, self.inbox, self.presence, self.accounts)
+            )
 
 
 def _pace(

@@ -9,6 +9,7 @@ from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.messages.command import Command
 from schemas.topics import COMMAND
 from schemas.wire.message import BadMessageError
+from sim_host.server.account_limits import AccountLimits
 from sim_host.server.agent_stats import LATENCY_SAMPLES, AgentStats
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
@@ -22,11 +23,14 @@ _MAX_INVALID_IN_A_ROW = 1000
 class Inbox:
     """Receives the commands of all robots."""
 
-    def __init__(self, bus: Bus, roster: Roster, invalid_log: InvalidLog, batches: BatchPublisher) -> None:
-        """All received commands are added to `batches`."""
+    def __init__(
+        self, bus: Bus, roster: Roster, invalid_log: InvalidLog, batches: BatchPublisher, accounts: AccountLimits
+    ) -> None:
+        """All commands within the limits of their accounts are added to `batches`."""
         self._commands = bus.subscribe(COMMAND)
         self._invalid_log = invalid_log
         self._batches = batches
+        self._accounts = accounts
         self.agent_stats: dict[str, AgentStats] = {}
         self.unknown_senders: dict[str, int] = {}
         """Key → commands received on it, for names that no robot of the match has."""
@@ -55,10 +59,15 @@ class Inbox:
             received = self._commands.receive(wait)
             if received is None:
                 return None
+            account = self._accounts.of_key(received.key)
+            if not account.accept(len(received.payload)):
+                self._ignore(received)
+                continue
             self._batches.add_received(received)
             checked = self._check(received, tick)
             if checked is not None:
                 return checked
+            account.extra += 1
         return None
 
     def end_tick(self, answered: Container[str]) -> None:
@@ -91,6 +100,12 @@ class Inbox:
         stats.refused_order = command.refuses_order
         self._note_latency(stats, command.answers_tick, received.arrived_ns)
         return name, command
+
+    def _ignore(self, received: ReceivedMessage) -> None:
+        """The host does not wait for a robot whose account is above its limit."""
+        stats = self.agent_stats.get(received.key.split("/")[1])
+        if stats is not None:
+            stats.cut_off = True
 
     def _count_unknown_sender(self, received: ReceivedMessage, reason: str) -> None:
         key = (

@@ -9,6 +9,7 @@ from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.natural_order import natural_order
 from schemas.topics import MANUAL
 from schemas.wire.message import BadMessageError
+from sim_host.server.account_limits import AccountLimits
 from sim_host.server.invalid_log import InvalidLog
 
 
@@ -24,7 +25,8 @@ class _DrivenRobot:
 class ManualControl:
     """Manual control of all robots."""
 
-    def __init__(self, bus: Bus, invalid_log: InvalidLog) -> None:
+    def __init__(self, bus: Bus, invalid_log: InvalidLog, accounts: AccountLimits) -> None:
+        self._accounts = accounts
         self._subscription = bus.subscribe(MANUAL)
         self._clock = bus.clock
         self._invalid_log = invalid_log
@@ -62,6 +64,8 @@ class ManualControl:
         """Process messages that have arrived, and release robots that are silent or not in the match."""
         now = self._clock.now()
         while (received := self._subscription.receive()) is not None:
+            if not self._accounts.of_key(received.key).accept(len(received.payload), 1):
+                continue
             name = received.chunks["robot"]
             try:
                 message: ManualDrive = received.message()

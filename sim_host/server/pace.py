@@ -176,6 +176,6 @@ class Lockstep:
         """Recorder → its newest tick, of recorders that lag too far and are not still where they were given up."""
         return {
             name: newest
-            for name, newest in self._presence.recorders.items()
+            for name, newest in self._presence.awaited_recorders().items()
             if tick - newest > RUN_AHEAD_TICKS and self._stalled.get(name) != newest
         }

@@ -1,14 +1,22 @@
 """Presence of agents, recorders, watchers and referee boxes, by liveliness tokens, and the progress of recorders."""
 
+from itertools import chain, repeat
+
 from schemas.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
+from sim_host.server.account_limits import AccountLimits
+from sim_host.server.admission import Admission
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.claims import Claims
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.server.services.claim_handler import ClaimHandler, Refusal
 
 _REMEMBERED = (PresenceKind.REFBOX, PresenceKind.COACH)
+_MAX_CHANGES = 500
+"""Most changes, and most reports of recorders, that are read in one call: a flood must not block the host."""
+_MAX_RECORDERS = 20
+"""Most recorders that are followed beside the admitted ones."""
 _MAX_NAMES = 100
 """Most names kept for each kind of process; a flood of invented names must not fill the memory."""
 
@@ -22,6 +30,8 @@ class PresenceTracker:
         agent_stats: dict[str, AgentStats],
         patience: float,
         invalid_log: InvalidLog,
+        accounts: AccountLimits,
+        admission: Admission,
         launch_token: str | None = None,
     ) -> None:
         """`patience` is the wall time in s after which a recorder with a broken link is dropped."""
@@ -30,6 +40,8 @@ class PresenceTracker:
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(RECORDER_PROGRESS)
         self._agent_stats = agent_stats
+        self._accounts = accounts
+        self._admission = admission
         self._claims = Claims(launch_token)
         self._claim_handler = ClaimHandler(bus, self._claims, invalid_log)
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
@@ -49,7 +61,9 @@ class PresenceTracker:
         changed: list[str] = []
         self._claim_handler.receive()
         presence = self._watch.receive(timeout)
-        while presence is not None:
+        for _ in range(_MAX_CHANGES):
+            if presence is None:
+                break
             self._remember(presence)
             if presence.kind is PresenceKind.RECORDER:
                 self._recorder(presence)
@@ -94,8 +108,12 @@ class PresenceTracker:
 
     def receive_progress(self, timeout: float) -> None:
         """Process the progress of recorders, waiting up to `timeout` s for the first message."""
-        received = self._progress.receive(timeout)
-        while received is not None:
+        for wait in chain((timeout,), repeat(0.0, _MAX_CHANGES)):
+            received = self._progress.receive(wait)
+            if received is None:
+                return
+            if not self._accounts.of_key(received.key).accept(len(received.payload), 1):
+                continue
             name = received.chunks["name"]
             try:
                 progress = received.message()
@@ -107,7 +125,6 @@ class PresenceTracker:
                 self.recorders[name] = max(self.recorders[name], progress.tick)
                 if progress.sights:
                     self._sight_recorders.add(name)
-            received = self._progress.receive(0.0)
 
     def _remember(self, presence: Presence) -> None:
         known = self._known.get(presence.kind)
@@ -115,11 +132,16 @@ class PresenceTracker:
             known[presence.name] = presence.alive
 
     def _recorder(self, presence: Presence) -> None:
-        """Add a recorder; one that loses its link may only be suspended, and stays until its patience has passed."""
+        """Add a recorder. An admitted one that loses its link may only be suspended: it stays until its patience has
+        passed.
+        """
         name = presence.name
         if presence.alive:
-            self.recorders.setdefault(name, -1)
+            if name in self.recorders or self._admission.waits_for(name) or len(self.recorders) < _MAX_RECORDERS:
+                self.recorders.setdefault(name, -1)
             self._lost.pop(name, None)
+        elif not self._admission.waits_for(name):
+            self._forget(name)
         elif name in self.recorders:
             self._lost[name] = self._clock.now() + self._patience
 
@@ -151,6 +173,10 @@ class PresenceTracker:
         """Whether every robot has an agent, and, with `wait_for_recorder`, a recorder is present."""
         agents = all(stats.alive or stats.idle for stats in self._agent_stats.values())
         return agents and (bool(self.recorders) or not wait_for_recorder)
+
+    def awaited_recorders(self) -> dict[str, int]:
+        """Recorder → the newest tick it has read, of the recorders that a lockstep host waits for."""
+        return {name: newest for name, newest in self.recorders.items() if self._admission.waits_for(name)}
 
     def recorder_lags(self, tick: int) -> dict[str, int]:
         """How many ticks each recorder is behind."""

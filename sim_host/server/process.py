@@ -8,12 +8,14 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from types import FrameType
 
-from schemas.access.protection import Protection
+from schemas.access.protection import Protection, robots_of
 from schemas.bus.announcement import Announcement, announced, announced_to_user
 from schemas.bus.contract import ReceivedMessage
 from schemas.bus.outcome_file import write_outcome
 from schemas.bus.settings import check_protected
 from schemas.bus.zenoh.bus import open_host
+from schemas.bus.zenoh.open_access import open_access
+from schemas.bus.zenoh.router_limits import router_limits
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
@@ -44,8 +46,11 @@ def _serve(settings: HostSettings) -> None:
     config, listen = settings.config, settings.listen
     check_protected(settings)
     protection = Protection.from_file(settings.credentials, config)
+    limits = router_limits(config.name, [robot for robots in robots_of(config).values() for robot in robots])
+    if protection is None:
+        limits["access_control"] = open_access(config.name)
     use_batch_scheduling(config.speed is None)
-    with open_host(config.name, WallClock(), listen, protection) as bus, ExitStack() as announcements:
+    with open_host(config.name, WallClock(), listen, protection, limits) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)
         log.info('match "%s" on %s, pace %s, seed %d', config.name, bus.endpoint, config.pace, config.seed)
         try:
@@ -54,7 +59,14 @@ def _serve(settings: HostSettings) -> None:
             if error.name != "pybullet":
                 raise
             raise TouchlineError(missing_engine_text()) from None
-        host = Host(config, bus, settings.launch_token)
+        host = Host(
+            config,
+            bus,
+            settings.launch_token,
+            recorders=settings.admit,
+            has_accounts=protection is not None,
+            forgiving=settings.forgiving,
+        )
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: host.stop())
         host.run()

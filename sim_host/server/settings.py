@@ -8,6 +8,7 @@ from pydantic import Field
 from schemas.bus.settings import ListenSettings
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import CommandLine
+from schemas.wire.message import Name
 
 
 class HostSettings(ListenSettings):
@@ -19,5 +20,9 @@ class HostSettings(ListenSettings):
     """File for the result at the end, for the program that launched the host."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
     """Secret that an agent must know to play; by default every agent may."""
+    admit: list[Name] = Field(default_factory=list)
+    """A recorder that a lockstep host waits for, by name; may be given several times."""
+    forgiving: bool = False
+    """Limit a client that goes on above its limit of messages, and never cut it off."""
     announcement: Path | None = None
     """File in which the host announces its endpoint as soon as it listens."""

@@ -25,6 +25,8 @@ from support.lossy_medium import LossyMedium
 
 LOOK_S = 0.001
 """Wall time that passes in each poll of a waiting host."""
+REPORT_NS = 50_000_000
+"""Wall time between two reports of a recorder that has nothing new to report."""
 TEAMS = {
     "cyan": {"name": "Cyan", "robots": ["cyan1", "cyan2"]},
     "magenta": {"name": "Magenta", "robots": ["magenta1"]},
@@ -93,6 +95,7 @@ class FakeRecorder:
         self.worlds = bus.subscribe(WORLD)
         self.seen = -1
         self.stands = False
+        self._reported, self._next_report_ns = -2, 0
         self._progress = bus.publisher(RECORDER_PROGRESS, name="recorder")
         bus.declare_alive("recorder", "recorder")
 
@@ -103,6 +106,11 @@ class FakeRecorder:
     def pump(self) -> None:
         while not self.stands and (received := self.worlds.receive()) is not None:
             self.seen = received.message().tick
+        if self.seen != self._reported or self.bus.clock.unix_ns() >= self._next_report_ns:
+            self._reported, self._next_report_ns = self.seen, self.bus.clock.unix_ns() + REPORT_NS
+            self.report()
+
+    def report(self) -> None:
         self._progress.put(RecorderProgress(tick=self.seen, messages=0, lost=0))
 
 
@@ -115,12 +123,16 @@ class HostRig:
     agents: dict[str, Agent] = field(default_factory=dict)
     idle: list[Callable[[], None]] = field(default_factory=list)
     launch_token: str | None = None
+    settings: dict[str, Any] = field(default_factory=lambda: {"recorders": ["recorder"]})
+    """Further arguments of the host."""
 
     def __post_init__(self) -> None:
         self.clock = SteppedClock()
         self.outside = self.seat()
         self._applied, self._events, self._health = self.listen(APPLIED), self.listen(EVENT), self.listen(HEALTH)
-        self.host = Host(self.config, self.medium.open_bus(self.config.name, self.clock), self.launch_token)
+        self.host = Host(
+            self.config, self.medium.open_bus(self.config.name, self.clock), self.launch_token, **self.settings
+        )
         if isinstance(self.host.pace, Lockstep):
             self.host.pace.step_agents = self._wait
 

@@ -3,6 +3,7 @@
 import asyncio
 import json
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from coach_gateway.access.tokens import tokens_of
@@ -51,11 +52,16 @@ class Gateway:
             self._loop = asyncio.get_running_loop()
             if self.bus is not None:
                 self.server = WebServer(self.bus, self.binding, self.logged.append, self._result)
-            waiting = WaitingPage(self.binding, "friendly")
+            waiting = WaitingPage(self.binding, "friendly", log=self.logged.append)
+            self.pages = self.server.pages if self.bus is not None else waiting.pages
             self._ready.set()
             await (waiting if self.bus is None else self.server).serve(self._stop)
 
         asyncio.run(main())
+
+    def call(self, do: Callable[[], object]) -> None:
+        """Have its thread do something soon."""
+        self._loop.call_soon_threadsafe(do)
 
     @property
     def port(self) -> int:

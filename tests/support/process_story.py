@@ -75,12 +75,15 @@ def process_name(pid: int) -> str | None:
 class Program:
     """A Python program with its output in files."""
 
-    def __init__(self, arguments: list[str], folder: Path, name: str, environment: dict[str, str]) -> None:
+    def __init__(
+        self, arguments: list[str], folder: Path, name: str, environment: dict[str, str], prefix: Sequence[str] = ()
+    ) -> None:
+        """`prefix` stands before the command, as that of a network namespace does."""
         self.folder = folder
         self._out, self._err = folder / f"{name}.out", folder / f"{name}.err"
         with self._out.open("wb") as out, self._err.open("wb") as err:
             self.popen = subprocess.Popen(
-                [sys.executable, "-m", *arguments],
+                [*prefix, sys.executable, "-m", *arguments],
                 cwd=folder,
                 env={**os.environ, **environment},
                 stdin=subprocess.DEVNULL,

@@ -2,6 +2,7 @@
 
 import socket
 import threading
+from collections.abc import Callable
 from contextlib import suppress
 
 from support.page_gateway import SOON
@@ -10,8 +11,9 @@ from support.page_gateway import SOON
 class Tunnel:
     """A port that forwards to another one until it is blocked: then it silently drops everything."""
 
-    def __init__(self, port: int) -> None:
-        self._to = port
+    def __init__(self, connect: int | Callable[[], socket.socket]) -> None:
+        """`connect` is a port of this machine, or makes each link's other end."""
+        self._connect = connect
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.port = int(self._listener.getsockname()[1])
         self._links: list[tuple[socket.socket, socket.socket]] = []
@@ -36,11 +38,20 @@ class Tunnel:
         with suppress(OSError):
             while True:
                 near, _ = self._listener.accept()
-                far = socket.create_connection(("127.0.0.1", self._to))
+                try:
+                    far = self._far_end()
+                except OSError:  # nobody listens there yet
+                    near.close()
+                    continue
                 self._links.append((near, far))
                 for ends in ((near, far), (far, near)):
                     self._threads.append(threading.Thread(target=self._pump, args=ends))
                     self._threads[-1].start()
+
+    def _far_end(self) -> socket.socket:
+        if isinstance(self._connect, int):
+            return socket.create_connection(("127.0.0.1", self._connect))
+        return self._connect()
 
     def _pump(self, begin: socket.socket, end: socket.socket) -> None:
         with suppress(OSError):

@@ -18,7 +18,7 @@ from schemas.messages.referee_seat import SeatOperation
 from touchline.cli import options
 from touchline.cli.bus_client import PATIENCE, bus_client
 from touchline.cli.option_groups import from_options, with_option_groups
-from touchline.commands import orders
+from touchline.commands import admit, orders
 from touchline.commands.bridge import bridge
 from touchline.commands.serve import serve
 
@@ -174,7 +174,7 @@ for _group, _name in ((app, "coach"), (referee, "referee")):
     for _word, _seat in SEAT_COMMANDS.items():
         _group.command(_word, help=f"{_seat.help}\n\nExample: touchline {_name} {_word}")(_seat_command(_seat))
 
-
+referee.command("admit")(admit.account)
 app.command("order")(orders.order)
 app.command("test")(orders.test)
 

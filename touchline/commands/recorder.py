@@ -13,6 +13,7 @@ from schemas.messages.recorder import RecorderOperation
 from touchline.cli import options
 from touchline.cli.errors import PREFIX
 from touchline.cli.option_groups import with_option_groups
+from touchline.commands import admit
 
 app = typer.Typer(
     help="Control a recorder while it records: pause, resume, split, snapshot, status.\n\n"
@@ -31,6 +32,8 @@ COMMANDS: dict[RecorderOperation, tuple[str, str]] = {
     ),
 }
 """Operation, which is also the command's name → its help, and the options of its example."""
+
+app.command("admit")(admit.recorder)
 
 _ANSWER_S = 5.0
 """Wall time to wait for a recorder's reply, s; a snapshot is written before the reply."""

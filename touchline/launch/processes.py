@@ -203,6 +203,7 @@ def host_process(plan: MatchPlan) -> Process:
         # --insecure was checked when the plan was made
         insecure=plan.credentials is None and plan.listen is not None and not is_loopback(plan.listen),
         launch_token=plan.launch_token,
+        admit=[ProcessKind.RECORDER.value] if plan.recording is not None else [],
         announcement=plan.announcement,
         outcome=plan.outcome,
     )

@@ -25,6 +25,7 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
+from schemas.bus.endpoint import is_cut_off
 from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.match_at import match_at
 from schemas.bus.zenoh.newest import ZenohNewest
@@ -194,6 +195,9 @@ class ZenohBus(Bus):
         if self._closed:
             return False
         return not self._context.is_client or bool(self.session.info.routers_zid())
+
+    def is_cut_off(self) -> bool:
+        return self._context.is_client and not self.connected() and is_cut_off(self.endpoint)
 
     def close(self) -> None:
         if self._closed:

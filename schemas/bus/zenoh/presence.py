@@ -10,7 +10,10 @@ from schemas.bus.contract import (
 from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topics import TOPICS
+from schemas.wire.message import is_name
 
+NO_NAME = "the token of a process without a valid name"
+"""Why a token is refused."""
 _KINDS = frozenset(kind.value for kind in PresenceKind)
 
 
@@ -22,8 +25,13 @@ class ZenohPresenceWatch(PresenceWatch):
         row = TOPICS["alive"]
 
         def receive(sample: zenoh.Sample) -> None:
-            chunks = row.match(str(sample.key_expr)[start:])
-            if chunks and chunks["kind"] in _KINDS:
+            key = str(sample.key_expr)[start:]
+            chunks = row.match(key)
+            if chunks is None or chunks["kind"] not in _KINDS:
+                return  # of a kind that a newer program may know
+            if not is_name(chunks["name"]):
+                context.owner.refusals.add(row.fill(kind=chunks["kind"]), NO_NAME)
+            else:
                 alive = sample.kind == zenoh.SampleKind.PUT
                 self.mailbox.put("", Presence(PresenceKind(chunks["kind"]), chunks["name"], alive))
 

@@ -1,5 +1,7 @@
 """Queries and replies over Zenoh. They are rare, and wait in mailboxes."""
 
+from contextlib import suppress
+
 import zenoh
 
 from schemas.bus.contract import (
@@ -9,9 +11,15 @@ from schemas.bus.contract import (
     Server,
 )
 from schemas.bus.mailbox import FifoMailbox
+from schemas.bus.zenoh.sample import NO_KEY
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 from schemas.wire.message import WireMessage
+
+MAX_WAITING = 64
+"""Most queries of one topic that wait; those beyond it are dropped, as when no process answers."""
+TOO_MANY = "too many queries wait"
+"""Why a query is dropped."""
 
 
 class ZenohQuery(Query):
@@ -23,11 +31,11 @@ class ZenohQuery(Query):
         self.reply_payload(reply.encode())
 
     def reply_payload(self, payload: bytes) -> None:
-        with self._query as query:
+        with self._query as query, suppress(zenoh.ZError):  # its client has gone
             query.reply(query.key_expr, payload, encoding=zenoh.Encoding.APPLICATION_JSON)
 
     def fail(self, reason: str) -> None:
-        with self._query as query:
+        with self._query as query, suppress(zenoh.ZError):  # its client has gone
             query.reply_err(reason)
 
 
@@ -37,7 +45,16 @@ class ZenohServer(Server):
         start = len(context.prefix)
 
         def receive(query: zenoh.Query) -> None:
-            self.mailbox.put("", ZenohQuery(topic, str(query.key_expr)[start:], query))
+            asked = str(query.key_expr)[start:]
+            reason = "" if topic.has_key(asked) else NO_KEY
+            if not reason and len(self.mailbox) >= MAX_WAITING:
+                reason = TOO_MANY
+            if reason:
+                context.owner.refusals.add(asked, reason)
+                with query:
+                    pass  # ends it without a reply
+            else:
+                self.mailbox.put("", ZenohQuery(topic, asked, query))
 
         self._queryable = context.session.declare_queryable(
             context.prefix + key, zenoh.handlers.Callback(receive, indirect=False)

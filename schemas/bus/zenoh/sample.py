@@ -11,6 +11,8 @@ STAMP = struct.Struct("<QQq")
 """The attachment of a message: its sequence number, the publisher's wall time in ns and simulated time in ns."""
 WAKE_UP = "-"
 """Marks a sample that only ends a wait; in its key it takes the place of chunks, whose names cannot have this value."""
+NO_KEY = "its key is no key of a topic"
+"""Why a message on a key with wildcards, or on one that no topic has, is refused."""
 _MARK = WAKE_UP.encode()
 
 

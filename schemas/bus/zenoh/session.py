@@ -21,13 +21,20 @@ from schemas.process.clock import Clock
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""
+_MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
+"""Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
+over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
 _CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
 """Fewer threads than by default, since a match has many small processes."""
 _HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
 """A thread that waits for room in a link's queue, as a reply from a cache does, must not be the thread that makes the
 room. Zenoh closes a stalled link on the threads that read: if there were few, all of them could be waiting for room in
 that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876)."""
-_RETRY = {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 1.5}
+_RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
+_ATTEMPT_S = 0.9
+"""Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then
+repeats its packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the
+handshake of four round trips at 0.1 s of delay each way."""
 _TRY_S = (0.5, 2.0)
 """Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
 at once. Ctrl-C takes effect between attempts."""
@@ -116,7 +123,15 @@ def open_connection(
     lasts, longest = _TRY_S
     while True:
         settings = {"connect/endpoints": [connect], "connect/retry": _RETRY, **client_settings(credentials)}
-        config = _config("client", {**settings, "connect/timeout_ms": round(lasts * 1000)})
+        attempt_ms = round(1000 * max(lasts, _ATTEMPT_S))
+        config = _config(
+            "client",
+            {
+                **settings,
+                "connect/timeout_ms": round(lasts * 1000),
+                "transport/unicast/open_timeout": attempt_ms,
+            },
+        )
         try:
             return _open(config, _CLIENT_THREADS), connect
         except zenoh.ZError as error:
@@ -150,16 +165,17 @@ def _can_open(endpoint: str, credentials: Credentials | None) -> bool:
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
     """Open a session with these threads, unless the environment sets others.
 
-    Zenoh reads the variable once, when the first session of a process is opened. The variable must not reach child
-    processes, which may need other settings.
+    Zenoh reads the variables once, when the first session of a process is opened. They must not reach child processes,
+    which may need other settings.
     """
-    if _THREADS in os.environ:
-        return zenoh.open(config)
-    os.environ[_THREADS] = threads
+    wanted = {_THREADS: threads, _MOST_AHEAD: _MOST_AHEAD_MS}
+    added = {name: value for name, value in wanted.items() if name not in os.environ}
+    os.environ.update(added)
     try:
         return zenoh.open(config)
     finally:
-        del os.environ[_THREADS]
+        for name in added:
+            del os.environ[name]
 
 
 def _config(mode: str, more: Mapping[str, object]) -> zenoh.Config:

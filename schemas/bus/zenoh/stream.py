@@ -9,13 +9,18 @@ from schemas.bus.contract import HEARTBEAT_S, BusError, Publisher, ReceivedMessa
 from schemas.bus.gap_recovery import GapRecovery
 from schemas.bus.zenoh.cache_queries import CacheQueries
 from schemas.bus.zenoh.reader import ZenohReader
-from schemas.bus.zenoh.sample import STAMP, is_wake_up, message_in
+from schemas.bus.zenoh.sample import NO_KEY, STAMP, is_wake_up, message_in
 from schemas.bus.zenoh.session import SessionContext, first_line
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS
 
 _BACKLOG = 500_000
 """Most samples that wait for a subscription that reads every one."""
+_MAX_KNOWN_KEYS = 1000
+"""Keys that are remembered as keys of the topic; others are checked with each message."""
+_HOST_BACKLOG = 2048
+"""Most samples that wait for a subscription of the host; the oldest are dropped first. A full `FifoChannel` would stop
+the link, and the host reads more often than any match fills this."""
 _LITERAL_KEYS = frozenset(topic.key for topic in TOPICS.values() if not topic.chunks)
 
 
@@ -66,9 +71,13 @@ class ZenohSubscription(ZenohReader):
         self._start = len(context.prefix)
         self._newest = newest
         self._kept: dict[str, ReceivedMessage] = {}
+        self._known_keys: set[str] = set()
+        """Keys of this topic on which messages have arrived."""
         self._gaps: CacheQueries | None = None
         born_ns = context.clock.unix_ns()
-        every: Any = zenoh.handlers.FifoChannel(_BACKLOG)
+        every: Any = (
+            zenoh.handlers.FifoChannel(_BACKLOG) if context.is_client else zenoh.handlers.RingChannel(_HOST_BACKLOG)
+        )
         if topic.delivery is Delivery.RECOVERED and not newest:
             settings = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
             past = ext.HistoryConfig(detect_late_publishers=True, max_samples=topic.cache_size) if history else None
@@ -118,9 +127,23 @@ class ZenohSubscription(ZenohReader):
             return None  # the session was closed
 
     def _read(self, sample: zenoh.Sample) -> ReceivedMessage | None:
-        """The message in a sample; None for a wake-up, and for a sample of another topic."""
+        """The message in a sample; None for a wake-up, and for a sample on a key that is none of this topic."""
         payload = sample.payload.to_bytes()
         key = str(sample.key_expr)[self._start :]
-        if (not payload and is_wake_up(sample)) or (key in _LITERAL_KEYS and key != self._topic.key):
+        if key not in self._known_keys:
+            if (not payload and is_wake_up(sample)) or not self._learn(key, len(payload)):
+                return None
+        elif not payload and is_wake_up(sample):
             return None
         return message_in(sample, self._topic, key, payload, self._has_arrival_time)
+
+    def _learn(self, key: str, size: int) -> bool:
+        """Whether a key is one of this topic; others are refused, except those of a topic with a narrower key."""
+        if key in _LITERAL_KEYS and key != self._topic.key:
+            return False
+        if not self._topic.has_key(key):
+            self._context.owner.refusals.add(key or "**", NO_KEY, size)
+            return False
+        if len(self._known_keys) < _MAX_KNOWN_KEYS:
+            self._known_keys.add(key)
+        return True

@@ -5,8 +5,10 @@ from collections.abc import Sequence
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
 from schemas.messages.game import ActionReply, RefereeAction
-from schemas.topics import PARAMETERS, REFEREE_SEAT, SCENE, SETUP
+from schemas.topics import ADMISSION, PARAMETERS, REFEREE_SEAT, SCENE, SETUP
 from sim_host.match.simulation import Simulation
+from sim_host.server.account_limits import AccountLimits
+from sim_host.server.admission import Admission
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.server.referee_seat import RefereeSeat
 from sim_host.server.services.action_handler import ActionHandler
@@ -27,13 +29,18 @@ class Services:
         invalid_log: InvalidLog,
         batches: BatchPublisher,
         seat: RefereeSeat,
+        accounts: AccountLimits,
+        admission: Admission,
     ) -> None:
         self._batches = batches
         self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup().model_copy(update=_CLAIMS), invalid_log)
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
         self._seat = QueryHandler(bus, REFEREE_SEAT, seat.handle, invalid_log)
-        self._orders = OrderHandler(bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches)
+        self._orders = OrderHandler(
+            bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches, accounts
+        )
+        self._admission = QueryHandler(bus, ADMISSION, admission.handle, invalid_log)
         self._actions = ActionHandler(bus, invalid_log, seat)
 
     @property
@@ -46,7 +53,15 @@ class Services:
 
         Orders come first: a client that queries the setup after sending an order sees the order in the reply.
         """
-        for handler in (self._orders, self._parameters, self._scene, self._setup, self._seat, self._actions):
+        for handler in (
+            self._orders,
+            self._parameters,
+            self._scene,
+            self._setup,
+            self._seat,
+            self._admission,
+            self._actions,
+        ):
             handler.process()
         self._batches.process()
 
@@ -56,6 +71,7 @@ class Services:
         The host may be waiting for an agent that needs the setup first, or for a recorder that needs batches.
         """
         self._setup.process()
+        self._admission.process()
         self._batches.process()
 
     def reply(self, replies: Sequence[ActionReply]) -> None:

@@ -9,6 +9,7 @@ from schemas.messages.coach import CoachOrder
 from schemas.side import Side
 from schemas.topics import ORDER
 from schemas.wire.message import BadMessageError
+from sim_host.server.account_limits import ORDER_WEIGHT, AccountLimits
 from sim_host.server.invalid_log import InvalidLog
 
 
@@ -22,6 +23,7 @@ class OrderHandler:
         pitch: Callable[[], Pitch],
         invalid_log: InvalidLog,
         batches: BatchPublisher,
+        accounts: AccountLimits,
     ) -> None:
         """`active` maps each side to its newest order, and is updated in place; `pitch` returns the pitch in force."""
         self._orders = bus.subscribe(ORDER)
@@ -29,10 +31,13 @@ class OrderHandler:
         self._pitch = pitch
         self._invalid_log = invalid_log
         self._batches = batches
+        self._accounts = accounts
 
     def process(self) -> None:
         """Process all orders that have arrived."""
         while (received := self._orders.receive()) is not None:
+            if not self._accounts.of_key(received.key).accept(len(received.payload), ORDER_WEIGHT):
+                continue
             self._batches.add_received(received)
             try:
                 order, side = received.message(), _side_of(received)

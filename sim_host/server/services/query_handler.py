@@ -8,6 +8,11 @@ from schemas.topic import Topic
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server.invalid_log import InvalidLog
 
+_MOST_AT_ONCE = 32
+"""Most queries in one call after a time with few, as at the start of a match."""
+_MOST_IN_A_ROW = 2
+"""Most queries in each call while they keep coming: a flood of them must not stop the match."""
+
 
 class QueryHandler:
     """Replies to the queries of one topic."""
@@ -17,10 +22,13 @@ class QueryHandler:
         self._server = bus.serve(topic)
         self._answer = answer
         self._invalid_log = invalid_log
+        self._allowed = _MOST_AT_ONCE
 
     def process(self) -> None:
-        """Reply to all queries that have arrived."""
-        while (query := self._server.receive()) is not None:
+        """Reply to queries that have arrived; those of a flood wait for the next call."""
+        self._allowed = min(_MOST_AT_ONCE, self._allowed + _MOST_IN_A_ROW)
+        while self._allowed and (query := self._server.receive()) is not None:
+            self._allowed -= 1
             try:
                 asked = query.message()
             except BadMessageError as error:

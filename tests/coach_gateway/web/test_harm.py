@@ -79,7 +79,9 @@ def test_garbage_is_answered_and_the_page_goes_on(visit: Visit) -> None:
     assert page.ask("token")["accepted"]
 
 
-def test_refusals_are_counted_and_logged_at_the_end(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
+def test_refusals_are_named_once_counted_and_logged_at_the_end(
+    host: FakeHost, gateway_of: Callable[..., Gateway]
+) -> None:
     gateway = gateway_of()
     page = Visitor(gateway.origin)
     for rubbish in ("{", "[]", b"x"):
@@ -90,7 +92,13 @@ def test_refusals_are_counted_and_logged_at_the_end(host: FakeHost, gateway_of: 
         Visitor(gateway.origin, claims="http://evil.example")
     page.close()
     gateway.close()
-    assert gateway.logged == [
+    assert gateway.logged[:-1] == [
+        "page: unreadable message from this machine ('{' is not JSON: EOF while parsing an object at line 1 column 1); "
+        "further ones are counted",
+        "page: unknown token from this machine; further ones are counted",
+        "page: page refused for its origin from this machine (origin http://evil.example); further ones are counted",
+    ]
+    assert gateway.logged[-1:] == [
         "refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"
     ]
 

@@ -17,12 +17,12 @@ from schemas.config.rule_book import load_rule_book, unversioned_tables
 from schemas.errors import TouchlineError
 
 DIGESTS = {
-    "profiles/ideal": (1, "312c32f4f1bf"),
-    "profiles/msl": (1, "da95d06dacd7"),
-    "profiles/msl-2016": (1, "4a88a1aa7672"),
-    "profiles/omni": (1, "a5f16b8b9d13"),
-    "profiles/omni3": (1, "5b474577beed"),
-    "profiles/paper": (1, "39db3364eb2f"),
+    "profiles/ideal": (2, "a4ba76b9c75c"),
+    "profiles/msl": (2, "30244728231a"),
+    "profiles/msl-2016": (2, "af89f3154734"),
+    "profiles/omni": (2, "9741e9275359"),
+    "profiles/omni3": (2, "f85e17522043"),
+    "profiles/paper": (2, "670bf7a56392"),
     "rule_books/china-sim-2020": (1, "96eb91155fb3"),
     "rule_books/eleven": (1, "de78cf209b2f"),
     "rule_books/friendly": (1, "a990e49b975c"),

@@ -12,6 +12,7 @@ from schemas.config.profile import load_profile
 from schemas.messages.command import Command
 from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND
+from sim_host.server.account_limits import AccountLimits
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.inbox import Inbox
@@ -31,7 +32,7 @@ def speed_after(*stretches):
             clock.sleep_until(clock.now() + took)
             tick += 1
             reporter.end_tick(tick * 0.02)
-    return reporter.report(tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS)
+    return reporter.report(tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS, AccountLimits({}))
 
 
 def test_the_real_time_factor_and_the_worst_tick_are_those_of_the_last_second():
@@ -64,7 +65,9 @@ class AnsweringBus(InProcessBus):
 
 def test_the_latency_of_a_command_is_the_time_since_the_sight_that_it_answers():
     bus = AnsweringBus("friendly", SteppedClock(), SharedState())
-    inbox = Inbox(bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus))
+    inbox = Inbox(
+        bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus), AccountLimits({})
+    )
     bus.answers((1, 5_000_000), (2, 27_000_000), (3, 41_000_000))
     for tick, sent_ns in ((1, 1_000_000), (2, 21_000_000), (3, 40_000_000)):
         inbox.sights_sent(tick, sent_ns)

@@ -101,7 +101,7 @@ def test_a_frozen_recorder_whose_link_broke_is_waited_for_until_it_is_back(rig, 
 
 def test_a_recorder_that_talks_without_end_and_does_not_move_is_left_behind(rig, recorder):
     recorder.stands = True
-    rig.idle.extend([recorder.pump] * 20)
+    rig.idle.extend([recorder.report] * 20)
     rig.ticks(RUN_AHEAD_TICKS + 20)
     assert rig.clock.now() < 2 * PATIENCE_S
 

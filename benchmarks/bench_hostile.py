@@ -1,0 +1,99 @@
+"""What attacks on the host's port cost the others: ticks a second before, during and after, and the host's memory.
+
+Each attack runs as a process of its own against a fresh lockstep match of four robots.
+"""
+
+import argparse
+import contextlib
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from running_match import PATIENCE_S, running_match
+
+from schemas.bus.contract import Bus
+from schemas.bus.zenoh.bus import open_client
+from schemas.messages.health import Health
+from schemas.process.clock import WallClock
+from schemas.topics import HEALTH
+from schemas.wire.message import BadMessageError
+
+ATTACKER = Path(__file__).parents[1] / "tests/support/attacker.py"
+
+
+def memory_mb(pid: int) -> float:
+    """Resident memory of a process, MB."""
+    for line in Path(f"/proc/{pid}/status").read_text().splitlines():
+        if line.startswith("VmRSS"):
+            return int(line.split()[1]) / 1024
+    return 0.0
+
+
+class Gauge:
+    """Measures the rate of a running match by its health."""
+
+    def __init__(self, bus: Bus) -> None:
+        self._healths = bus.subscribe(HEALTH)
+        self.newest: Health | None = None
+
+    def ticks(self) -> int:
+        """The newest tick that the host has reported, -1 before the first."""
+        while (received := self._healths.receive()) is not None:
+            with contextlib.suppress(BadMessageError):  # an attacker's
+                self.newest = received.message()
+        return self.newest.tick if self.newest is not None else -1
+
+    def rate(self, seconds: float) -> float:
+        """Ticks a second over this time."""
+        first, began = self.ticks(), time.monotonic()
+        time.sleep(seconds)
+        return (self.ticks() - first) / (time.monotonic() - began)
+
+
+def measure(attack: str, seconds: float, robots: int) -> str:
+    """The row of one attack."""
+    sizes = {"cyan": {"size": robots // 2}, "magenta": {"size": robots // 2}}
+    settings = {"duration": 3600.0, "teams": sizes, "patience": {"attendance": PATIENCE_S}}
+    with (
+        running_match("idle_brain:act", settings) as (config, endpoint, host, _),
+        open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus,
+    ):
+        gauge = Gauge(bus)
+        while gauge.ticks() < 100:
+            time.sleep(0.1)
+        before, memory = gauge.rate(seconds), memory_mb(host.pid)
+        attacker = subprocess.Popen([sys.executable, str(ATTACKER), attack, endpoint, config.name, str(seconds + 1)])
+        time.sleep(1.0)
+        during = gauge.rate(seconds)
+        most = memory_mb(host.pid)
+        attacker.terminate()
+        attacker.wait()
+        time.sleep(1.0)
+        after = gauge.rate(seconds)
+        lived = host.poll() is None
+        most = max(most, memory_mb(host.pid)) if lived else most
+        accounts = getattr(gauge.newest, "accounts", None)
+    rates = f"{before:.0f} | {during:.0f} | {after:.0f}"
+    row = f"| {attack} | {rates} | {most - memory:+.0f} MB | {'yes' if lived else 'NO'} |"
+    return f"{row} {accounts}" if os.environ.get("VERBOSE") else row
+
+
+def main() -> None:
+    """Print a row for each attack."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("attacks", nargs="*", help="names of attacks, by default all")
+    parser.add_argument("--seconds", type=float, default=4.0, help="duration of each measurement")
+    parser.add_argument("--robots", type=int, default=4)
+    options = parser.parse_args()
+    sys.path.insert(0, str(ATTACKER.parent))
+    from attacker import ATTACKS, RAW_ATTACKS
+
+    print("| attack | ticks/s before | during | after | memory | host lives |\n| --- | --- | --- | --- | --- | --- |")
+    for attack in options.attacks or [*ATTACKS, *RAW_ATTACKS]:
+        print(measure(attack, options.seconds, options.robots), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+"""Limits of the host's router, for each link: sizes by the topic table, rates by key, memory and connections.
+
+Zenoh drops what is over a limit before any Python code runs. A rate is a least time between two messages, and a rule
+holds for all its keys together: each robot's commands therefore have a rule of their own, or robots of one program that
+answer in the same moment would lose commands. Of several rules for one key the first applies; of several sizes the
+smallest.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from schemas.topic import Delivery, Party, Topic
+from schemas.topics import TOPICS, key_prefix
+
+_ROBOT_RATE = 4000.0
+"""Most commands a second of one robot: several times the ticks a second of the fastest match."""
+_KEY_RATE = 1000.0
+"""Most messages a second of one link on all keys of any other topic, or of robots that the match does not name."""
+_QUERY_RATE = 500.0
+"""Most queries a second of one link to one service."""
+_HISTORY_RATE = 200.0
+"""Most requests a second of one link for the history of one topic."""
+_CACHES = "@adv/**"
+"""Below the key of a `recovered` topic: the caches of its publishers."""
+_OTHER_CACHE_RATE = 20.0
+"""Most requests a second of one link for histories of several topics at once."""
+_LEAST_SIZE = 16_384
+"""A payload that is longer than its message may be passes up to this size, so that the host can report it."""
+_MAX_MESSAGE_BYTES = 4 * 2**20
+"""Most bytes of a message in fragments, which the router has to keep until the last fragment arrives."""
+_MAX_CONNECTIONS = 256
+"""Most connections: a match has at most 22 robots, and some dozen pages, recorders and watchers."""
+_MAX_PENDING = 64
+"""Most connections that have not finished their handshake."""
+_HANDSHAKE_MS = 2000
+"""Wall time for a handshake, in ms: half-open connections make room after that."""
+
+
+def router_limits(match: str, robots: Iterable[str]) -> dict[str, Any]:
+    """Settings of the router of a match with these robots."""
+    prefix = key_prefix(match)
+    return {
+        "transport/unicast/max_sessions": _MAX_CONNECTIONS,
+        "transport/unicast/accept_pending": _MAX_PENDING,
+        "transport/unicast/accept_timeout": _HANDSHAKE_MS,
+        "transport/link/rx/max_message_size": _MAX_MESSAGE_BYTES,
+        "low_pass_filter": _sizes(prefix),
+        "downsampling": _rates(prefix, list(robots)),
+    }
+
+
+def _sizes(prefix: str) -> list[dict[str, Any]]:
+    """Largest payloads that clients may send: those of the topic table, and none larger on any key."""
+    limits: dict[int, list[str]] = {}
+    for topic in _sent_by_clients():
+        limits.setdefault(max(_LEAST_SIZE, _size_of(topic)), []).append(prefix + topic.fill())
+    largest = max(max(limits), *(_size_of(topic, reply=True) for topic in TOPICS.values()))
+    rules = [
+        _size_rule(f"at most {size} bytes", ["put", "delete", "query"], keys, size) for size, keys in limits.items()
+    ]
+    every = ["put", "delete", "query", "reply"]
+    return [*rules, _size_rule("all keys", every, ["**", f"{prefix}**/{_CACHES}"], largest)]
+
+
+def _size_rule(name: str, messages: list[str], keys: list[str], size: int) -> dict[str, Any]:
+    return {"id": name, "flows": ["ingress"], "messages": messages, "key_exprs": keys, "size_limit": size}
+
+
+def _size_of(topic: Topic, *, reply: bool = False) -> int:
+    """Most bytes of a message with its attachment, a stamp."""
+    kind = topic.reply if reply else topic.message
+    return kind.max_bytes + 64 if kind is not None else 0
+
+
+def _rates(prefix: str, robots: list[str]) -> list[dict[str, Any]]:
+    command = TOPICS["command"]
+    puts = {prefix + command.fill(robot=robot): _ROBOT_RATE for robot in robots}
+    puts |= {prefix + topic.fill(): _KEY_RATE for topic in _sent_by_clients() if topic.delivery is not Delivery.QUERY}
+    puts["**"] = _KEY_RATE
+    queries = {prefix + topic.fill(): _QUERY_RATE for topic in _sent_by_clients() if topic.delivery is Delivery.QUERY}
+    recovered = (topic for topic in TOPICS.values() if topic.delivery is Delivery.RECOVERED)
+    queries |= {f"{prefix}{topic.fill()}/{_CACHES}": _HISTORY_RATE for topic in recovered}
+    queries |= {f"**/{_CACHES}": _OTHER_CACHE_RATE, "**": _KEY_RATE}
+    return [_rate_rule("messages", ["put", "delete"], puts), _rate_rule("queries", ["query"], queries)]
+
+
+def _rate_rule(name: str, messages: list[str], rates: Mapping[str, float]) -> dict[str, Any]:
+    rules = [{"key_expr": key, "freq": rate} for key, rate in rates.items()]
+    return {"id": name, "flows": ["ingress"], "messages": messages, "rules": rules}
+
+
+def _sent_by_clients() -> list[Topic]:
+    """Topics whose messages or queries come from clients."""
+    return [topic for topic in TOPICS.values() if topic.writer is not Party.HOST and topic.message is not None]

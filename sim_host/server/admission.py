@@ -1,0 +1,40 @@
+"""Whom the host admits: the recorders that it waits for, and accounts that were cut off and may send again."""
+
+from collections.abc import Iterable
+
+from schemas.messages.admission import AdmissionReply, AdmissionRequest
+from sim_host.server.account_limits import AccountLimits
+
+
+class Admission:
+    """Recorders that a lockstep host waits for. Every other recorder is served, and may fall behind."""
+
+    def __init__(self, recorders: Iterable[str], accounts: AccountLimits, *, any_recorder: bool = False) -> None:
+        """With `any_recorder`, only admitted recorders can be present, since the host asks for credentials."""
+        self._recorders = set(recorders)
+        self._any_recorder = any_recorder
+        self._accounts = accounts
+        self._changes: list[str] = []
+
+    def waits_for(self, recorder: str) -> bool:
+        """Whether a lockstep host waits for a recorder of this name."""
+        return self._any_recorder or recorder in self._recorders
+
+    def handle(self, request: AdmissionRequest) -> AdmissionReply:
+        """Admit what the request names."""
+        if request.recorder is not None:
+            if not self.waits_for(request.recorder):
+                self._recorders.add(request.recorder)
+                self._changes.append(f"the host waits for the recorder {request.recorder} ({request.source})")
+        elif request.account is not None:
+            if not self._accounts.admit(request.account):
+                names = ", ".join(self._accounts.cut_off) or "none"
+                reason = f"{request.account} is not cut off; cut off are: {names}"
+                return AdmissionReply(accepted=False, reason=reason, cut_off=self._accounts.cut_off)
+            self._changes.append(f"{request.account} is admitted again ({request.source})")
+        return AdmissionReply(accepted=True, cut_off=self._accounts.cut_off)
+
+    def pop_changes(self) -> list[str]:
+        """What has been admitted since the last call, one line each."""
+        changes, self._changes = self._changes, []
+        return changes

@@ -1,0 +1,289 @@
+"""Attacks on the port of our referee box: garbage, floods, taken places, and claims of the other side's team."""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+
+from coach_gateway.access import token_checks
+from coach_gateway.refbox import peers
+from coach_gateway.refbox import server as server_module
+from coach_gateway.refbox.audience_feed import AudienceFeed
+from coach_gateway.refbox.framing import LIMIT, BoxProtocol, Framer
+from coach_gateway.refbox.server import RefBoxServer, ServerAddress
+from schemas.game import Phase
+from schemas.side import Side
+from support.gateway_bench import Bench, opened, until
+
+TOKENS = {"token-of-cyan": Side.CYAN, "token-of-magenta": Side.MAGENTA}
+
+
+class Station:
+    """A client of the box at an address of loopback, which may send anything."""
+
+    def __init__(self) -> None:
+        self.commands: list[str] = []
+        self.gone = False
+
+    async def connect(self, port: int, source: str) -> "Station":
+        self._reader, self.writer = await asyncio.open_connection("127.0.0.1", port, local_addr=(source, 0))
+        self._task = asyncio.create_task(self._read())
+        return self
+
+    def send(self, *objects: Any) -> None:
+        for one in objects:
+            self.writer.write(one if isinstance(one, bytes) else json.dumps(one).encode() + b"\x00")
+
+    async def close(self) -> None:
+        self.writer.transport.abort()
+        await self._task
+
+    async def _read(self) -> None:
+        try:
+            while True:
+                command = json.loads((await self._reader.readuntil(b"\x00"))[:-1])
+                self.commands.append(" ".join(str(word) for word in command.values() if word != ""))
+        except (OSError, asyncio.IncompleteReadError):
+            self.gone = True
+
+
+class Attacked:
+    """Our box beside a host, and ways to have clients come."""
+
+    def __init__(self, bench: Bench, box: RefBoxServer) -> None:
+        self.bench, self.box = bench, box
+        self.stations: list[Station] = []
+
+    async def connect(self, source: str = "127.0.0.2", hello: Any = None, port: int = 0) -> Station:
+        station = await Station().connect(self.box.ports[port], source)
+        self.stations.append(station)
+        if hello is not None:
+            station.send({"type": "hello", **hello})
+            await until(lambda: station.commands or station.gone)
+        return station
+
+    async def plays_on(self, *stations: Station) -> None:
+        """The commands of a game come to these base stations."""
+        self.bench.stage.say(phase=Phase.STOPPED, side=None)
+        self.bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
+        await until(lambda: all("CORNER Sapphire" in one.commands for one in stations), "the game's commands")
+
+
+@pytest.fixture(autouse=True)
+def every_address_is_another_machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server_module, "client_network", lambda address: address)
+
+
+@asynccontextmanager
+async def attacked(*addresses: ServerAddress) -> AsyncIterator[Attacked]:
+    async with opened(**{"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"}) as bench:
+        box = RefBoxServer(bench.live, addresses or (ServerAddress(0),), bench.logged.append, TOKENS.get)
+        bench.start(box)
+        await until(lambda: len(box.ports) == max(1, len(addresses)))
+        scene = Attacked(bench, box)
+        try:
+            yield scene
+        finally:
+            for station in scene.stations:
+                await station.close()
+            await bench.end()
+
+
+GARBAGE = [
+    b"\x00" * 100_000,
+    b"\xff\xfe\xfd" * 10_000 + b"\x00",
+    b"x" * 200_000,
+    b"{" * 60_000 + b"\x00",
+    b'{"a":' + b"[" * 980 + b"]" * 980 + b"}\x00",
+    b'{"type": "worldstate", "robots": ' + b"[" * 500 + b"]" * 500 + b"}\x00",
+    b"{}" * 32_000 + b"\x00",
+    b'{"type": "hello", "team": ["cyan"]}\x00',
+    b'{"type": "hello", "team": {"cyan": 1}, "token": 7}\x00',
+    b'{"type": "worldstate", "robots": [' + b'{"id": 1e999, "pose": [NaN, Infinity]},' * 500 + b"{}]}\x00",
+    b'{"type": "worldstate", "teamName": "' + b"\\ud800" * 1000 + b'", "robots": []}\x00',
+    b"GET / HTTP/1.1\r\nHost: a\r\n\r\n",
+    b"\x16\x03\x01\x02\x00\x01",
+]
+
+
+def test_garbage_of_every_kind_stops_no_base_station() -> None:
+    async def play() -> None:
+        faults: list[Any] = []
+        asyncio.get_running_loop().set_exception_handler(lambda _, fault: faults.append(fault))
+        async with attacked() as scene:
+            cyan = await scene.connect("127.0.0.3", {"team": "cyan"})
+            bench, ruby = scene.bench, scene.box.team_states[Side.MAGENTA]
+            bench.start(AudienceFeed(bench.live, [("127.0.0.1", 9)], bench.logged.append, scene.box.team_states))
+            for garbage in GARBAGE:
+                attacker = await scene.connect()
+                attacker.send(garbage)
+                friend = await scene.connect("127.0.0.4", {"team": "magenta"})
+                friend.send(garbage + b"\x00", {"type": "worldstate", "teamName": "Ruby", "robots": []})
+                before = ruby.states
+                await until(lambda before=before, friend=friend: ruby.states > before or friend.gone)
+                await attacker.close()
+                await friend.close()
+            await scene.plays_on(cyan)
+            assert all(not task.done() for task in bench.tasks)
+        assert faults == []
+
+    asyncio.run(play())
+
+
+@pytest.mark.parametrize("protocol", [BoxProtocol.JSON, BoxProtocol.AUTO])
+def test_a_line_of_gigabytes_without_end_fills_no_memory(protocol: BoxProtocol) -> None:
+    framer = Framer(protocol)
+    framer.feed(b'{"type": "')
+    chunk = b"x" * 1_000_000
+    for _ in range(400):
+        assert framer.feed(chunk) == []
+    assert framer.held <= LIMIT
+    assert framer.feed(b'"}\x00{"command": "STOP"}\x00') == [{"command": "STOP"}]
+
+
+def test_a_piece_of_very_many_or_very_deep_objects_costs_no_more_than_a_few() -> None:
+    framer = Framer(BoxProtocol.JSON)
+    assert len(framer.feed(b"{}" * 30_000 + b"\x00")) == 100
+    assert framer.feed(b'{"a":' + b"[" * 900 + b"]" * 900 + b"}\x00") == []
+    assert framer.garbage == 2
+
+
+def test_three_hundred_connections_of_one_address_keep_no_base_station_out() -> None:
+    async def play() -> None:
+        async with attacked() as scene:
+            quiet = await scene.connect("127.0.0.3")  # software that only reads
+            cyan = await scene.connect("127.0.0.4", {"team": "cyan"})
+            for _ in range(300):
+                await scene.connect("127.0.0.2")
+            magenta = await scene.connect("127.0.0.5", {"team": "magenta"})
+            await scene.plays_on(quiet, cyan, magenta)
+            assert sum(not station.gone for station in scene.stations) <= peers.MOST + 1
+            named = [line for line in scene.bench.logged if line.startswith("referee box: ")]
+            assert named == [
+                "referee box: connections without an identity that made room from 127.0.0.2; further ones are counted",
+                "referee box: connections beyond the rate limit from 127.0.0.2; further ones are counted",
+            ]
+            assert scene.box.refusals.counts.total() >= 280
+
+    asyncio.run(play())
+
+
+def test_a_name_alone_replaces_no_base_station_with_a_token_and_none_that_is_in_use_elsewhere() -> None:
+    async def play() -> None:
+        async with attacked() as scene:
+            cyan = await scene.connect("127.0.0.3", {"token": "token-of-cyan"})
+            magenta = await scene.connect("127.0.0.4", {"team": "magenta"})
+            for claim in ({"team": "cyan"}, {"team": "Ruby"}, {"team": "magenta", "address": "mine"}):
+                thief = await scene.connect("127.0.0.2", claim)
+                await until(lambda thief=thief: thief.gone)
+                assert thief.commands == []
+            near = await scene.connect("127.0.0.3", {"team": "cyan"})  # even on the same machine
+            await until(lambda: near.gone)
+            by_name = await scene.connect("127.0.0.2")
+            by_name.send({"type": "worldstate", "teamName": "Ruby", "robots": [{"id": 1}]})
+            await until(lambda: by_name.gone)
+            assert scene.box.team_states[Side.MAGENTA].states == 0
+            await scene.plays_on(cyan, magenta)
+            assert (
+                "referee box: refused hellos from 127.0.0.2 (it claims to be cyan's, and its base station has proven "
+                "more; send the token of its coach in the hello); further ones are counted"
+            ) in scene.bench.logged
+            again = await scene.connect("127.0.0.6", {"token": "token-of-cyan"})  # the same team from elsewhere
+            await until(lambda: cyan.gone)
+            await scene.plays_on(again)
+
+    asyncio.run(play())
+
+
+def test_a_base_station_that_has_fallen_silent_is_replaced_from_another_address(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(peers, "IN_USE_S", 0.0)
+
+    async def play() -> None:
+        async with attacked() as scene:
+            lost = await scene.connect("127.0.0.3", {"team": "cyan"})
+            found = await scene.connect("127.0.0.4", {"team": "cyan"})
+            await until(lambda: lost.gone)
+            await scene.plays_on(found)
+
+    asyncio.run(play())
+
+
+def test_the_port_of_one_team_is_not_for_the_other() -> None:
+    async def play() -> None:
+        async with attacked(ServerAddress(0, Side.CYAN), ServerAddress(0)) as scene:
+            cyan = await scene.connect("127.0.0.3", port=0)
+            await until(lambda: cyan.commands)
+            for claim in ({"team": "magenta"}, {"token": "token-of-magenta"}):
+                stray = await scene.connect("127.0.0.2", port=0)
+                stray.send({"type": "hello", **claim})
+                await until(lambda stray=stray: stray.gone)
+            by_name = await scene.connect("127.0.0.2", {"team": "cyan"}, port=1)
+            await until(lambda: by_name.gone)
+            magenta = await scene.connect("127.0.0.4", {"token": "token-of-magenta"}, port=1)
+            await scene.plays_on(magenta)
+
+    asyncio.run(play())
+
+
+def test_guesses_at_tokens_are_slowed_down_and_the_right_one_is_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(token_checks, "UNKNOWN_AT_ONCE", 5.0)
+    monkeypatch.setattr(token_checks, "PAUSE_S", 60.0)
+
+    async def play() -> None:
+        async with attacked() as scene:
+            for number in range(5):
+                guesser = await scene.connect("127.0.0.2", {"token": f"guess {number}"})
+                assert guesser.gone
+            held = await scene.connect("127.0.0.2")
+            held.send({"type": "hello", "token": "guess"}, {"type": "worldstate", "robots": []})
+            cyan = await scene.connect("127.0.0.3", {"token": "token-of-cyan"})
+            await scene.plays_on(cyan)
+            assert not held.gone  # its token has not been checked yet
+            monkeypatch.setattr(token_checks, "PAUSE_S", 0.1)
+            late = await scene.connect("127.0.0.2", {"token": "token-of-magenta"})
+            assert late.commands[0] == "WELCOME Ruby"
+
+    asyncio.run(play())
+
+
+def test_a_base_station_that_identifies_itself_again_and_again_is_sent_away() -> None:
+    async def play() -> None:
+        async with attacked() as scene:
+            restless = await scene.connect()
+            for number in range(50):
+                restless.send({"type": "hello", "team": ("cyan", "magenta")[number % 2]})
+            await until(lambda: restless.gone)
+            assert len([line for line in scene.bench.logged if "base station is" in line]) <= 11
+
+    asyncio.run(play())
+
+
+def test_world_states_in_a_flood_are_read_at_a_bounded_rate_and_others_take_turns() -> None:
+    async def play() -> None:
+        async with attacked() as scene:
+            cyan = await scene.connect("127.0.0.3", {"team": "cyan"})
+            flooder = await scene.connect("127.0.0.2", {"team": "magenta"})
+            flooder.send(b'{"type": "worldstate", "teamName": "Ruby", "robots": []}\x00' * 50_000)
+            await scene.plays_on(cyan)
+            assert scene.box.team_states[Side.MAGENTA].states < 10_000
+
+    asyncio.run(play())
+
+
+def test_a_connection_that_sends_half_a_message_holds_no_place_of_a_team(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def play() -> None:
+        async with attacked() as scene:
+            slow = [await scene.connect() for _ in range(peers.MOST)]
+            for station in slow:
+                station.send(b'{"type": "hel')
+            cyan, magenta = [
+                await scene.connect(f"127.0.0.{4 + number}", {"team": side.value}) for number, side in enumerate(Side)
+            ]
+            await scene.plays_on(cyan, magenta)
+
+    asyncio.run(play())
