@@ -43,6 +43,19 @@ def test_matches_that_start_in_the_same_second_are_the_matches_of_their_seeds_al
     assert outcomes == [alone[seed] for seed in SEEDS]
 
 
+def test_a_match_with_tls_is_played_and_leaves_no_passwords(start, tmp_path):
+    (tmp_path / "small.toml").write_text(MATCH)
+    program = start("touchline", "match", "small.toml", "--duration", "1", "--tls", "--json", folder=tmp_path)
+    assert program.status() == 0, program.err
+    assert json.loads(program.out)["recording"]
+    (run,) = (tmp_path / "runs").iterdir()
+    assert 'match "friendly" on tls/127.0.0.1:' in (run / "host.log").read_text()
+    assert not (run / "credentials").exists()
+    assert not [
+        file for file in run.iterdir() if b'"password"' in file.read_bytes() or b"PRIVATE KEY" in file.read_bytes()
+    ]
+
+
 @pytest.fixture(scope="module")
 def running(start, folder, tmp_path_factory):
     """A match without end of one against one, its folder, and the environment in which it is announced."""
