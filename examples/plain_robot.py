@@ -21,7 +21,7 @@ SETTINGS = {
     "mode": "client",
     "connect/endpoints": [os.environ["TOUCHLINE_CONNECT"]],
     "connect/timeout_ms": 10_000,
-    "connect/retry": {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 1.5},
+    "connect/retry": {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5},
     "scouting/multicast/enabled": False,
     "scouting/gossip/enabled": False,
     "transport/shared_memory/enabled": False,

@@ -4,10 +4,13 @@ import os
 import secrets
 import socket
 
-from schemas.bus.contract import Bus, NoReplyError, PresenceKind
+from schemas.access.accounts import Account
+from schemas.bus.contract import Bus, NoReplyError, PresenceKind, RefusedQueryError
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.setup import Setup
+from schemas.process.installed import installed_version
+from schemas.side import Side
 from schemas.tokens import SESSION_SEPARATOR
 from schemas.topics import ROBOT_CLAIM
 
@@ -18,33 +21,60 @@ _REPLY_S = 4.0
 class Membership:
     """One agent in the match of its bus."""
 
-    def __init__(self, bus: Bus, robot: str, launch_token: str | None) -> None:
-        """`launch_token` is the secret of the launch; None without one."""
+    def __init__(
+        self, bus: Bus, robot: str, launch_token: str | None, match: str | None = None, side: Side | None = None
+    ) -> None:
+        """`launch_token` is the secret of the launch; None without one.
+
+        `match` and `side` are those that the agent was started for; None for any.
+        """
         self._bus = bus
         source = f"process {os.getpid()} on {socket.gethostname()}"[:80]
-        side = bus.account.side if bus.account is not None else None
-        session = f"{side.value if side is not None else 's'}{SESSION_SEPARATOR}{secrets.token_hex(12)}"
-        self._claim = AgentClaim(robot=robot, session=session, launch_token=launch_token, source=source)
+        own = bus.account.side if bus.account is not None else None
+        self._claim = AgentClaim(
+            robot=robot,
+            session=f"{own.value if own is not None else 's'}{SESSION_SEPARATOR}{secrets.token_hex(12)}",
+            launch_token=launch_token,
+            match=match,
+            side=own or side,
+            program=f"touchline {installed_version('touchline')}",
+            source=source,
+        )
+        self._key = robot
+        """Robot on whose key the claim is sent: one that the account has, so that the host can refuse it."""
         self._is_declared = False
+
+    def fits(self, setup: Setup) -> bool:
+        """Whether this match has the robot that the agent was started for; a claim of another one is refused."""
+        sides = {robot: side for side, team in setup.teams.items() for robot in team.robots}
+        side = sides.get(self._claim.robot)
+        return side is not None and self._claim.side in (None, side) and self._claim.match in (None, setup.match)
 
     def join(self, setup: Setup, patience: float) -> None:
         """Claim the robot; again for each host that the agent meets.
 
         Raises:
-            TouchlineError: the host refuses, or does not reply for `patience` s of wall time.
+            TouchlineError: the credentials are none of a team, the host refuses, or it does not reply for `patience` s
+                of wall time.
         """
-        side = self._bus.account.side if self._bus.account is not None else None
-        if side is not None and self._claim.robot in setup.teams[side.opponent].robots:
-            raise TouchlineError(
-                f"{self._claim.robot} plays for {side.opponent}, and the credentials are those of {side}"
-            )
+        self._check_account()
         if not self._is_declared:
             self._declare(setup)
             self._is_declared = True
+        if not self.fits(setup) and self._bus.account is not None and self._bus.account.side is not None:
+            self._key = setup.teams[self._bus.account.side].robots[0]
         if setup.claims:
             reply = self._ask(patience)
             if not reply.accepted:
                 raise TouchlineError(f"{self._claim.robot}: refused by the host: {reply.reason}")
+
+    def _check_account(self) -> None:
+        account = self._bus.account
+        if account is not None and account not in (Account.CYAN, Account.MAGENTA):
+            raise TouchlineError(
+                f"{self._claim.robot}: these are the credentials of {account.value}; robots join with those of their "
+                f"side, {Account.CYAN.value}.json or {Account.MAGENTA.value}.json"
+            )
 
     def _declare(self, setup: Setup) -> None:
         """Declare the liveliness token; a host that is older than claims knows those of robots only."""
@@ -58,8 +88,10 @@ class Membership:
         deadline = clock.now() + max(patience, _REPLY_S)
         while True:
             try:
-                query = self._bus.query(ROBOT_CLAIM, self._claim, timeout=_REPLY_S, robot=self._claim.robot)
+                query = self._bus.query(ROBOT_CLAIM, self._claim, timeout=_REPLY_S, robot=self._key)
                 reply: AgentClaimReply = query.result(_REPLY_S + 0.5)
+            except RefusedQueryError as error:
+                raise TouchlineError(f"{self._claim.robot}: refused by the host: {error}") from None
             except NoReplyError as error:
                 if clock.now() >= deadline:
                     raise TouchlineError(

@@ -5,6 +5,7 @@ import sys
 from types import FrameType
 
 from robot_agent.brain_loader import load_brain
+from robot_agent.claim import Membership
 from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import serve
 from robot_agent.settings import AgentSettings
@@ -26,7 +27,7 @@ def run(settings: AgentSettings) -> int:
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:
-        return open_client(settings.match, clock, settings.connect, patience, settings.credentials)
+        return open_client(settings.match, clock, settings.connect, patience, settings.credentials, any_match=True)
 
     try:
         client = open_when_there(connect, clock, settings.patience, _report)
@@ -37,7 +38,8 @@ def run(settings: AgentSettings) -> int:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
                 return load_brain(settings.brain, Briefing.of(settings.robot, setup), settings.brain_folder)
 
-            return serve(bus, build, settings.robot, settings.patience, settings.launch_token)
+            membership = Membership(bus, settings.robot, settings.launch_token, settings.match, settings.side)
+            return serve(bus, build, settings.robot, settings.patience, membership)
     except KeyboardInterrupt:
         return 0
 

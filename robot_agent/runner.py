@@ -8,7 +8,7 @@ from robot_agent.brain_error import BrainError
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain
 from robot_agent.settings import FIRST_SIGHT_FAILED
-from schemas.bus.contract import Bus, NoReplyError
+from schemas.bus.contract import Bus, NoReplyError, RefusedQueryError
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
@@ -101,13 +101,15 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
     """How the match is set up; repeats the query until the host replies.
 
     Raises:
-        TouchlineError: no host for `patience` s of wall time.
+        TouchlineError: no host for `patience` s of wall time, or one of another version of the protocol.
     """
     clock = bus.clock
     deadline = clock.now() + patience
     while True:
         try:
             setup: Setup = bus.query(SETUP, SetupRequest(), timeout=_ASK).result(_ASK + 0.5)
+        except (RefusedQueryError, BadMessageError) as error:
+            raise TouchlineError(f"match {bus.match}: refused by the host: {error}") from None
         except NoReplyError as error:
             if clock.now() >= deadline:
                 raise TouchlineError(
@@ -120,11 +122,11 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
 
 
 def serve(
-    bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float, launch_token: str | None = None
+    bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float, membership: Membership | None = None
 ) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
 
-    `launch_token` is the secret of the launch that the agent belongs to; None without one.
+    `membership` is the agent's, by default that of one without a launch.
 
     The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
 
@@ -133,8 +135,10 @@ def serve(
     Raises:
         TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
     """
-    membership = Membership(bus, robot, launch_token)
+    membership = membership or Membership(bus, robot, None)
     setup = ask_setup(bus, patience)
+    if not membership.fits(setup):
+        membership.join(setup, patience)  # the host refuses it, and reports that on its side, too
     runner = Runner(bus, build(setup), robot)
     host = HostWatch(bus)
     membership.join(setup, patience)

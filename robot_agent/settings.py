@@ -7,6 +7,7 @@ from pydantic import Field
 
 from schemas.bus.settings import ClientSettings
 from schemas.config.settings import CommandLine
+from schemas.side import Side
 from schemas.wire.message import Name
 
 FIRST_SIGHT_FAILED = 3
@@ -22,6 +23,8 @@ class AgentSettings(ClientSettings):
     """module:Class, or module:function of a plain act(sight)."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory; a match uses that of its file."""
+    side: Annotated[Side | None, CommandLine(environment="TOUCHLINE_SIDE")] = None
+    """The robot's side; the host refuses a robot of the other one. By default it is not checked."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
     """Secret of the host that the agent joins; by default none."""
     patience: Annotated[float, Field(ge=0)] = 10.0

@@ -31,6 +31,7 @@ from touchline.commands import (
     scenes,
     schema,
     stats,
+    team,
     topics,
     verify,
     watch,
@@ -86,6 +87,7 @@ app.add_typer(recorder.app, name="recorder", rich_help_panel=OPERATE)
 
 app.command("host", rich_help_panel=PROCESSES)(host.host)
 app.command("agent", rich_help_panel=PROCESSES)(agent.agent)
+app.command("team", rich_help_panel=PROCESSES)(team.team)
 app.command("record", rich_help_panel=PROCESSES)(record.record)
 app.add_typer(credentials.app, name="credentials", rich_help_panel=PROCESSES)
 

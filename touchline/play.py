@@ -11,6 +11,7 @@ from pathlib import Path
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
 from schemas.game import Score
 from schemas.messages.command import Command
 from schemas.messages.game import GameEvent, RefereeAction
@@ -46,6 +47,9 @@ class InProcessMatch:
         self.simulation = Simulation(config)
         setup = self.simulation.setup()
         given = brains or {}
+        for robot in (robot for side in config.remote_sides for robot in config.robots(side)):
+            if robot not in given:
+                raise TouchlineError(f"{robot} is of a remote team, which a match in one process lacks; give its brain")
         self.brains = {
             name: given.get(name) or load_brain(config.team(side).brain or "", Briefing.of(name, setup), brain_folder)
             for side in Side

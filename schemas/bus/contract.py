@@ -42,6 +42,10 @@ class NoReplyError(Exception):
     """No reply arrived in time, or the server reported that there is none."""
 
 
+class RefusedQueryError(NoReplyError):
+    """The server has received the query, and reports why there is no reply."""
+
+
 class Stamp(NamedTuple):
     """Metadata that the bus sends with each message."""
 
@@ -182,7 +186,8 @@ class PendingReply(ABC):
         """The reply, waiting up to `timeout` s.
 
         Raises:
-            NoReplyError: no reply came, or the server reported that there is none, with the reason.
+            NoReplyError: no reply came.
+            RefusedQueryError: the server reported that there is none, with the reason.
             BadMessageError: the payload is not a reply of this topic.
         """
         assert self._topic.reply is not None

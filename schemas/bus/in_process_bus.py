@@ -16,6 +16,7 @@ from schemas.bus.contract import (
     Publisher,
     Query,
     ReceivedMessage,
+    RefusedQueryError,
     Server,
     Stamp,
     Subscription,
@@ -124,7 +125,7 @@ class _Query(Query):
         self._answer.mailbox.put("", payload)
 
     def fail(self, reason: str) -> None:
-        self._answer.mailbox.put("", reason)
+        self._answer.mailbox.put("", RefusedQueryError(reason))
 
 
 class _Server(Server):
@@ -138,14 +139,14 @@ class _Server(Server):
 class _PendingReply(PendingReply):
     def __init__(self, topic: Topic) -> None:
         super().__init__(topic)
-        self.mailbox: FifoMailbox[bytes | str] = FifoMailbox()
+        self.mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
 
     def payload(self, timeout: float) -> bytes:
         reply = self.mailbox.get(timeout)
         if reply is None:
             raise NoReplyError(f"no process answers {self._topic.key}")
-        if isinstance(reply, str):
-            raise NoReplyError(reply)
+        if isinstance(reply, NoReplyError):
+            raise reply
         return reply
 
 
@@ -223,7 +224,7 @@ class InProcessBus(Bus):
         servers = self.shared_state.servers
         server = servers.get(self.prefix + key) or servers.get(self.prefix + topic.fill())
         if server is None:
-            answer.mailbox.put("", f"no process answers {key}")
+            answer.mailbox.put("", NoReplyError(f"no process answers {key}"))
         else:
             server.mailbox.put("", _Query(topic, key, request.encode(), answer))
         return answer

@@ -39,6 +39,9 @@ from schemas.game import OfficiatingMode
 from schemas.side import Side
 from schemas.wire.message import Name, Part
 
+REMOTE = "remote"
+"""In place of a team: `magenta = "remote"` below [teams], short for `[teams.magenta]` with `remote = true`."""
+_REMOTE_KEYS = {f"teams.{side.value}.remote": side for side in Side}
 LOCKSTEP = "lockstep"
 """The pace at which the host waits for the answers of all robots."""
 
@@ -50,8 +53,8 @@ REMEDIES = {
     "scene": "the name of a scene, or a path that ends in .toml",
     **{f"scene.{key}": remedy for key, remedy in SCENE_REMEDIES.items()},
     "teams": "write [teams.cyan] and [teams.magenta]",
-    "teams.cyan": "write [teams.cyan], and below it the keys of the team",
-    "teams.magenta": "write [teams.magenta], and below it the keys of the team",
+    "teams.cyan": 'write [teams.cyan], and below it the keys of the team; or cyan = "remote" below [teams]',
+    "teams.magenta": 'write [teams.magenta], and below it the keys of the team; or magenta = "remote" below [teams]',
     "teams.cyan.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
@@ -164,6 +167,16 @@ class MatchConfig(Part):
         team = self.team(side)
         return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
 
+    @property
+    def remote_sides(self) -> tuple[Side, ...]:
+        """The sides whose robots are started elsewhere."""
+        return tuple(side for side in Side if self.team(side).remote)
+
+    @property
+    def longest_attendance(self) -> float:
+        """Longest wait for all robots before the first tick, in s of wall time."""
+        return self.patience.remote if self.remote_sides else self.patience.attendance
+
     def load_profile(self) -> Profile:
         """The profile that the match is played with.
 
@@ -209,6 +222,8 @@ def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> Ma
             raise TouchlineError(f"{path}: not TOML: {error}") from None
     for key, value in (overrides or {}).items():
         _set_at_path(content, key.split("."), value)
+        if value is True and key in _REMOTE_KEYS:
+            _drop_program(content["teams"], _REMOTE_KEYS[key])
     return _validate(_with_number_files(_with_scene(content), where), where)
 
 
@@ -243,11 +258,21 @@ def _set_at_path(content: dict[str, Any], path: list[str], value: Any) -> None:
     content[path[-1]] = value
 
 
+def _drop_program(teams: Any, side: Side) -> None:
+    """Leave the team's program out: a team that an option makes remote keeps the name and the robots of the file."""
+    team = teams.get(side.value) if isinstance(teams, dict) else None
+    if isinstance(team, dict):
+        team.pop("brain", None)
+        team.pop("command", None)
+
+
 def _validate(content: dict[str, Any], where: str) -> MatchConfig:
     for side, default in (("cyan", default_cyan()), ("magenta", default_magenta())):
         teams = content.get("teams")
         team = teams.get(side) if isinstance(teams, dict) else None
-        if isinstance(team, dict) and not {"brain", "command"} & set(team):
+        if isinstance(teams, dict) and team == REMOTE:
+            team = teams[side] = {"remote": True}
+        if isinstance(team, dict) and not {"brain", "command"} & set(team) and team.get("remote") is not True:
             team["brain"] = default.brain
             team.setdefault("name", default.name)
     return validate_tables(MatchConfig, content, where, REMEDIES)

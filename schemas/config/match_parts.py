@@ -25,6 +25,8 @@ class TeamConfig(Part):
     """`module:Class` of a brain in Python; each robot's process constructs one instance."""
     command: list[str] | None = None
     """Command line of a program in any language, in place of a brain; environment variables name its robot."""
+    remote: bool = False
+    """The robots' programs are started on other machines, with `touchline team` or `touchline agent`."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
     """Number of robots, where `robots` does not name them."""
     robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
@@ -36,6 +38,8 @@ class TeamConfig(Part):
     def _check_brain_or_command(self) -> "TeamConfig":
         if self.brain is not None and self.command is not None:
             raise ValueError("brain and command are both given; a team has one or the other")
+        if self.remote and (self.brain or self.command) is not None:
+            raise ValueError("the team is remote, and is started elsewhere; leave brain and command out")
         return self
 
 
@@ -123,8 +127,10 @@ class RecordingConfig(RecordOptions):
 class Patience(Part):
     """How long the host waits, in s of wall time."""
 
-    attendance: Annotated[float, Field(ge=0, le=600)] = 30.0
+    attendance: Annotated[float, Field(ge=0, le=86_400)] = 30.0
     """Longest wait for all robots before the first tick, in s."""
+    remote: Annotated[float, Field(ge=0, le=86_400)] = 86_400.0
+    """Longest wait for the robots of a remote team before the first tick, in s."""
     answer: Annotated[float, Field(gt=0, le=60)] = 1.0
     """Lockstep: longest wait for a robot's answer to one tick, in s."""
     recorder: Annotated[float, Field(gt=0, le=600)] = 5.0

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from schemas.side import Side
 from schemas.wire.message import Message, Name, Source
 
 
@@ -20,6 +21,12 @@ class AgentClaim(Message):
     """Name of the agent's liveliness token, which no other agent has."""
     launch_token: Annotated[str, Field(max_length=64)] | None = None
     """Secret of the launch, from the environment variable TOUCHLINE_LAUNCH_TOKEN; None without one."""
+    match: Name | None = None
+    """Name of the match that the agent was started for; None for any."""
+    side: Side | None = None
+    """Side that the agent was started for; None for any."""
+    program: Source = ""
+    """Name and version of the agent's program, for display: `touchline 0.1.0`."""
     source: Source = ""
     """Where the agent runs, for display: `process 4711 on lab3`."""
 

@@ -129,7 +129,14 @@ def _game() -> tuple[WireMessage, ...]:
 def _host() -> tuple[WireMessage, ...]:
     return (
         SetupRequest(),
-        AgentClaim(robot="cyan2", session="s5f0c6e1d9b3a", source="process 4711 on lab3"),
+        AgentClaim(
+            robot="cyan2",
+            session="s5f0c6e1d9b3a",
+            match="friendly",
+            side=Side.CYAN,
+            program="touchline 0.1.0",
+            source="process 4711 on lab3",
+        ),
         AgentClaimReply(accepted=False, reason="cyan2 has an agent already: process 4703 on lab2"),
         _setup(),
         *_parameters(),

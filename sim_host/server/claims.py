@@ -1,9 +1,9 @@
 """Which agent plays which robot: decides the claims of agents. Knows no bus."""
 
-import hmac
 from dataclasses import dataclass, field
 
 from schemas.messages.claim import AgentClaim
+from sim_host.server.eligibility import Eligibility
 
 _MOST = 200
 """Most robots, and most sessions, that are remembered; a flood of invented names must not fill the memory."""
@@ -24,8 +24,8 @@ class Claims:
     A session whose link was broken gets its robot back if no other agent has claimed it meanwhile.
     """
 
-    launch_token: str | None = None
-    """Secret that an agent must know; None admits every agent."""
+    eligibility: Eligibility
+    """Which claims fit the match."""
     holders: dict[str, Holder] = field(default_factory=dict)
     """Robot → its agent."""
     _unclaimed: set[str] = field(default_factory=set)
@@ -47,20 +47,18 @@ class Claims:
 
     def is_present(self, robot: str) -> bool:
         """Whether the robot has an agent that may play it."""
-        return robot in self.holders or (self.launch_token is None and robot in self._unclaimed)
+        return robot in self.holders or (robot in self._unclaimed and not self.eligibility.needs_token(robot))
 
     def admits(self, robot: str) -> bool:
         """Whether commands on this robot's key are from an agent that may play it, as far as the host can know."""
-        return self.launch_token is None or robot in self.holders
+        return robot in self.holders or not self.eligibility.needs_token(robot)
 
     def refusal(self, claim: AgentClaim) -> str:
         """Why the claim cannot succeed at any time; empty if it can."""
-        given = (claim.launch_token or "").encode()
-        if self.launch_token is not None and not hmac.compare_digest(given, self.launch_token.encode()):
-            return "the host admits only agents of its own launch, which know TOUCHLINE_LAUNCH_TOKEN"
-        if claim.robot not in self.holders and len(self.holders) >= _MOST:
+        reason = self.eligibility.refusal(claim)
+        if not reason and claim.robot not in self.holders and len(self.holders) >= _MOST:
             return f"the host has {_MOST} agents already"
-        return ""
+        return reason
 
     def obstacle(self, claim: AgentClaim) -> str:
         """Why the claim does not succeed at present; empty if it does."""
@@ -69,13 +67,19 @@ class Claims:
             return f"the liveliness token alive/session/{claim.session} is missing; declare it before the claim"
         if holder is not None:
             return "" if holder.session == claim.session else f"{claim.robot} has an agent already: {holder.source}"
-        if self.launch_token is None and claim.robot in self._unclaimed:
+        if claim.robot in self._unclaimed and not self.eligibility.needs_token(claim.robot):
             return f"{claim.robot} has an agent already, which has made no claim"
         return ""
 
     def grant(self, claim: AgentClaim) -> None:
         """Make the robot the agent's."""
-        self.holders[claim.robot] = Holder(claim.session, claim.source or "an agent without a description")
+        described = ", ".join(filter(None, (claim.source, claim.program)))
+        self.holders[claim.robot] = Holder(claim.session, described or "an agent without a description")
+
+    def source(self, robot: str) -> str:
+        """The agent of a robot, as it has described itself; empty for one that has made no claim."""
+        holder = self.holders.get(robot)
+        return holder.source if holder is not None else ""
 
     def _restore(self, session: str) -> str | None:
         if len(self._sessions) < _MOST:

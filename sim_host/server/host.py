@@ -17,6 +17,7 @@ from sim_host.server.account_limits import AccountLimits
 from sim_host.server.account_supervision import AccountSupervision
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
 from sim_host.server.admission import Admission
+from sim_host.server.eligibility import Eligibility
 from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
@@ -52,7 +53,7 @@ class Host:
         Args:
             config: the match.
             bus: the host's bus.
-            launch_token: only agents that know it may play; None admits every agent.
+            launch_token: only agents that know it may play for a side that is not remote; None admits every agent.
             recorders: recorders that a lockstep host waits for, beside those of the match file.
             has_accounts: credentials bind each key to an account.
             forgiving: no account is cut off, as the match file may also set.
@@ -63,6 +64,7 @@ class Host:
         admission = Admission([*config.record.admit, *recorders], self.accounts, any_recorder=has_accounts)
         self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches, self.accounts)
+        self._eligibility = Eligibility.of(config, launch_token)
         self.presence = PresenceTracker(
             bus,
             self.inbox.agent_stats,
@@ -70,7 +72,7 @@ class Host:
             self._invalid_log,
             self.accounts,
             admission,
-            launch_token,
+            self._eligibility,
         )
         self._manual = ManualControl(bus, self._invalid_log, self.accounts)
         self._first = self.simulation.now, self.simulation.state
@@ -78,7 +80,14 @@ class Host:
         self._clock = bus.clock
         self._seat = RefereeSeat()
         self._services = Services(
-            bus, self.simulation, self._invalid_log, self._batches, self._seat, self.accounts, admission
+            bus,
+            self.simulation,
+            self._invalid_log,
+            self._batches,
+            self._seat,
+            self.accounts,
+            admission,
+            self.presence.add_refusal,
         )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
         self._supervision = AccountSupervision(bus, self.accounts, admission, self.inbox.agent_stats)
@@ -114,7 +123,7 @@ class Host:
 
     def wait_for_all(self) -> None:
         """Wait until every robot has an agent, until patience runs out, or until a referee action is requested."""
-        deadline = self._clock.now() + self._config.patience.attendance
+        deadline = self._clock.now() + self._config.longest_attendance
         while not self.presence.all_present(self._config.record.wait) and self._clock.now() < deadline:
             if self.stopping:
                 return
@@ -186,6 +195,7 @@ class Host:
         self._services.process()
         roster = self.simulation.roster
         if (roster.names, roster.sides, roster.still) != (self._roster.names, self._roster.sides, self._roster.still):
+            self._eligibility.add_robots(dict(zip(roster.names, roster.sides, strict=True)))
             self.inbox.set_roster(roster)
             self.presence.refresh_agents()
             self._outbox.set_roster(roster)
@@ -238,11 +248,23 @@ class Host:
             text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
             self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
 
+    def _log_agents(self) -> None:
+        """Log agents that have joined or left."""
+        for change in self.presence.pop_changes():
+            missing = self.presence.missing_agents()
+            still = f"; missing: {', '.join(missing)}" if missing else ""
+            joined = f"joined: {self.presence.agent_source(change.name)}" if change.alive else "left"
+            log.info("%s %s%s", change.name, joined, still)
+
     def _report_refusals(self, tick: TickResult) -> None:
         """Publish an event for each agent that was refused, and for each change of the referee's seat."""
+        self._log_agents()
         for refusal in self.presence.pop_refusals():
             log.warning(refusal.text)
-            self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
+            if refusal.robot in self._roster.names:
+                self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
+            else:
+                self._publish_report(tick, "claim", refusal.text)
         for text in self._seat.pop_changes():
             log.warning(text)
             self._publish_report(tick, "referee_seat", text)

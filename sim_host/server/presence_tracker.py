@@ -9,6 +9,7 @@ from sim_host.server.account_limits import AccountLimits
 from sim_host.server.admission import Admission
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.claims import Claims
+from sim_host.server.eligibility import Eligibility
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.server.services.claim_handler import ClaimHandler, Refusal
 
@@ -32,7 +33,7 @@ class PresenceTracker:
         invalid_log: InvalidLog,
         accounts: AccountLimits,
         admission: Admission,
-        launch_token: str | None = None,
+        eligibility: Eligibility,
     ) -> None:
         """`patience` is the wall time in s after which a recorder with a broken link is dropped."""
         self._clock = bus.clock
@@ -42,7 +43,7 @@ class PresenceTracker:
         self._agent_stats = agent_stats
         self._accounts = accounts
         self._admission = admission
-        self._claims = Claims(launch_token)
+        self._claims = Claims(eligibility)
         self._claim_handler = ClaimHandler(bus, self._claims, invalid_log)
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
         """Name → whether the process is present, once it has joined."""
@@ -50,6 +51,7 @@ class PresenceTracker:
         """Recorder → the newest tick it has read; a recorder with a broken link stays until it is dropped."""
         self._gone_referees: list[str] = []
         """Names of referees whose gateway has gone since the last `pop_gone_referees`."""
+        self._changes: list[Presence] = []
         self._sight_recorders: set[str] = set()
         """Recorders that request sights."""
         self._lost: dict[str, float] = {}
@@ -79,7 +81,14 @@ class PresenceTracker:
         changed += self._claim_handler.decide()
         self.receive_progress(0.0)
         self._drop_lost_recorders()
-        return [presence for robot in changed if (presence := self._refresh(robot)) is not None]
+        changes = [presence for robot in changed if (presence := self._refresh(robot)) is not None]
+        self._changes += changes
+        return changes
+
+    def pop_changes(self) -> list[Presence]:
+        """The agents that joined or left since the last call."""
+        changes, self._changes = self._changes, []
+        return changes
 
     def refresh_agents(self) -> None:
         """Update the statistics after a change of the roster: an agent may have joined before its robot."""
@@ -91,6 +100,10 @@ class PresenceTracker:
         handler = self._claim_handler
         refusals, handler.refusals = handler.refusals, []
         return refusals
+
+    def add_refusal(self, text: str) -> None:
+        """Report a process that was refused before it made a claim."""
+        self._claim_handler.add_refusal(text)
 
     def pop_gone_referees(self) -> list[str]:
         """Referees that have gone since the last call."""
@@ -171,8 +184,15 @@ class PresenceTracker:
 
     def all_present(self, wait_for_recorder: bool) -> bool:
         """Whether every robot has an agent, and, with `wait_for_recorder`, a recorder is present."""
-        agents = all(stats.alive or stats.idle for stats in self._agent_stats.values())
-        return agents and (bool(self.recorders) or not wait_for_recorder)
+        return not self.missing_agents() and (bool(self.recorders) or not wait_for_recorder)
+
+    def missing_agents(self) -> list[str]:
+        """Robots that have a body to move and no agent."""
+        return [name for name, stats in self._agent_stats.items() if not (stats.alive or stats.idle)]
+
+    def agent_source(self, robot: str) -> str:
+        """Where the agent of a robot runs, as it has reported; empty for one that has made no claim."""
+        return self._claims.source(robot)
 
     def awaited_recorders(self) -> dict[str, int]:
         """Recorder → the newest tick it has read, of the recorders that a lockstep host waits for."""

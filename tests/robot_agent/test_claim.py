@@ -10,6 +10,7 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
 from schemas.process.clock import SteppedClock
+from schemas.side import Side
 from schemas.topics import ROBOT_CLAIM
 
 
@@ -77,6 +78,14 @@ def test_a_refused_agent_ends_with_the_reason(host_of, setup):
     with pytest.raises(TouchlineError) as error:
         Membership(host.agent_bus, "cyan1", None).join(setup.model_copy(update={"claims": True}), 1.0)
     assert str(error.value) == "cyan1: refused by the host: cyan1 has an agent already: process 4711 on lab3"
+
+
+def test_an_agent_reports_match_side_and_program(host_of, setup):
+    host = host_of(accepted=True)
+    Membership(host.agent_bus, "cyan1", None, "final", Side.CYAN).join(setup.model_copy(update={"claims": True}), 1.0)
+    (claim,) = host.claims
+    assert (claim.match, claim.side) == ("final", Side.CYAN)
+    assert claim.program.startswith("touchline ")
 
 
 def test_an_agent_of_a_host_without_claims_declares_the_token_of_its_robot(host_of, setup):

@@ -4,24 +4,32 @@ from typing import Annotated, Any
 
 import typer
 
+from schemas.config.match_parts import Patience
 from sim_host import run
 from sim_host.server.settings import HostSettings
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
+_ALWAYS_S = 86_400.0
+"""Wall time for which a host on its own waits for its robots, which people start on other machines, s."""
+
 
 @with_option_groups
 def host(
     match: options.MatchOptions,
+    waiting: Annotated[dict[str, Any], FieldsOf(Patience, attendance="wait")],
     more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement")],
 ) -> None:
-    """Run the simulation host of a match; robots join with `touchline agent`.
+    """Run the simulation host of a match; robots join with `touchline agent` or `touchline team`.
 
-    The host ends when the match is over, or at Ctrl-C.
+    The match begins when all robots are there, after --wait seconds, or at `touchline referee start`. The host ends
+    when the match is over, or at Ctrl-C.
 
     Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --credentials credentials/host.json
     """
-    config = match.read()
+    config = match.read(**{f"patience__{key}": value for key, value in waiting.items()})
+    if "attendance" not in config.patience.model_fields_set:
+        config = config.model_copy(update={"patience": config.patience.model_copy(update={"attendance": _ALWAYS_S})})
     match.endpoint()  # checked before the host is loaded
     settings = HostSettings(config=config, **match.listening.model_dump(), **more)
     raise typer.Exit(run(settings))

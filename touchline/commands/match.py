@@ -12,9 +12,12 @@ import typer
 
 from coach_gateway.settings import BridgeOptions
 from schemas.access.certificates import need_trustme
+from schemas.bus.endpoint import ENCRYPTED, parse_endpoint
 from schemas.bus.settings import ListenSettings
+from schemas.config.match_parts import Patience
 from schemas.config.settings import RecordOptions
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
@@ -35,6 +38,9 @@ def match(
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
+    remote: Annotated[
+        Side | None, typer.Option(help="This side's robots join from another machine, with touchline team.")
+    ] = None,
     tls: Annotated[
         bool, typer.Option("--tls", help="Encrypt all connections, with a certificate made for this match.")
     ] = False,
@@ -42,6 +48,7 @@ def match(
     json: options.Json = False,
     *,
     played: options.MatchOptions,
+    waiting: Annotated[dict[str, Any], FieldsOf(Patience, remote="wait")],
     recording: Annotated[dict[str, Any], FieldsOf(RecordOptions)],
     page: options.PageOptions,
     bridges: BridgeOptions,
@@ -52,6 +59,7 @@ def match(
     --web serves a page to watch and command the match in a browser. --udp, --refbox and --refbox-server connect coach
     programs, league boxes and team software. With any of these the default of --pace is realtime. With --refbox the
     default of --referee is manual, because the league's box decides.
+    With --remote, or a remote team in the match file, the match waits for that team and prints how it joins.
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
@@ -68,6 +76,8 @@ def match(
         played.officiating.setdefault("mode", "manual")  # the league's box decides
     config = played.read(
         **{f"teams__{side}": team for side, team in teams.items()},
+        **({f"teams__{remote}__remote": True} if remote is not None else {}),
+        **{f"patience__{key}": value for key, value in waiting.items()},
         **{f"record__{key}": value for key, value in recording.items()},
         record__wait=not no_record,
     )
@@ -76,7 +86,7 @@ def match(
     check_robot_names(config)
     brain_folder = played.file.parent if played.file is not None else None
     check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
-    endpoint = played.endpoint()
+    endpoint = _endpoint(played.listening, tls=tls)
     _check_tls(played.listening, tls=tls)
     clock = WallClock()
     served = _open_page(page) if web else None
@@ -99,6 +109,17 @@ def match(
 
 
 # Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
+
+
+def _endpoint(listening: ListenSettings, *, tls: bool) -> str | None:
+    """The endpoint to listen on. Others may reach it: a match that is given no credentials makes its own.
+
+    Raises:
+        TouchlineError: it needs a certificate, and none is to be made.
+    """
+    makes_own = listening.credentials is None and not listening.insecure
+    needs_tls = listening.listen is not None and parse_endpoint(listening.listen)[0] in ENCRYPTED
+    return listening.listen if makes_own and (tls or not needs_tls) else options.endpoint_of(listening)
 
 
 def _check_tls(listening: ListenSettings, *, tls: bool) -> None:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from schemas.bus.contract import Bus
     from schemas.bus.zenoh.bus import ZenohBus
     from schemas.process.clock import Clock
-    from touchline.launch.match_run import StopSignals
+    from touchline.launch.stop_signals import StopSignals
     from touchline.launch.supervisor import Notice
 
 
@@ -87,8 +87,8 @@ def replay(
     from recordings.container.key_selection import KeySelection
     from recordings.replay.replay import Replay, ReplaySettings
     from schemas.process.clock import WallClock
-    from touchline.launch.match_run import StopSignals
     from touchline.launch.page import open_page, serve_page_beside
+    from touchline.launch.stop_signals import StopSignals
 
     opened_page = open_page(page) if web else None
     settings = ReplaySettings(

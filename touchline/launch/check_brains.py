@@ -36,13 +36,14 @@ def check_teams(
     Raises:
         TouchlineError: a program does not exist, or a brain cannot be built; the message names its key.
     """
-    for side in Side:
+    here = [side for side in Side if side not in config.remote_sides]
+    for side in here:
         team = config.team(side)
         if team.command is not None:
             _check_program(f"teams.{side.value}.command", team.command)
     with ExitStack() as running:
         checks = []
-        for side in (side for side in Side if config.team(side).command is None):
+        for side in (side for side in here if config.team(side).command is None):
             log = running.enter_context(tempfile.TemporaryFile())
             checks.append(_BuildCheck(config, side, brain_folder, log))
             running.callback(checks[-1].end)

@@ -1,14 +1,12 @@
 """A whole match: launches, watches and ends its processes, and returns the result."""
 
 import shutil
-import signal
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from types import FrameType, TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text, event_line
@@ -25,6 +23,7 @@ from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
+from touchline.launch.join_command import join_lines
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.page import address_lines
 from touchline.launch.page_probe import AddressLines
@@ -42,7 +41,9 @@ from touchline.launch.recording_outcome import (
     finished_recording,
     unfinished_recording,
 )
+from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import NOTABLE, MatchResult
+from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor, ending
 from touchline.watch.agent_faults import SlowAgents
 from touchline.watch.screen import Screen
@@ -74,29 +75,6 @@ class InterruptedMatchError(Exception):
         self.number = number
 
 
-class StopSignals:
-    """Within the block SIGINT and SIGTERM are stored instead of raised."""
-
-    def __init__(self) -> None:
-        self.received: int | None = None
-        self._before: dict[int, object] = {}
-
-    def __enter__(self) -> Self:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            self._before[number] = signal.signal(number, self._note)
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        for number, handler in self._before.items():
-            signal.signal(number, handler)  # type: ignore[arg-type]
-
-    def _note(self, number: int, frame: FrameType | None) -> None:
-        del frame
-        self.received = self.received or number
-
-
 class MatchRun:
     """One match from launch to result."""
 
@@ -118,6 +96,7 @@ class MatchRun:
         self._has_clients = False
         self._names = TeamNames.of_match(plan.config)
         self._slow_agents = SlowAgents()
+        self._remote = RemoteTeams(plan.config)
         self._logs: dict[str, Path] = {}
         self._log_limit = LogLimit()
         self._fork_server = ForkServer()
@@ -197,6 +176,10 @@ class MatchRun:
                 self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
                 if self._names != SIDES_ALONE:
                     self._screen.event(str(self._names), notable=True)
+                for line in join_lines(
+                    self._plan.config, self._plan.listen, announcement.endpoint, self._plan.credentials
+                ):
+                    self._screen.event(line, notable=True)
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
@@ -248,7 +231,9 @@ class MatchRun:
         return stop.received is None and self._supervisor.host_status is not None
 
     def _empty_side(self) -> Side | None:
-        """A side of which no robot is left; None while both play."""
+        """A side of which no robot is left, or has come; None while both play."""
+        if self._remote.absent is not None:
+            return self._remote.absent
         return next((side for side in Side if self._supervisor.has_no_robot(self._plan.config.robots(side))), None)
 
     def _show(self, follower: MatchFollower) -> None:
@@ -261,10 +246,15 @@ class MatchRun:
             elif isinstance(message, Health):
                 for sentence in self._slow_agents.update(message):
                     self._screen.warn(sentence)
-        self._screen.status(status_line(follower, self._robots, self._names))
+                for line in self._remote.update(message, self._clock.now()):
+                    self._screen.event(line, notable=True)
+        waiting = self._remote.waiting(follower.health) if follower.health is not None else ""
+        self._screen.status(waiting or status_line(follower, self._robots, self._names))
 
     def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:
         """Why a match ended, of which one side has no robot left."""
+        if side is self._remote.absent:
+            return self._remote.absence(side)
         state = follower.state if follower is not None else None
         when = (
             f"at {clock_text(state.clock)}, {self._names.score(state.score)}"

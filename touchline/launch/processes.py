@@ -1,7 +1,7 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
 import socket
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
@@ -225,8 +225,8 @@ def client_processes(plan: MatchPlan) -> list[Process]:
             config=config,
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
-    for side in Side:
-        processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
+    for side in (side for side in Side if side not in config.remote_sides):
+        processes += [_robot_of(robot, side, plan) for robot in config.robots(side)]
     operator = plan.credentials_of(Account.OPERATOR)  # a gateway officiates, and gives the orders of both coaches
     gateway = GatewaySettings(connect=connect, match=match, credentials=operator, tokens=plan.tokens)
     if plan.page is not None:
@@ -243,34 +243,38 @@ def page_process(settings: GatewaySettings, listener: socket.socket, folder: Pat
     return _process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
-def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
-    """A robot's brain, or its team's own program, which reads the robot's name from its environment."""
+def _robot_of(robot: str, side: Side, plan: MatchPlan) -> Process:
+    """The process of one robot of a match."""
     team = plan.config.team(side)
-    environment = {
-        **ROBOT_ENVIRONMENT,
-        "TOUCHLINE_CONNECT": plan.connect,
-        "TOUCHLINE_MATCH": plan.config.name,
-        "TOUCHLINE_ROBOT": robot,
-        "TOUCHLINE_SIDE": side.value,
-    }
-    if plan.launch_token is not None:
-        environment["TOUCHLINE_LAUNCH_TOKEN"] = plan.launch_token
-    credentials = plan.credentials_of(Account.of_team(side))
-    if credentials is not None:
-        environment["TOUCHLINE_CREDENTIALS"] = str(credentials.resolve())
-    if team.command:
-        restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(robot, ProcessKind.AGENT, tuple(team.command), environment, restarts)
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
-        credentials=credentials,
+        credentials=plan.credentials_of(Account.of_team(side)),
         robot=robot,
         brain=team.brain or "",
         brain_folder=plan.brain_folder,
         launch_token=plan.launch_token,
     )
-    return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
+    return robot_process(settings, side, team.command, plan.folder)
+
+
+def robot_process(settings: AgentSettings, side: Side, command: Sequence[str] | None, folder: Path) -> Process:
+    """A robot's brain, or its team's own program, which reads what the settings say from its environment."""
+    credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
+    environment = {
+        **ROBOT_ENVIRONMENT,
+        "TOUCHLINE_CONNECT": settings.connect,
+        "TOUCHLINE_MATCH": settings.match,
+        "TOUCHLINE_ROBOT": settings.robot,
+        "TOUCHLINE_SIDE": side.value,
+        "TOUCHLINE_LAUNCH_TOKEN": settings.launch_token,
+        "TOUCHLINE_CREDENTIALS": credentials,
+    }
+    given = {name: value for name, value in environment.items() if value is not None}
+    if command:
+        restarts = PROCESSES[ProcessKind.AGENT].restarts
+        return Process(settings.robot, ProcessKind.AGENT, tuple(command), given, restarts)
+    return _process(settings.robot, ProcessKind.AGENT, settings, folder, given)
 
 
 def _process(

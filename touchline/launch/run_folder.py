@@ -5,9 +5,11 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
+from schemas.bus.endpoint import is_loopback
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
+from touchline.launch.own_address import names_for_others
 from touchline.launch.processes import CREDENTIALS, MatchPlan
 
 RUNS = Path("runs")
@@ -27,8 +29,7 @@ def prepare_run(
     Raises:
         TouchlineError: the folder cannot be made or written.
     """
-    moment = datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC)
-    stem = f"{config.name}-{moment:%Y%m%dT%H%M%SZ}-seed{config.seed}"
+    stem = f"{config.name}-{_moment(clock)}-seed{config.seed}"
     try:
         folder = _new_folder(stem)
         out = (recording or folder / RECORDING) if recorded else None
@@ -42,6 +43,22 @@ def prepare_run(
     return plan
 
 
+def new_run_folder(name: str, clock: Clock) -> Path:
+    """A new folder of this name and the present moment.
+
+    Raises:
+        TouchlineError: the folder cannot be made.
+    """
+    try:
+        return _new_folder(f"{name}-{_moment(clock)}")
+    except OSError as error:
+        raise TouchlineError(f"{error.filename}: {error.strerror}; logs are written under ./{RUNS}") from None
+
+
+def _moment(clock: Clock) -> str:
+    return f"{datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC):%Y%m%dT%H%M%SZ}"
+
+
 def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
     """The plan with new credentials for this match alone, in its folder.
 
@@ -52,8 +69,9 @@ def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
     from schemas.access.credentials import new_credentials, write_credentials
 
     folder = plan.folder / CREDENTIALS
+    names = () if plan.listen is None or is_loopback(plan.listen) else names_for_others(plan.listen)
     try:
-        write_credentials(folder, new_credentials(plan.config.name, make_certificate() if tls else None))
+        write_credentials(folder, new_credentials(plan.config.name, make_certificate(names) if tls else None))
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its credentials there") from None
     return with_credentials(plan, folder)

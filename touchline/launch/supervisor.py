@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from robot_agent.settings import FIRST_SIGHT_FAILED
+from schemas.config.settings_file import WRONG
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from touchline.launch.processes import Process, ProcessKind
@@ -176,6 +177,7 @@ class Supervisor:
     def _restart(self, process: Process, status: int) -> str:
         """Launch a crashed process again if that is allowed and possible; returns what was done."""
         fails_always = _failed_at_first_sight(process, status) and not self._restarts[process.name]
+        fails_always = fails_always or _cannot_begin(process, status)
         if self._restarts[process.name] < process.restarts and not fails_always:
             self._restarts[process.name] += 1
             try:
@@ -191,6 +193,11 @@ class Supervisor:
 def _failed_at_first_sight(process: Process, status: int | None) -> bool:
     """Whether a brain failed at its first sight; a team's own program may use the same status."""
     return process.settings is not None and status == FIRST_SIGHT_FAILED
+
+
+def _cannot_begin(process: Process, status: int) -> bool:
+    """Whether a robot cannot begin: its host refuses it, or its brain cannot be built."""
+    return process.settings is not None and process.kind is ProcessKind.AGENT and status == WRONG
 
 
 def _ending(process: Process, status: int) -> str:

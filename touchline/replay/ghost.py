@@ -14,6 +14,7 @@ from types import FrameType
 from typing import Any
 
 from recordings.reading.recording import Recording, open_recording
+from robot_agent.claim import Membership
 from robot_agent.runner import serve
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.match_config import LOCKSTEP, MatchConfig
@@ -129,7 +130,8 @@ def main(arguments: list[str] | None = None) -> int:
             _PATIENCE_S,
             Path(file_of_account) if file_of_account else None,
         ) as bus:
-            return serve(bus, build, robot, _PATIENCE_S, os.environ.get("TOUCHLINE_LAUNCH_TOKEN"))
+            membership = Membership(bus, robot, os.environ.get("TOUCHLINE_LAUNCH_TOKEN"))
+            return serve(bus, build, robot, _PATIENCE_S, membership)
     except TouchlineError as error:
         sys.stderr.write(f"{error}\n")
         return 2

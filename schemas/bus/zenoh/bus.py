@@ -27,7 +27,7 @@ from schemas.bus.contract import (
 )
 from schemas.bus.endpoint import is_cut_off
 from schemas.bus.mailbox import FifoMailbox
-from schemas.bus.zenoh.match_at import match_at
+from schemas.bus.zenoh.match_at import hosts_of, match_at, other_match
 from schemas.bus.zenoh.newest import ZenohNewest
 from schemas.bus.zenoh.presence import ZenohPresenceWatch
 from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer
@@ -74,8 +74,13 @@ def open_client(
     patience: float = 10.0,
     credentials: Path | None = None,
     account: Account | None = None,
+    *,
+    any_match: bool = False,
 ) -> "ZenohBus":
     """Open a client's bus, with attempts for `patience` s of wall time.
+
+    With `any_match` it is the bus of the only match at the endpoint even if that has another name, for clients that the
+    host is to refuse.
 
     Without an endpoint it connects to the running match of this machine, without a name to the match at the endpoint.
 
@@ -105,7 +110,11 @@ def open_client(
             raise
         session, endpoint = open_connection(connect, clock, patience, known)
     try:
-        name = match or match_at(session, endpoint, clock, deadline)
+        name = match_at(session, endpoint, clock, deadline) if match is None else match
+        if match is not None and match not in (others := hosts_of(session)) and others:
+            if not any_match or len(others) > 1:
+                raise BusError(other_match(endpoint, match, others))
+            (name,) = others
     except BaseException:
         session.close()  # type: ignore[no-untyped-call]
         raise

@@ -20,7 +20,7 @@ def match_at(session: zenoh.Session, connect: str, clock: Clock, deadline: float
     Raises:
         BusError: no match is played there, or more than one.
     """
-    while not (names := _names(session)):
+    while not (names := hosts_of(session)):
         if clock.now() >= deadline:
             raise BusError(f"--connect {connect}: no match is played there; start one with `touchline match`")
         clock.sleep_until(clock.now() + _PAUSE_S)
@@ -29,7 +29,13 @@ def match_at(session: zenoh.Session, connect: str, clock: Clock, deadline: float
     return names.pop()
 
 
-def _names(session: zenoh.Session) -> set[str]:
+def other_match(connect: str, match: str, played: set[str]) -> str:
+    """The error of a client of this match at an endpoint where others are played."""
+    names = ", ".join(f'"{name}"' for name in sorted(played))
+    return f"--match {match}: the host at {connect} plays {names}; leave --match out, or give another --connect"
+
+
+def hosts_of(session: zenoh.Session) -> set[str]:
     """The matches whose hosts are present."""
     replies = session.liveliness().get(_ALL_HOSTS, timeout=_REPLY_S)
     keys = [str(reply.ok.key_expr) for reply in replies if reply.ok is not None]

@@ -8,6 +8,7 @@ from schemas.bus.contract import (
     NoReplyError,
     PendingReply,
     Query,
+    RefusedQueryError,
     Server,
 )
 from schemas.bus.mailbox import FifoMailbox
@@ -16,6 +17,8 @@ from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 from schemas.wire.message import WireMessage
 
+_EXPIRED = "Timeout"
+"""Zenoh's own text in place of a reply that did not come in time."""
 MAX_WAITING = 64
 """Most queries of one topic that wait; those beyond it are dropped, as when no process answers."""
 TOO_MANY = "too many queries wait"
@@ -70,17 +73,18 @@ class ZenohPendingReply(PendingReply):
     ) -> None:
         super().__init__(topic)
         self._key = key
-        mailbox: FifoMailbox[bytes | str] = FifoMailbox()
+        mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
         self._mailbox = mailbox
 
         def receive(reply: zenoh.Reply) -> None:
             if reply.ok is not None:
                 mailbox.put("", reply.ok.payload.to_bytes())
             elif reply.err is not None:
-                mailbox.put("", reply.err.payload.to_string())
+                reason = reply.err.payload.to_string()
+                mailbox.put("", NoReplyError(reason) if reason == _EXPIRED else RefusedQueryError(reason))
 
         def end() -> None:
-            mailbox.put("", f"no process answers {key}")
+            mailbox.put("", NoReplyError(f"no process answers {key}"))
 
         context.session.get(
             context.prefix + key,
@@ -94,6 +98,6 @@ class ZenohPendingReply(PendingReply):
         reply = self._mailbox.get(timeout)
         if reply is None:
             raise NoReplyError(f"no process answers {self._key} within {timeout:g} s")
-        if isinstance(reply, str):
-            raise NoReplyError(reply)
+        if isinstance(reply, NoReplyError):
+            raise reply
         return reply

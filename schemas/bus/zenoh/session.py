@@ -16,6 +16,7 @@ from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError, Ref
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port, with_tls
 from schemas.bus.zenoh.protection_settings import client_settings, router_settings
 from schemas.bus.zenoh.refusal import refusal_at
+from schemas.bus.zenoh.unreachable import why_unreachable
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 
@@ -139,9 +140,7 @@ def open_connection(
             if refusal is not None:
                 raise RefusedClientError(refusal) from None
             if clock.now() >= deadline:
-                raise BusError(
-                    f"--connect {connect}: no host answers there; start one with `touchline host`, or name its endpoint"
-                ) from error
+                raise BusError(why_unreachable(connect)) from error
             clock.sleep_until(clock.now() + 0.1)
             lasts = min(2 * lasts, longest)
 

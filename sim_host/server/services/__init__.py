@@ -1,6 +1,6 @@
 """The services of the host on the bus: one handler for each kind of request, all processed between two ticks."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
@@ -31,9 +31,17 @@ class Services:
         seat: RefereeSeat,
         accounts: AccountLimits,
         admission: Admission,
+        report_refusal: Callable[[str], None],
     ) -> None:
+        """`report_refusal` receives the reason why a process gets no setup, which is what it asks for first."""
         self._batches = batches
-        self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup().model_copy(update=_CLAIMS), invalid_log)
+        self._setup = QueryHandler(
+            bus,
+            SETUP,
+            lambda _: simulation.setup().model_copy(update=_CLAIMS),
+            invalid_log,
+            lambda reason: report_refusal(f"a process was refused: {reason}"),
+        )
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
         self._seat = QueryHandler(bus, REFEREE_SEAT, seat.handle, invalid_log)

@@ -18,12 +18,15 @@ EXPIRY_S = LEASE_S + 0.5
 """Wall time for which a claim waits for the end of an earlier agent, s."""
 _MOST = 200
 """Most claims that wait, and most refused sessions that are remembered."""
+_MOST_UNREADABLE = 20
+"""Most reasons of claims that could not be read that are reported."""
 
 
 class Refusal(NamedTuple):
     """An agent that was refused."""
 
-    robot: str
+    robot: str | None
+    """The robot that it claimed; None if its claim could not be read."""
     text: str
     """Who was refused, and why."""
 
@@ -45,6 +48,7 @@ class ClaimHandler:
         self._invalid_log = invalid_log
         self._waiting: list[_Waiting] = []
         self._refused: dict[str, None] = {}
+        self._unreadable: set[str] = set()
         self.refusals: list[Refusal] = []
         """Refused agents that have not been reported yet."""
 
@@ -52,15 +56,21 @@ class ClaimHandler:
         """Receive claims. Call it before changes of presence are read: a session's token arrives before its claim."""
         for query in (query for server in self._servers for query in iter(server.receive, None)):
             try:
-                claim = _claim_in(query)
+                claim: AgentClaim = query.message()
             except BadMessageError as error:
                 self._invalid_log.add(query.key, str(error), query.payload)
                 query.fail(str(error))
+                self.add_refusal(f"an agent was refused: {error}")
                 continue
             if len(self._waiting) >= _MOST:
                 query.reply(AgentClaimReply(accepted=False, reason="too many agents claim robots at the same time"))
                 continue
-            self._waiting.append(_Waiting(query, claim, self._clock.now() + EXPIRY_S))
+            waiting = _Waiting(query, claim, self._clock.now() + EXPIRY_S)
+            if _is_on_its_key(query, claim):
+                self._waiting.append(waiting)
+            else:
+                reason = self._claims.refusal(claim) or f"{query.key} claims {claim.robot}; use the robot's own key"
+                self._refuse(waiting, reason)
 
     def decide(self) -> list[str]:
         """Decide the received claims; returns the robots that were granted."""
@@ -88,18 +98,18 @@ class ClaimHandler:
         if claim.session in self._refused or len(self._refused) >= _MOST:
             return
         self._refused[claim.session] = None
-        source = f" ({claim.source})" if claim.source else ""
+        described = ", ".join(filter(None, (claim.source, claim.program)))
+        source = f" ({described})" if described else ""
         self.refusals.append(Refusal(claim.robot, f"an agent{source} that claimed {claim.robot} was refused: {reason}"))
 
+    def add_refusal(self, text: str) -> None:
+        """Report a process that was refused without a valid claim; once for each text."""
+        if text not in self._unreadable and len(self._unreadable) < _MOST_UNREADABLE:
+            self._unreadable.add(text)
+            self.refusals.append(Refusal(None, text))
 
-def _claim_in(query: Query) -> AgentClaim:
-    """The claim in a query.
 
-    Raises:
-        BadMessageError: it is no claim, or claims another robot than that of its key.
-    """
-    claim: AgentClaim = query.message()
+def _is_on_its_key(query: Query, claim: AgentClaim) -> bool:
+    """Whether a claim came on the key of the robot that it claims, to which only agents of its side have access."""
     robot = query.topic.match(query.key) or {}
-    if robot.get("robot", claim.robot) != claim.robot:
-        raise BadMessageError(f"{query.key} claims {claim.robot}; claim a robot on its own key")
-    return claim
+    return robot.get("robot", claim.robot) == claim.robot

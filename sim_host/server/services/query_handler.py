@@ -17,11 +17,19 @@ _MOST_IN_A_ROW = 2
 class QueryHandler:
     """Replies to the queries of one topic."""
 
-    def __init__(self, bus: Bus, topic: Topic, answer: Callable[[Any], Message], invalid_log: InvalidLog) -> None:
-        """`answer` returns the reply to a valid query."""
+    def __init__(
+        self,
+        bus: Bus,
+        topic: Topic,
+        answer: Callable[[Any], Message],
+        invalid_log: InvalidLog,
+        report: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        """`answer` returns the reply to a valid query; `report` receives the reason why a query is invalid."""
         self._server = bus.serve(topic)
         self._answer = answer
         self._invalid_log = invalid_log
+        self._report = report
         self._allowed = _MOST_AT_ONCE
 
     def process(self) -> None:
@@ -34,5 +42,6 @@ class QueryHandler:
             except BadMessageError as error:
                 self._invalid_log.add(query.key, str(error), query.payload)
                 query.fail(str(error))
+                self._report(str(error))
                 continue
             query.reply(self._answer(asked))

@@ -5,7 +5,7 @@ from contextlib import suppress
 import pytest
 
 from robot_agent.runner import Runner
-from schemas.bus.contract import NoReplyError, PresenceKind
+from schemas.bus.contract import NoReplyError, PresenceKind, RefusedQueryError
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
 from schemas.messages.claim import AgentClaim
@@ -21,12 +21,16 @@ SOURCE = "process {number} on lab3"
 class Claimant:
     """An agent that claims a robot before it plays."""
 
-    def __init__(self, rig, robot, number, launch_token=None):
+    def __init__(self, rig, robot, number, launch_token=None, **started_for):
         self.rig, self.robot, self.bus = rig, robot, rig.seat()
         self.session = f"s{number}"
         self.bus.declare_alive(PresenceKind.SESSION, self.session)
         self._claim = AgentClaim(
-            robot=robot, session=self.session, launch_token=launch_token, source=SOURCE.format(number=number)
+            robot=robot,
+            session=self.session,
+            launch_token=launch_token,
+            source=SOURCE.format(number=number),
+            **started_for,
         )
         self.claim()
 
@@ -187,6 +191,58 @@ def test_a_launch_admits_its_own_agents_only(launch, token):
     assert (other.reply.accepted, other.reply.reason) == (False, reason)
     assert [event.robot for event in events.all() if event.rule == "claim"] == ["cyan2"]
     assert SECRET not in other.reply.reason
+
+
+@pytest.mark.parametrize(
+    ("robot", "started_for", "reason"),
+    [
+        ("magenta9", {}, 'no robot of the match "friendly" is named magenta9; did you mean "magenta1"?'),
+        ("cyan1", {"side": "magenta"}, "cyan1 is a robot of cyan, and the agent plays for magenta"),
+        ("cyan1", {"match": "final"}, 'the agent is for the match "final", and this host plays "friendly"'),
+    ],
+    ids=["an unknown robot", "a robot of the other side", "another match"],
+)
+def test_a_claim_that_does_not_fit_is_refused_at_once_with_the_reason_on_both_ends(
+    open_rig, robot, started_for, reason
+):
+    events = open_rig.listen(EVENT)
+    agent = Claimant(open_rig, robot, 1, program="touchline 0.1.0", **started_for)
+    open_rig.ticks(1)
+    assert (agent.reply.accepted, agent.reply.reason) == (False, reason)
+    assert [event.text for event in events.all() if event.rule == "claim"] == [
+        f"an agent (process 1 on lab3, touchline 0.1.0) that claimed {robot} was refused: {reason}"
+    ]
+
+
+def test_an_agent_of_this_match_and_side_is_admitted(open_rig):
+    agent = Claimant(open_rig, "magenta1", 1, match="friendly", side="magenta")
+    open_rig.ticks(1)
+    assert agent.reply.accepted
+
+
+@pytest.mark.parametrize("topic", [CLAIM, SETUP])
+def test_a_process_of_another_version_is_refused_with_both_versions_on_both_ends(open_rig, topic):
+    events = open_rig.listen(EVENT)
+    request = AgentClaim(robot="cyan1", session="s1") if topic is CLAIM else SetupRequest()
+    bus = open_rig.seat()
+    replies = [bus.query(topic, request.model_copy(update={"version": "3.0"})) for _ in range(3)]
+    open_rig.ticks(2)
+    reason = "version 3.0 is not supported, this side has 2.0; update the older side"
+    for reply in replies:
+        with pytest.raises(RefusedQueryError, match=reason):
+            reply.result(0.0)
+    (text,) = [event.text for event in events.all() if event.rule == "claim"]
+    assert text.endswith(reason)
+
+
+def test_the_other_team_of_a_launch_needs_no_secret_where_it_is_remote():
+    teams = {"cyan": TEAMS["cyan"], "magenta": {**TEAMS["magenta"], "remote": True}}
+    rig = HostRig(MatchConfig.model_validate({"seed": 7, "teams": teams}), launch_token=SECRET)
+    rig.host.begin()
+    guest, intruder = Claimant(rig, "magenta1", 1), Claimant(rig, "cyan1", 2)
+    rig.ticks(1)
+    assert (guest.reply.accepted, intruder.reply.accepted) == (True, False)
+    rig.host.simulation.close()
 
 
 def test_a_launch_neither_waits_for_nor_obeys_an_agent_that_has_made_no_claim(launch):

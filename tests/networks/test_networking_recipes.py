@@ -1,0 +1,147 @@
+"""The commands of docs/networking.md, run as they are printed: each machine is a network namespace with its own folder.
+
+A match lasts 4 s at four times real time and has two robots a side here, where the page has 60 s in real time.
+"""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from recordings.reading.recording import open_recording
+from support.namespaces import Network, network
+from support.process_story import LIMIT, wait_for
+
+pytestmark = pytest.mark.processes
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "networking.md").read_text("utf-8")
+MACHINES = ("host", "cyan", "magenta", "coach", "recorder")
+SMALL = "[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n"
+LASTING = ("match", "host", "team", "agent", "record")
+"""Commands that run until the match is over."""
+READY = {
+    "match": "waiting for magenta",
+    "host": "on t",  # match "friendly" on tcp/…
+    "record": "",
+    "team": "started; logs",
+    "agent": "",
+}
+"""Command → words in its output after which the next command is typed; empty for at once."""
+
+
+def sections() -> dict[str, list[str]]:
+    """Heading → lines of its shell commands."""
+    found = {}
+    for part in PAGE.split("\n## ")[1:]:
+        pieces = re.findall(r"^```sh\n(.*?)^```$", part, re.DOTALL | re.MULTILINE)
+        found[part.splitlines()[0]] = "".join(pieces).splitlines()
+    return {heading: lines for heading, lines in found.items() if lines}
+
+
+class Lab:
+    """The machines of a recipe: a folder each, and the programs that were started on them."""
+
+    def __init__(self, net: Network, folder: Path) -> None:
+        self.net, self.folder = net, folder
+        self.programs: list[tuple[str, Path, subprocess.Popen[bytes]]] = []
+        for machine in net.names:
+            (folder / machine).mkdir()
+        (folder / "host" / "small.toml").write_text(SMALL)
+
+    def type(self, line: str, machine: str) -> None:
+        """Run one line on a machine: to its end, or until it is ready where it lasts as long as the match."""
+        if line.startswith("scp "):
+            source, target = line.split()[1:]
+            (file,) = (self.folder / machine).glob(source)
+            shutil.copy(file, self.folder / target.rstrip(":"))
+            return
+        words = shlex.split(line)
+        assert words[0] == "touchline", f"a recipe has other commands than touchline and scp: {line}"
+        if words[1] in ("match", "host"):
+            words.insert(2, "small.toml")
+            words[words.index("--duration") + 1] = "4"
+            words[words.index("--pace") + 1] = "x4"
+        log = self.folder / machine / f"program{len(self.programs)}.out"
+        folder = self.folder / machine
+        environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "COLUMNS": "200", "PYTHONPATH": str(ROOT)}
+        with log.open("wb") as out:
+            program = self.net.run(
+                machine,
+                [sys.executable, "-P", "-m", *words],
+                cwd=folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+            )
+        if words[1] not in LASTING:
+            assert program.wait(LIMIT) == 0, f"{line}: {log.read_text()}"
+            return
+        self.programs.append((line, log, program))
+        if words[1] != "match" or "--remote" in words:
+            ready = READY[words[1]]
+            wait_for(lambda: ready in log.read_text() or program.poll() is not None, f"{line}: {log.read_text()}")
+
+    def finish(self) -> dict[str, str]:
+        """Wait until all programs have ended with status 0; command → its output."""
+        for line, log, program in self.programs:
+            assert program.wait(LIMIT) == 0, f"{line}: {log.read_text()}"
+        return {shlex.split(line)[1]: log.read_text() for line, log, _ in self.programs}
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Iterator[Lab]:
+    with network(*MACHINES) as net:
+        yield Lab(net, tmp_path)
+
+
+def follow(lab: Lab, heading: str) -> dict[str, str]:
+    machine = ""
+    for line in sections()[heading]:
+        if line.startswith("# on "):
+            machine = line.removeprefix("# on ")
+        else:
+            lab.type(line, machine)
+    return lab.finish()
+
+
+def test_every_section_with_commands_is_run_by_a_test() -> None:
+    assert list(sections()) == ["One machine", "Two machines", "Every part on its own machine", "Encrypted"]
+
+
+def test_a_match_on_one_machine(lab: Lab) -> None:
+    assert "full time" in follow(lab, "One machine")["match"]
+
+
+def test_a_match_whose_other_team_comes_from_a_second_machine(lab: Lab) -> None:
+    printed = follow(lab, "Two machines")
+    command = next(line for line in sections()["Two machines"] if line.startswith("touchline team"))
+    joined = next(line for line in printed["match"].splitlines() if "joins with" in line)
+    assert joined.partition("with: ")[2].split() == [*command.split()[:-1], "MODULE:CLASS"]
+    assert "joined: 2 of 2 robots of magenta are there" in printed["match"]
+    assert "robots 4/4" in printed["match"]
+    assert "full time" in printed["match"]
+
+
+def test_host_both_teams_coach_and_recorder_on_a_machine_each(lab: Lab) -> None:
+    printed = follow(lab, "Every part on its own machine")
+    assert "match over" in printed["host"]
+    recording = open_recording(lab.folder / "recorder" / "final.mcap")
+    assert recording.result is not None
+    assert recording.result.tick >= 4 / 0.02
+    health = [message for _, message in recording.decoded("host/health")][-1]
+    assert sorted(name for name, robot in health.robots.items() if robot.answers) == [
+        "cyan1", "cyan2", "magenta1", "magenta2"
+    ]  # fmt: skip
+
+
+def test_an_encrypted_match(lab: Lab) -> None:
+    pytest.importorskip("trustme")
+    assert "match over" in follow(lab, "Encrypted")["host"]

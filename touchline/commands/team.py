@@ -1,0 +1,73 @@
+"""`touchline team`: all robots of one team on this machine, for a host on another."""
+
+import shlex
+import sys
+from typing import Annotated, Any
+
+import typer
+
+from robot_agent.settings import AgentSettings
+from schemas.access.accounts import Account
+from schemas.errors import TouchlineError
+from touchline.cli import options
+from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
+
+_OWN = ("robot", "brain", "side")
+"""Fields that the command fills itself."""
+_SHARED = tuple(name for name in AgentSettings.model_fields if name not in _OWN)
+
+
+@with_option_groups
+def team(
+    side: options.ForSide,
+    brain: Annotated[str | None, typer.Option(help="module:Class of the robots' brain.")] = None,
+    command: Annotated[str | None, typer.Option(help="The team's own program, in place of a brain.")] = None,
+    robot: Annotated[
+        list[str] | None, typer.Option(help="Start this robot only; repeatable. By default all of the side.")
+    ] = None,
+    *,
+    agent: Annotated[dict[str, Any], FieldsOf(AgentSettings, *_SHARED)],
+) -> None:
+    """Run the robots of a team until the match is over: one process each, started again after a crash.
+
+    The host runs elsewhere, with `touchline host` or `touchline match --remote`. Logs are written under ./runs/.
+
+    Example: touchline team magenta --connect tcp/192.168.1.5:7447 --brain my_team:Striker
+    """
+    from schemas.bus.zenoh.bus import ZenohBus, open_client
+    from schemas.bus.zenoh.waiting_client import open_when_there
+    from schemas.process.clock import WallClock
+    from touchline.launch.run_folder import new_run_folder
+    from touchline.launch.team_run import TeamPlan, TeamRun
+    from touchline.watch.screen import screen_for
+
+    if (brain is None) == (command is None):
+        raise TouchlineError("a team has a brain or a program; give --brain module:Class, or --command")
+    settings = from_options(AgentSettings, robot=f"{side}1", brain=brain or "", side=side, **agent)
+    clock = WallClock()
+
+    def connect(patience: float) -> ZenohBus:
+        return open_client(
+            settings.match,
+            clock,
+            settings.connect,
+            patience,
+            settings.credentials,
+            Account.of_team(side),
+            any_match=True,
+        )
+
+    def report(line: str) -> None:
+        typer.echo(line, err=True)
+
+    bus = open_when_there(connect, clock, settings.patience, report)
+    assert bus is not None  # a wait that nothing stops
+    with bus, screen_for(sys.stdout, clock) as screen:
+        plan = TeamPlan(
+            side=side,
+            robots=robot or [],
+            agent=settings.model_copy(update={"connect": bus.endpoint}),
+            command=shlex.split(command) if command is not None else [],
+            folder=new_run_folder(f"{bus.match}-{side}", clock),
+        )
+        TeamRun(plan, bus, screen, clock).play()

@@ -1,0 +1,136 @@
+"""The robots of one team on this machine, whose host runs elsewhere: one supervised process each."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from coach_gateway.match.follower import MatchFollower
+from robot_agent.claim import Membership
+from robot_agent.runner import ask_setup
+from robot_agent.settings import AgentSettings
+from schemas.bus.contract import Bus
+from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
+from schemas.process.clock import Clock
+from schemas.side import Side
+from touchline.launch.child_process import ProcessHandle
+from touchline.launch.fork_server import ForkServer
+from touchline.launch.log_limit import LogLimit
+from touchline.launch.processes import ROBOT_ENVIRONMENT, Process, robot_process
+from touchline.launch.stop_signals import StopSignals
+from touchline.launch.supervisor import AT_ONCE, Supervisor
+from touchline.watch.screen import Screen
+from touchline.watch.status_line import status_line
+
+_POLL_S = 0.05
+"""Wall time between two polls of the processes."""
+
+
+@dataclass(frozen=True, slots=True)
+class TeamPlan:
+    """What is launched for a team."""
+
+    side: Side
+    robots: Sequence[str]
+    """Robots to launch; empty for all of the side."""
+    agent: AgentSettings
+    """Settings of each robot, but for its name."""
+    command: Sequence[str]
+    """The team's own program in place of a brain; empty for a brain."""
+    folder: Path
+    """Holds settings and logs of the robots."""
+
+
+class TeamRun:
+    """A team from its launch to the end of its match."""
+
+    def __init__(self, plan: TeamPlan, bus: Bus, screen: Screen, clock: Clock) -> None:
+        """`bus` is that of the match.
+
+        Raises:
+            TouchlineError: the host refuses the team, or a robot is none of the side.
+        """
+        self._plan, self._bus, self._screen, self._clock = plan, bus, screen, clock
+        setup = ask_setup(bus, plan.agent.patience)
+        self._total = sum(len(team.robots) for team in setup.teams.values())
+        self._robots = _chosen(plan, setup.teams[plan.side].robots)
+        member = Membership(bus, self._robots[0], plan.agent.launch_token, plan.agent.match, plan.side)
+        if not member.fits(setup):
+            member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
+        self._fork_server, self._log_limit = ForkServer(), LogLimit()
+        self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
+
+    def play(self) -> None:
+        """Run the robots until the match is over, or until SIGINT or SIGTERM.
+
+        Raises:
+            MatchFailedError: no robot is left although the match goes on.
+        """
+        follower = MatchFollower(self._bus)
+        with StopSignals() as stop:
+            try:
+                self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                self._supervisor.start()
+                self._screen.event(f"{', '.join(self._robots)} started; logs are in {self._plan.folder}", notable=True)
+                while stop.received is None and not self._has_ended(follower):
+                    self._show(follower)
+                    self._clock.sleep_until(self._clock.now() + _POLL_S)
+            finally:
+                self._supervisor.end(AT_ONCE)
+        self._report_end(follower, interrupted=stop.received is not None)
+
+    def _has_ended(self, follower: MatchFollower) -> bool:
+        """Whether the match is over, or no robot is left."""
+        follower.update()
+        is_over = follower.finished and follower.gone
+        return is_over or all(robot in self._supervisor.ended for robot in self._robots)
+
+    def _show(self, follower: MatchFollower) -> None:
+        for robot in self._robots:
+            sentence = self._log_limit.check(self._log_of(robot))
+            if sentence:
+                self._screen.warn(sentence)
+        for notice in self._supervisor.check():
+            if self._supervisor.ended.get(notice.name) == 0 and follower.gone:
+                continue  # it has left with its host
+            self._screen.warn(notice.sentence)
+            for line in notice.log:
+                self._screen.warn(f"  {notice.name}: {line}")
+        if follower.gone:
+            self._screen.status("the host is gone")
+        else:
+            self._screen.status(status_line(follower, self._total))
+
+    def _report_end(self, follower: MatchFollower, *, interrupted: bool) -> None:
+        if interrupted:
+            self._screen.event(f"{self._plan.side} has left", notable=True)
+        elif follower.gone:
+            self._screen.event("the host is gone", notable=True)
+        else:
+            first = self._robots[0]
+            log = self._supervisor.last_lines(first)
+            reason = log[-1].removeprefix("touchline: ") if log else "no reason logged"
+            raise MatchFailedError(f"no robot of {self._plan.side} is left; {reason}; logs are in {self._plan.folder}")
+
+    def _process(self, robot: str) -> Process:
+        agent = self._plan.agent.model_copy(update={"robot": robot, "match": self._bus.match, "side": self._plan.side})
+        return robot_process(agent, self._plan.side, self._plan.command, self._plan.folder)
+
+    def _log_of(self, robot: str) -> Path:
+        return self._plan.folder / f"{robot}.log"
+
+    def _launch(self, process: Process) -> ProcessHandle:
+        return self._fork_server.launch(process, self._log_of(process.name))
+
+
+def _chosen(plan: TeamPlan, robots: list[str]) -> list[str]:
+    """The robots to launch.
+
+    Raises:
+        TouchlineError: one of them is none of the side.
+    """
+    for robot in plan.robots:
+        if robot not in robots:
+            raise TouchlineError(
+                f"--robot {robot}: no robot of {plan.side} has that name; {did_you_mean(robot, robots)}"
+            )
+    return list(plan.robots) or robots
