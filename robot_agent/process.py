@@ -36,7 +36,8 @@ def run(settings: AgentSettings) -> int:
 
             def build(setup: Setup) -> Brain:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
-                return load_brain(settings.brain, Briefing.of(settings.robot, setup), settings.brain_folder)
+                briefing = Briefing.of(settings.robot, setup)
+                return load_brain(settings.brain, briefing, settings.brain_folder, settings.launch_folder)
 
             membership = Membership(bus, settings.robot, settings.launch_token, settings.match, settings.side)
             return serve(bus, build, settings.robot, settings.patience, membership)

@@ -46,9 +46,10 @@ def _serve(settings: HostSettings) -> None:
     config, listen = settings.config, settings.listen
     check_protected(settings)
     protection = Protection.from_file(settings.credentials, config)
-    limits = router_limits(config.name, [robot for robots in robots_of(config).values() for robot in robots])
+    robots = robots_of(config)
+    limits = router_limits(config.name, [name for names in robots.values() for name in names])
     if protection is None:
-        limits["access_control"] = open_access(config.name)
+        limits["access_control"] = open_access(config.name, robots)
     use_batch_scheduling(config.speed is None)
     with open_host(config.name, WallClock(), listen, protection, limits) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)
