@@ -136,6 +136,14 @@ def test_a_restart_is_named_with_its_side(rig):
     assert PictureData(rig.path).panel_data(0.3).caption == "0:00   throw-in, magenta"
 
 
+def test_a_match_that_was_never_in_play_is_drawn_at_its_end(rig):
+    rig.host.referee(0, Phase.KICK_OFF, Score(), Side.CYAN)
+    rig.play(range(20))
+    rig.leave()
+    data = PictureData(rig.path)
+    assert data.last_play() == data.end == pytest.approx(0.38)
+
+
 def test_only_play_counts_for_the_way_of_the_ball(rig):
     rig.host.referee(0, Phase.KICK_OFF, Score(), Side.CYAN)
     rig.play(range(20))
