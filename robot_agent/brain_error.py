@@ -4,6 +4,7 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
+from robot_agent.limit_reached import limit_reached
 from robot_agent.user_code import definition_of, place_of
 from schemas.wire.faults import FaultError
 
@@ -21,6 +22,8 @@ class BrainError(Exception):
     def report(self) -> str:
         """The failure as text; the last line names the tick, the file and line, and the fault.
 
+        Where a limit of the process made it fail, one more line names that limit and the remedy.
+
         An invalid command is a fault of the values, not of the code that checks them: its report is one line.
         """
         cause = self.__cause__
@@ -31,7 +34,9 @@ class BrainError(Exception):
         if isinstance(cause, FaultError):
             return f"act failed at tick {self.tick}{place}: {cause}\n"
         failure = f"{type(cause).__name__}: {' '.join(str(cause).split())}"
-        return f"{_frames(cause)}act raised at tick {self.tick}{place}: {failure}\n"
+        limit = limit_reached(cause)
+        remedy = f"limit reached: {limit}\n" if limit else ""
+        return f"{_frames(cause)}act raised at tick {self.tick}{place}: {failure}\n{remedy}"
 
 
 def _frames(cause: BaseException) -> str:

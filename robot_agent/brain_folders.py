@@ -10,9 +10,12 @@ from pathlib import Path
 class BrainFolders:
     """Where the modules of brains are looked for, in this order, after everything else on Python's module path."""
 
-    def __init__(self, beside_match: Path | None = None) -> None:
-        """`beside_match` is the folder of the match file; None without a match file."""
-        self._here = Path.cwd()
+    def __init__(self, beside_match: Path | None = None, here: Path | None = None) -> None:
+        """`beside_match` is the folder of the match file; None without a match file.
+
+        `here` is the directory that was current at the launch; None if it still is.
+        """
+        self._here = here.resolve() if here is not None else Path.cwd()
         self._beside = beside_match.resolve() if beside_match is not None else self._here
 
     @property

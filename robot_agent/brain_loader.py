@@ -11,6 +11,7 @@ from typing import Any
 
 from robot_agent.brain_folders import BrainFolders
 from robot_agent.contract import Brain, Briefing
+from robot_agent.limit_reached import limit_reached
 from robot_agent.user_code import OWN_PACKAGES, definition_of, place_of
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
@@ -24,10 +25,11 @@ class _FunctionBrain:
         self.act = function
 
 
-def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None) -> Brain:
+def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, here: Path | None = None) -> Brain:
     """The brain that `module:name` names: a class built with the briefing, or a function `act(sight)`.
 
-    Modules are also looked for in `beside_match`, the folder of the match file, and then in the current directory.
+    Modules are also looked for in `beside_match`, the folder of the match file, and then in the current directory,
+    or in `here` where the process has left that.
 
     Raises:
         TouchlineError: one line with the wrong part of the spec, or with what its code raised, and where.
@@ -35,7 +37,7 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None) 
     module_name, _, name = spec.partition(":")
     if not all(part.isidentifier() for part in (*module_name.split("."), name)):
         raise TouchlineError(f'brain is "{spec}"; write it as "module:Class"')
-    folders = BrainFolders(beside_match)
+    folders = BrainFolders(beside_match, here)
     folders.add_to_module_path()
     module = _import(spec, module_name, folders)
     _check_origin(spec, module, folders)
@@ -143,4 +145,6 @@ def _one_line(error: BaseException) -> str:
     """An exception in one line, with the place in the brain's own code."""
     if isinstance(error, SyntaxError):
         return f"SyntaxError: {error.msg} ({error.filename}, line {error.lineno})"
-    return f"{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
+    limit = limit_reached(error)
+    remedy = f"; limit reached: {limit}" if limit else ""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}{remedy}"

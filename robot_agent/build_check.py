@@ -25,6 +25,8 @@ class BuildCheckSettings(Settings):
     """The side of the team."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory."""
+    launch_folder: Path | None = None
+    """Folder in which it is looked for after that; by default the current directory."""
 
 
 def run(settings: BuildCheckSettings) -> int:
@@ -37,7 +39,8 @@ def run(settings: BuildCheckSettings) -> int:
     setup = Setup.of(config, config.load_profile(), config.load_rule_book())
     for robot in config.robots(settings.side):
         os.environ["TOUCHLINE_ROBOT"] = robot
-        load_brain(config.team(settings.side).brain or "", Briefing.of(robot, setup), settings.brain_folder)
+        brain = config.team(settings.side).brain or ""
+        load_brain(brain, Briefing.of(robot, setup), settings.brain_folder, settings.launch_folder)
     return 0
 
 

@@ -12,12 +12,15 @@ import os
 import signal
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
 from robot_agent import run
 from robot_agent.settings import AgentSettings
 from schemas.config.settings_file import exit_status
+from schemas.process.leash import OwnConfinement, confine
 
 PRELOAD = ("robot_agent.process", "robot_agent.forked")
 """Modules that every robot needs, this one among them."""
@@ -25,10 +28,12 @@ SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable that keeps the current directory off the module path; set for the fork server alone."""
 
 
-def run_forked(settings: AgentSettings, environment: Mapping[str, str], log: str, held: Connection) -> None:
+def run_forked(
+    settings: AgentSettings, environment: Mapping[str, str], confinement: OwnConfinement, log: str, held: Connection
+) -> None:
     """Run one robot as `python -m robot_agent` would: group, log, environment and module path are its own; exits.
 
-    `held` is closed when it leads its group: signals are sent to that group.
+    `environment` is the whole one. `held` is closed when it leads its group: signals are sent to that group.
     """
     os.setpgid(0, 0)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored by the fork server, if its launcher ignored it
@@ -36,9 +41,11 @@ def run_forked(settings: AgentSettings, environment: Mapping[str, str], log: str
     held.close()
     _end_with_supervisor()
     _redirect(log)
+    _close_inherited()
     gc.freeze()  # what the fork server has imported is shared memory, and stays so while it is not looked through
-    os.environ.pop(SAFE_PATH, None)
+    os.environ.clear()
     os.environ.update(environment)
+    confine(confinement)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     Path("/proc/self/comm").write_text(settings.robot)  # as `ps -o comm`, `top` and `pgrep` show it
     sys.exit(exit_status(lambda: run(settings)))
@@ -57,6 +64,24 @@ def _end_with_supervisor() -> None:
     fcntl.fcntl(pipe, fcntl.F_SETFL, fcntl.fcntl(pipe, fcntl.F_GETFL) | os.O_ASYNC)
     if wait([pipe], 0):  # it has closed before
         os._exit(1)
+
+
+def _close_inherited() -> None:
+    """Close all descriptors but standard streams and the supervisor's pipe.
+
+    The supervisor's resource tracker is replaced by one that forgets: a robot cannot have it remove what is another's.
+    """
+    supervisor = multiprocessing.parent_process()
+    assert supervisor is not None
+    tracker = resource_tracker.getfd()
+    assert tracker is not None
+    forgets = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(forgets, tracker, inheritable=False)
+    kept = {0, 1, 2, supervisor.sentinel, tracker}
+    for handle in [int(entry.name) for entry in Path("/proc/self/fd").iterdir()]:
+        if handle not in kept:
+            with suppress(OSError):  # that of the listing itself
+                os.close(handle)
 
 
 def _redirect(log: str) -> None:

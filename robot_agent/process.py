@@ -1,7 +1,6 @@
 """One robot's process: bus, brain, run. Importing it loads what every robot needs, and no brain."""
 
 import signal
-import sys
 from types import FrameType
 
 from robot_agent.brain_loader import load_brain
@@ -14,6 +13,7 @@ from schemas.bus.zenoh.waiting_client import open_when_there
 from schemas.config.match_config import LOCKSTEP
 from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
+from schemas.process.process_log import configure_log, log_line
 from schemas.process.scheduling import use_batch_scheduling
 
 
@@ -23,6 +23,7 @@ def run(settings: AgentSettings) -> int:
     Raises:
         TouchlineError: no host answers, or the brain cannot be made.
     """
+    configure_log("agent", settings.log_format, settings.robot)
     signal.signal(signal.SIGTERM, _end)
     clock = WallClock()
 
@@ -36,7 +37,8 @@ def run(settings: AgentSettings) -> int:
 
             def build(setup: Setup) -> Brain:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
-                return load_brain(settings.brain, Briefing.of(settings.robot, setup), settings.brain_folder)
+                briefing = Briefing.of(settings.robot, setup)
+                return load_brain(settings.brain, briefing, settings.brain_folder, settings.launch_folder)
 
             membership = Membership(bus, settings.robot, settings.launch_token, settings.match, settings.side)
             return serve(bus, build, settings.robot, settings.patience, membership)
@@ -45,7 +47,7 @@ def run(settings: AgentSettings) -> int:
 
 
 def _report(line: str) -> None:
-    sys.stderr.write(f"{line}\n")
+    log_line(line)
 
 
 def _end(number: int, frame: FrameType | None) -> None:

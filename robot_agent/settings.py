@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import Field
 
 from schemas.bus.settings import ClientSettings
-from schemas.config.settings import CommandLine
+from schemas.config.settings import CommandLine, LogSettings
 from schemas.side import Side
 from schemas.wire.message import Name
 
@@ -14,7 +14,7 @@ FIRST_SIGHT_FAILED = 3
 """Exit status of an agent whose brain failed at its first sight: it would fail again."""
 
 
-class AgentSettings(ClientSettings):
+class AgentSettings(ClientSettings, LogSettings):
     """One robot's process: its match, its name and its brain."""
 
     robot: Annotated[Name, CommandLine(environment="TOUCHLINE_ROBOT")]
@@ -23,6 +23,8 @@ class AgentSettings(ClientSettings):
     """module:Class, or module:function of a plain act(sight)."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory; a match uses that of its file."""
+    launch_folder: Path | None = None
+    """Folder in which the module is looked for after that; by default the current directory."""
     side: Annotated[Side | None, CommandLine(environment="TOUCHLINE_SIDE")] = None
     """The robot's side; the host refuses a robot of the other one. By default it is not checked."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None

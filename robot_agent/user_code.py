@@ -1,6 +1,7 @@
 """Places in the code of a brain, for messages: the file and line of a definition, or of what an exception came from."""
 
 import inspect
+import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -41,6 +42,7 @@ def definition_of(what: Callable[..., Any]) -> str:
 
 
 def _shown(file: str) -> str:
-    """The path of a file, relative if it is below the current directory."""
+    """The path of a file, relative to the current directory or else to the folder that it was imported from."""
     path = Path(file).resolve()
-    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
+    folders = (Path.cwd(), *(Path(entry).resolve() for entry in reversed(sys.path)))
+    return next((str(path.relative_to(folder)) for folder in folders if path.is_relative_to(folder)), str(path))

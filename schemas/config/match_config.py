@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
+from schemas.config.confinement import IsolateUsers, Isolation, Limits
 from schemas.config.match_parts import (
     NoiseConfig,
     OfficiatingConfig,
@@ -68,6 +69,13 @@ REMEDIES = {
     "obstacles.place": "x and y of the centre in m",
     "obstacles.size": "x, y and z of a box in m",
     "referee.mode": f"one of {', '.join(OfficiatingMode)}",
+    "isolate": f"one of {', '.join(Isolation)}",
+    "limits.cpu_time": "CPU time of a robot in s, from 1",
+    "limits.memory": "memory of a robot in GB, from 0.1",
+    "limits.open_files": "open files of a process, from 32",
+    "limits.processes": "processes and threads of a robot, from 16",
+    "limits.file_size": "size of a file in MB, from 0.001",
+    "limits.cores": "CPU cores of a robot, from 0.05",
     "noise.preset": f"one of {', '.join(PRESETS)}",
 }
 """Key → remedy for an invalid value; keys without one get the validator's message."""
@@ -121,6 +129,12 @@ class MatchConfig(Part):
     """What is recorded, and into which files."""
     patience: Patience = Patience()
     """How long the host waits, in s of wall time."""
+    isolate: Isolation = Isolation.NONE
+    """What separates the robots that this machine launches: `none`, a system `user` for each team, or `bubblewrap`."""
+    isolate_users: IsolateUsers = IsolateUsers()
+    """System users of the teams."""
+    limits: Limits = Limits()
+    """What each robot may use of the machine that launches it."""
     forgiving: bool = False
     """A client that goes on above its limit of messages is limited only, and never cut off."""
 
@@ -166,6 +180,10 @@ class MatchConfig(Part):
             return [robot.name for robot in self.scene.of(side) if robot.agent]
         team = self.team(side)
         return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
+
+    def limits_of(self, side: Side) -> Limits:
+        """The limits of a robot of a side."""
+        return self.team(side).limits.over(self.limits)
 
     @property
     def remote_sides(self) -> tuple[Side, ...]:

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
 
+from schemas.config.confinement import TeamLimits
 from schemas.config.noise import PRESETS
 from schemas.config.roster import MAX_ROBOTS
 from schemas.config.settings import RecordOptions
@@ -33,6 +34,10 @@ class TeamConfig(Part):
     """Names of the robots, the goalkeeper first; where the list is empty, side and number, as `cyan1`."""
     types: dict[Name, Name] = Field(default_factory=dict)
     """Robot → its type, of the profile or of `[types.NAME]`; other robots are of the standard type."""
+    limits: TeamLimits = TeamLimits()
+    """Limits of its robots that replace those of the match."""
+    pass_environment: list[Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$")]] = Field(default_factory=list)
+    """Names of environment variables that its programs get beside the usual ones, such as CUDA_VISIBLE_DEVICES."""
 
     @model_validator(mode="after")
     def _check_brain_or_command(self) -> "TeamConfig":

@@ -14,6 +14,7 @@ from coach_gateway.settings import BridgeOptions
 from schemas.access.certificates import need_trustme
 from schemas.bus.endpoint import ENCRYPTED, parse_endpoint
 from schemas.bus.settings import ListenSettings
+from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import Patience
 from schemas.config.settings import RecordOptions
 from schemas.errors import MatchFailedError, TouchlineError
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     import socket
 
     from schemas.bus.contract import ReceivedMessage
-    from schemas.config.match_config import MatchConfig
     from schemas.process.clock import Clock
     from touchline.launch.processes import MatchPlan, Page
     from touchline.launch.result import MatchResult
@@ -47,6 +47,7 @@ def match(
     web: options.Web = False,
     json: options.Json = False,
     *,
+    isolation: Annotated[dict[str, Any], FieldsOf(MatchConfig, "isolate")],
     played: options.MatchOptions,
     waiting: Annotated[dict[str, Any], FieldsOf(Patience, remote="wait")],
     recording: Annotated[dict[str, Any], FieldsOf(RecordOptions)],
@@ -65,8 +66,9 @@ def match(
     """
     from schemas.process.clock import WallClock
     from touchline.launch.check_brains import check_teams
+    from touchline.launch.confinement import isolation_note, team_confinements
     from touchline.launch.processes import CREDENTIALS, check_robot_names
-    from touchline.launch.run_folder import prepare_credentials, prepare_run
+    from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run, with_credentials
 
     teams = _teams_of(ghost) if ghost else {}
     sockets = _open_ports(bridges) if bridges.wanted else ()
@@ -80,20 +82,23 @@ def match(
         **{f"patience__{key}": value for key, value in waiting.items()},
         **{f"record__{key}": value for key, value in recording.items()},
         record__wait=not no_record,
+        **isolation,
     )
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
-    brain_folder = played.file.parent if played.file is not None else None
-    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = _endpoint(played.listening, tls=tls)
     _check_tls(played.listening, tls=tls)
+    brain_folder = played.file.parent if played.file is not None else None
+    confinements = team_confinements(config, brain_folder, RUNS)
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True), confinements)
     clock = WallClock()
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
-    plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
+    plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
+    plan = replace(plan, isolation_note=isolation_note(config, brain_folder, confinements))
     if played.listening.credentials is not None:
-        plan = replace(plan, credentials=played.listening.credentials.resolve().parent)
+        plan = with_credentials(plan, played.listening.credentials.resolve().parent)
     elif not played.listening.insecure:
         plan = prepare_credentials(plan, tls=tls)
     if brain_folder is not None:
@@ -145,7 +150,7 @@ def _teams_of(ghosts: list[str]) -> dict[str, dict[str, Any]]:
     return teams_of(ghosts)
 
 
-def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
+def _check_ghosts(config: MatchConfig, ghosts: list[str]) -> None:
     from touchline.replay.ghost import check_ghosts
 
     check_ghosts(config, ghosts)

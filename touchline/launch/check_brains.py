@@ -3,12 +3,14 @@
 Brains are built in processes of their own, one for each team, as the robots of the match will build them.
 """
 
+import json
 import os
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import BinaryIO
@@ -16,9 +18,14 @@ from typing import BinaryIO
 from robot_agent.build_check import BuildCheckSettings
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
+from schemas.process import leash
+from schemas.process.leash import adopt_orphans
 from schemas.side import Side
+from touchline.launch.confinement import Confinement, team_confinements
 from touchline.launch.processes import ROBOT_ENVIRONMENT
 from touchline.launch.python_process import PYTHON, module_path_environment
+from touchline.launch.run_folder import RUNS
+from touchline.launch.usage_watch import UsageWatch
 
 NOTICE_S = 3.0
 """Wall time after which a wait for brains is reported."""
@@ -29,9 +36,12 @@ _FAULT = "touchline: brain is "
 
 
 def check_teams(
-    config: MatchConfig, brain_folder: Path | None = None, report: Callable[[str], None] = lambda _: None
+    config: MatchConfig,
+    brain_folder: Path | None = None,
+    report: Callable[[str], None] = lambda _: None,
+    confinements: Mapping[Side, Confinement] | None = None,
 ) -> None:
-    """Check both teams; `report` receives a line if that takes long.
+    """Check both teams; `report` receives a line if that takes long. Brains are confined as those of the match.
 
     Raises:
         TouchlineError: a program does not exist, or a brain cannot be built; the message names its key.
@@ -41,11 +51,15 @@ def check_teams(
         team = config.team(side)
         if team.command is not None:
             _check_program(f"teams.{side.value}.command", team.command)
+    confinements = confinements or team_confinements(config, brain_folder, RUNS)
+    adopt_orphans()
     with ExitStack() as running:
+        running.callback(UsageWatch().end_left_behind)
         checks = []
         for side in (side for side in here if config.team(side).command is None):
             log = running.enter_context(tempfile.TemporaryFile())
-            checks.append(_BuildCheck(config, side, brain_folder, log))
+            folder = Path(running.enter_context(tempfile.TemporaryDirectory(prefix="touchline-")))
+            checks.append(_BuildCheck(config, side, brain_folder, log, confinements[side].in_folder(folder)))
             running.callback(checks[-1].end)
         for check in checks:
             check.wait(report)
@@ -61,21 +75,28 @@ def _check_program(key: str, command: list[str]) -> None:
 class _BuildCheck:
     """The process that builds the brains of one team."""
 
-    def __init__(self, config: MatchConfig, side: Side, brain_folder: Path | None, log: BinaryIO) -> None:
+    def __init__(
+        self, config: MatchConfig, side: Side, brain_folder: Path | None, log: BinaryIO, confinement: Confinement
+    ) -> None:
         """The process writes into `log`."""
         self._key = f"teams.{side.value}.brain"
         self._brain = config.team(side).brain
         robots = len(config.robots(side))
         self._patience = max(config.patience.attendance, LEAST_PATIENCE_S) * max(robots, 1)
-        settings = BuildCheckSettings(config=config, side=side, brain_folder=brain_folder)
+        folder = brain_folder.absolute() if brain_folder is not None else None
+        settings = BuildCheckSettings(config=config, side=side, brain_folder=folder, launch_folder=Path.cwd())
         named = {"TOUCHLINE_SIDE": side.value, "TOUCHLINE_MATCH": config.name}
         self._log = log
+        confinement.make_folder()
+        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), json.dumps(confinement.own()))
+        check = confinement.command((*PYTHON, "-m", "robot_agent.build_check", "--settings", "-"))
+        own = {**ROBOT_ENVIRONMENT, **module_path_environment(), **named}
         with tempfile.TemporaryFile() as file:
             file.write(settings.model_dump_json().encode())
             file.seek(0)
             self._popen = subprocess.Popen(
-                [*PYTHON, "-m", "robot_agent.build_check", "--settings", "-"],
-                env={**os.environ, **ROBOT_ENVIRONMENT, **module_path_environment(), **named},
+                [*launcher, *check],
+                env=confinement.environment(own),
                 stdin=file,
                 stdout=self._log,
                 stderr=subprocess.STDOUT,

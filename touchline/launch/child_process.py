@@ -1,19 +1,29 @@
 """One launched process: it has its own process group and log, and does not outlive its supervisor."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
 from abc import ABC, abstractmethod
+from contextlib import suppress
 from pathlib import Path
 
 from coach_gateway.ports import inheritance_of
-from schemas.config.settings_file import write_settings
+from schemas.config.settings_file import STANDARD_INPUT, write_settings
 from schemas.errors import TouchlineError
-from touchline.launch import leash
+from schemas.process import leash
+from schemas.process.leash import OwnConfinement
+from schemas.process.process_log import message_of
+from touchline.launch.control_groups import end_group, killed_for_memory
+from touchline.launch.process_tree import tree_of
 from touchline.launch.processes import Process
 
 _TAIL_BYTES = 8192
+_SIGNAL_IN_BUBBLEWRAP = 128
+"""bwrap ends with this and the number of the signal that ended its program."""
+_SIGNALS_OF_LIMITS = {-signal.SIGXCPU: "cpu_time", -signal.SIGXFSZ: "file_size"}
+"""Exit status → the limit for which the kernel ended a process."""
 
 
 class ProcessHandle(ABC):
@@ -25,6 +35,9 @@ class ProcessHandle(ABC):
         self.log = log
         self._log_start = log_start
         self._status: int | None = None
+        self._exceeded: str | None = None
+        self._control_group = process.confinement.control_group if process.confinement is not None else None
+        self._killed_before = killed_for_memory(self._control_group) if self._control_group is not None else 0
 
     @property
     @abstractmethod
@@ -41,12 +54,34 @@ class ProcessHandle(ABC):
             self._status = self._poll()
             if self._status is not None:
                 self._signal_group(signal.SIGKILL)  # ends its descendants, too
+                if self._control_group is not None:
+                    end_group(self._control_group)
         return self._status
 
     def send(self, number: signal.Signals) -> None:
-        """Send a signal to the process group, unless the process has ended."""
-        if self._status is None:
+        """Send a signal to the process group, unless the process has ended; in bubblewrap, to all within."""
+        if self._status is not None:
+            return
+        if self.process.confinement is not None and self.process.confinement.visible is not None:
+            self._signal_within(number)
+        else:
             self._signal_group(number)
+
+    def end_for(self, limit: str) -> None:
+        """End the process and all its descendants for exceeding this limit."""
+        if self._exceeded is None:
+            self._exceeded = limit
+        for pid in tree_of(self.pid):
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+
+    def breach(self) -> str:
+        """What the process did beyond its limits, with the remedy, if it has ended for that; empty if not."""
+        limit = self._exceeded or _SIGNALS_OF_LIMITS.get(self._status or 0)
+        if self._control_group is not None and killed_for_memory(self._control_group) > self._killed_before:
+            limit = limit or "memory"
+        limits = self.process.confinement.limits if self.process.confinement is not None else None
+        return limits.breach(limit) if limit is not None and limits is not None else ""
 
     def last_lines(self, count: int = 5) -> list[str]:
         """The last lines of this process's output, without empty lines and without output of an earlier process."""
@@ -55,7 +90,17 @@ class ProcessHandle(ABC):
             start = self._log_start if self._log_start <= size else 0  # the log was cut meanwhile
             log.seek(max(start, size - _TAIL_BYTES))
             text = log.read().decode("utf-8", "replace")
-        return [line for line in text.splitlines() if line.strip()][-count:]
+        lines = [part for line in text.splitlines() for part in message_of(line).splitlines()]
+        return [line for line in lines if line.strip()][-count:]
+
+    def _signal_within(self, number: signal.Signals) -> None:
+        """Signal the programs in bubblewrap; bwrap itself ends with them, or at once by SIGKILL."""
+        _, *inner = tree_of(self.pid)
+        if number == signal.SIGKILL or len(inner) < 2:
+            self._signal_group(number)
+        for pid in inner[1:]:  # the first is the namespace's own
+            with suppress(ProcessLookupError):
+                os.kill(pid, number)
 
     def _signal_group(self, number: signal.Signals) -> None:
         try:
@@ -78,21 +123,54 @@ def write_settings_of(process: Process) -> None:
         raise TouchlineError(f"{error.filename}: {error.strerror}; {process.name} reads its settings there") from None
 
 
+def make_folder_of(process: Process) -> None:
+    """Make the working folder of a confined process.
+
+    Raises:
+        TouchlineError: it cannot be made.
+    """
+    try:
+        if process.confinement is not None:
+            process.confinement.make_folder()
+    except OSError as error:
+        raise TouchlineError(f"{error.filename}: {error.strerror}; {process.name} works there") from None
+
+
+def confinement_of(process: Process) -> tuple[dict[str, str], OwnConfinement]:
+    """The whole environment of a process, and what it applies to itself."""
+    if process.confinement is None:
+        return {**os.environ, **process.environment}, {}
+    return process.confinement.environment(process.environment), process.confinement.own()
+
+
+def command_of(process: Process) -> tuple[str, ...]:
+    """The command line of a process; a confined one reads its settings from standard input or by an absolute path."""
+    confinement, file = process.confinement, process.settings_file
+    if confinement is None:
+        return process.command
+    if file is None:
+        return confinement.command(process.command)
+    given = STANDARD_INPUT if confinement.is_isolated else str(file.absolute())
+    return confinement.command(given if word == str(file) else word for word in process.command)
+
+
 class ChildProcess(ProcessHandle):
     """A program launched by its command line."""
 
     def __init__(self, process: Process, log: Path) -> None:
         """Writes the settings, if any, before the launch."""
         write_settings_of(process)
-        command = [sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), *process.command]
-        with log.open("ab") as out:
+        make_folder_of(process)
+        environment, own = confinement_of(process)
+        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), json.dumps(own))
+        with log.open("ab") as out, _standard_input(process).open("rb") as given:
             super().__init__(process, log, out.tell())
             self._popen = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
+                [*launcher, *command_of(process)],
+                stdin=given,
                 stdout=out,
                 stderr=subprocess.STDOUT,
-                env={**os.environ, **process.environment, **inheritance_of(process.sockets)},
+                env={**environment, **inheritance_of(process.sockets)},
                 pass_fds=[one.fileno() for one in process.sockets],
                 process_group=0,
             )
@@ -103,4 +181,13 @@ class ChildProcess(ProcessHandle):
         return self._popen.pid
 
     def _poll(self) -> int | None:
-        return self._popen.poll()
+        status = self._popen.poll()
+        is_wrapped = self.process.confinement is not None and self.process.confinement.visible is not None
+        if is_wrapped and status is not None and status - _SIGNAL_IN_BUBBLEWRAP in set(signal.Signals):
+            return _SIGNAL_IN_BUBBLEWRAP - status
+        return status
+
+
+def _standard_input(process: Process) -> Path:
+    is_isolated = process.confinement is not None and process.confinement.is_isolated
+    return process.settings_file if is_isolated and process.settings_file is not None else Path(os.devnull)

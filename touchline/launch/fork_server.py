@@ -1,7 +1,7 @@
 """Launches robots with the standard library's fork server, which has the common modules imported.
 
 A robot is launched by its command line instead if the kernel is not Linux, if the robot has its own program, or if it
-is restarted after a crash.
+is restarted after a crash, or if it is isolated.
 """
 
 import multiprocessing
@@ -17,9 +17,16 @@ from pathlib import Path
 
 from robot_agent.forked import PRELOAD, SAFE_PATH, run_forked
 from robot_agent.settings import AgentSettings
-from touchline.launch.child_process import ChildProcess, ProcessHandle, write_settings_of
+from touchline.launch.child_process import (
+    ChildProcess,
+    ProcessHandle,
+    confinement_of,
+    make_folder_of,
+    write_settings_of,
+)
 from touchline.launch.processes import Process
 from touchline.launch.python_process import module_path_environment
+from touchline.launch.robot_environment import server_environment
 
 _PATIENCE_S = 2.0
 """Wall time for a forked robot to lead its process group; normally a few milliseconds."""
@@ -58,7 +65,8 @@ class ForkServer:
 
     def launch(self, process: Process, log: Path) -> ProcessHandle:
         """Launch a Python robot with the fork server, any other process by its command line."""
-        if isinstance(process.settings, AgentSettings) and process.name not in self._launched:
+        is_isolated = process.confinement is not None and process.confinement.is_isolated
+        if isinstance(process.settings, AgentSettings) and process.name not in self._launched and not is_isolated:
             self._launched.add(process.name)
             robot = self._fork(process, process.settings, log)
             if robot is not None:
@@ -70,7 +78,7 @@ class ForkServer:
         if self._context is None:
             return
         self._context.set_forkserver_preload(list(PRELOAD))
-        safe = {**environment, **module_path_environment(), SAFE_PATH: "1"}
+        safe = {**server_environment(environment), **module_path_environment(), SAFE_PATH: "1"}
         try:
             with _environment(safe):
                 resource_tracker.ensure_running()  # when it starts, it unblocks the signal
@@ -85,10 +93,11 @@ class ForkServer:
         if self._context is None:
             return None
         write_settings_of(process)
+        make_folder_of(process)
         with log.open("ab") as out:
             begin = out.tell()
         group_ready, held = self._context.Pipe(duplex=False)
-        robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
+        robot = self._context.Process(target=run_forked, args=(settings, *confinement_of(process), str(log), held))
         try:
             with held:
                 robot.start()
@@ -109,15 +118,13 @@ def _blocked(number: signal.Signals) -> Iterator[None]:
 
 
 @contextmanager
-def _environment(more: Mapping[str, str]) -> Iterator[None]:
-    """Extend the environment within the block: the fork server keeps the environment it is started with."""
-    before = {name: os.environ.get(name) for name in more}
-    os.environ.update(more)
+def _environment(whole: Mapping[str, str]) -> Iterator[None]:
+    """Have this environment within the block: the fork server keeps the environment it is started with."""
+    before = dict(os.environ)
+    os.environ.clear()
+    os.environ.update(whole)
     try:
         yield
     finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+        os.environ.clear()
+        os.environ.update(before)

@@ -16,6 +16,7 @@ from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint, parse_endpoint
 from schemas.bus.zenoh.bus import open_client
+from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
@@ -43,8 +44,9 @@ from touchline.launch.recording_outcome import (
 )
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import NOTABLE, MatchResult
+from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor, ending
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor, ending
 from touchline.watch.agent_faults import SlowAgents
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
@@ -100,6 +102,7 @@ class MatchRun:
         self._logs: dict[str, Path] = {}
         self._log_limit = LogLimit()
         self._fork_server = ForkServer()
+        self._limits = RobotLimits(plan.config, clock)
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
         self._address: AddressLines | None = None
         if plan.page is not None:
@@ -117,18 +120,20 @@ class MatchRun:
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
-                self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                if self._plan.config.isolate is Isolation.NONE:
+                    self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                    self._limits.add_helpers()
                 follower = self._follow(stop) if self._launch_clients(stop) else None
                 empty = self._empty_side()
             except BaseException:
-                self._supervisor.end(AT_ONCE)
+                self._end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
                 is_over = self._supervisor.host_status is not None
                 steps, keep = (AFTER_THE_MATCH, _AFTER_THE_RESULT) if is_over else (ABANDONED, _NONE)
-                self._supervisor.end(steps, should_abort=lambda: stop.received is not None, keep=keep)
+                self._end(steps, should_abort=lambda: stop.received is not None, keep=keep)
             if follower is None or empty is not None or stop.received is not None:
-                self._supervisor.end(AT_ONCE)  # the remaining processes
+                self._end(AT_ONCE)  # the remaining processes
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
         try:
@@ -164,7 +169,21 @@ class MatchRun:
     def _launch(self, process: Process) -> ProcessHandle:
         log = self._plan.folder / f"{process.name}.log"
         self._logs[process.name] = log
-        return self._fork_server.launch(process, log)
+        handle = self._fork_server.launch(self._limits.placed(process), log)
+        self._limits.launched(handle)
+        return handle
+
+    def _end(
+        self,
+        steps: Sequence[EndStep],
+        should_abort: Callable[[], bool] = lambda: False,
+        keep: frozenset[ProcessKind] = _NONE,
+    ) -> None:
+        """End processes, and what robots have left behind."""
+        self._limits.look_before_the_end()
+        self._supervisor.end(steps, should_abort, keep)
+        for sentence in self._limits.close():
+            self._screen.warn(sentence)
 
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""
@@ -180,6 +199,8 @@ class MatchRun:
                     self._plan.config, self._plan.listen, announcement.endpoint, self._plan.credentials
                 ):
                     self._screen.event(line, notable=True)
+                for note in filter(None, (self._plan.isolation_note, self._limits.note)):
+                    self._screen.event(note, notable=False)
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
@@ -217,6 +238,8 @@ class MatchRun:
         if stop.received is not None:
             return False  # processes that end with the same signal are no crashes
         for sentence in filter(None, map(self._log_limit.check, self._logs.values())):
+            self._screen.warn(sentence)
+        for sentence in self._limits.check():
             self._screen.warn(sentence)
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)

@@ -20,6 +20,7 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
+from touchline.launch.confinement import Confinement, program_command, team_confinements
 from touchline.launch.python_process import PYTHON, module_path_environment
 
 
@@ -87,13 +88,15 @@ class Process:
     kind: ProcessKind
     command: tuple[str, ...]
     environment: dict[str, str]
-    """Added to the supervisor's environment."""
+    """Added to the supervisor's environment, or to what the confinement leaves of it."""
     restarts: int = 0
     settings: Settings | None = None
     """The content of `settings_file`; None for a team's own program."""
     settings_file: Path | None = None
     sockets: tuple[socket.socket, ...] = ()
     """Bound sockets that it inherits, also when it is started again."""
+    confinement: Confinement | None = None
+    """How a robot's program is confined; None for the programs of this library, which are not."""
 
     def restarted(self) -> "Process":
         """The process as it is launched after a crash."""
@@ -134,6 +137,10 @@ class MatchPlan:
     """The bound sockets of the bridges, in the order in which they are inherited."""
     launch_token: str | None = None
     """Secret by which the host knows the agents of this launch; None admits every agent."""
+    confinements: Mapping[Side, Confinement] | None = None
+    """How the robots of each side are confined; None to find out when they are launched."""
+    isolation_note: str = ""
+    """What the teams are not isolated from; empty for nothing to be printed."""
     credentials: Path | None = None
     """Folder with the credentials of the host and of all accounts; None admits everybody."""
 
@@ -225,8 +232,11 @@ def client_processes(plan: MatchPlan) -> list[Process]:
             config=config,
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
+    confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
     for side in (side for side in Side if side not in config.remote_sides):
-        processes += [_robot_of(robot, side, plan) for robot in config.robots(side)]
+        processes += [
+            _robot_of(robot, side, plan, confinements[side].in_folder(folder / robot)) for robot in config.robots(side)
+        ]
     operator = plan.credentials_of(Account.OPERATOR)  # a gateway officiates, and gives the orders of both coaches
     gateway = GatewaySettings(connect=connect, match=match, credentials=operator, tokens=plan.tokens)
     if plan.page is not None:
@@ -243,19 +253,24 @@ def page_process(settings: GatewaySettings, listener: socket.socket, folder: Pat
     return _process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
-def _robot_of(robot: str, side: Side, plan: MatchPlan) -> Process:
+def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
     """The process of one robot of a match."""
     team = plan.config.team(side)
+    credentials = plan.credentials_of(Account.of_team(side))
+    if credentials is not None:
+        confinement = replace(confinement, credentials=credentials.absolute())
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
-        credentials=plan.credentials_of(Account.of_team(side)),
+        credentials=confinement.readable_credentials,
         robot=robot,
         brain=team.brain or "",
         brain_folder=plan.brain_folder,
+        launch_folder=Path.cwd(),
         launch_token=plan.launch_token,
     )
-    return robot_process(settings, side, team.command, plan.folder)
+    command = program_command(team.command) if team.command else None
+    return replace(robot_process(settings, side, command, plan.folder), confinement=confinement)
 
 
 def robot_process(settings: AgentSettings, side: Side, command: Sequence[str] | None, folder: Path) -> Process:

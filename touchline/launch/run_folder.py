@@ -1,11 +1,13 @@
 """The folder of a match's files under `runs/`, named after match, time and seed."""
 
+import os
 import secrets
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
 from schemas.bus.endpoint import is_loopback
+from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
@@ -31,7 +33,12 @@ def prepare_run(
     """
     stem = f"{config.name}-{_moment(clock)}-seed{config.seed}"
     try:
+        if config.isolate is Isolation.USER:
+            os.umask(0o077)  # logs and recording are for none of the teams' users
         folder = _new_folder(stem)
+        if config.isolate is Isolation.USER:
+            for one in (folder, folder.parent):
+                one.chmod(one.stat().st_mode | 0o011)  # robots enter their own folders in it
         out = (recording or folder / RECORDING) if recorded else None
         refusal = _why_not_writable(out) if out is not None else ""
         if refusal:
@@ -74,7 +81,12 @@ def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
         write_credentials(folder, new_credentials(plan.config.name, make_certificate(names) if tls else None))
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its credentials there") from None
-    return replace(plan, credentials=folder)
+    return with_credentials(plan, folder)
+
+
+def with_credentials(plan: MatchPlan, folder: Path) -> MatchPlan:
+    """The plan with the credentials in a folder: an agent that has those of its team needs no secret of the launch."""
+    return replace(plan, credentials=folder, launch_token=None)
 
 
 def _why_not_writable(out: Path) -> str:

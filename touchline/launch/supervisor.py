@@ -28,6 +28,9 @@ class RunningProcess(Protocol):
     def last_lines(self, count: int = 5) -> list[str]:
         """The last lines of the log."""
 
+    def breach(self) -> str:
+        """What it did beyond its limits, with the remedy, if it has ended for that; empty if not."""
+
 
 @dataclass(frozen=True, slots=True)
 class Notice:
@@ -172,7 +175,9 @@ class Supervisor:
 
     def _crashed(self, process: Process, status: int) -> Notice:
         log = tuple(self._running[process.name].last_lines())
-        return Notice(process.name, f"{process.name} {_ending(process, status)}; {self._restart(process, status)}", log)
+        breach = self._running[process.name].breach()
+        how = f"was ended: {breach}" if breach else _ending(process, status)
+        return Notice(process.name, f"{process.name} {how}; {self._restart(process, status)}", log)
 
     def _restart(self, process: Process, status: int) -> str:
         """Launch a crashed process again if that is allowed and possible; returns what was done."""

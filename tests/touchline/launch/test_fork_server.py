@@ -182,7 +182,7 @@ def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of
             said.append(launched.last_lines())
     assert said[0] == said[1]
     assert said[0][0].startswith("cyan 1 0 ")
-    assert said[0][1] == f"False {tmp_path} {tmp_path} False"
+    assert said[0][1] == f"False {tmp_path} {tmp_path / 'cyan1'} False"
 
 
 def test_other_programs_are_launched_by_their_command_lines(

@@ -74,7 +74,11 @@ def test_the_settings_of_a_host_are_its_match_and_its_endpoint() -> None:
 def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> None:
     agent = by_name(plan())["magenta2"]
     assert agent.settings == AgentSettings(
-        **JOINED, robot="magenta2", brain="robot_agent.teams.nubot:NuBot", launch_token="secret"
+        **JOINED,
+        robot="magenta2",
+        brain="robot_agent.teams.nubot:NuBot",
+        launch_folder=Path.cwd(),
+        launch_token="secret",
     )
     assert agent.environment["TOUCHLINE_SIDE"] == "magenta"
     assert agent.environment["PYTHONHASHSEED"] == "0"
@@ -83,7 +87,7 @@ def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> Non
 
 def test_a_team_with_a_command_gets_its_robot_in_environment_variables() -> None:
     agent = by_name(plan(**{"teams.cyan.command": ["./robot", "--fast"], "teams.cyan.size": 1}))["cyan1"]
-    assert agent.command == ("./robot", "--fast")
+    assert agent.command == (f"{Path.cwd()}/robot", "--fast")
     assert agent.settings is None
     assert {
         key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE", "LAUNCH_TOKEN")

@@ -18,6 +18,7 @@ class Actor:
 
     def __init__(self, name: str, clock: SteppedClock, deaf_to: frozenset[signal.Signals] = frozenset()) -> None:
         self.name = name
+        self.exceeded = ""
         self.ended: int | None = None
         self.heard: list[tuple[float, signal.Signals]] = []
         self._clock = clock
@@ -33,6 +34,9 @@ class Actor:
 
     def last_lines(self, count: int = 5) -> list[str]:
         return [f"last word of {self.name}"]
+
+    def breach(self) -> str:
+        return self.exceeded
 
 
 class Stage:
@@ -90,6 +94,16 @@ def test_a_crashed_agent_is_reported_with_its_last_words_and_launched_again() ->
     assert len(stage.cast["cyan1"]) == 2
     assert stage.supervisor.check() == []
     assert "cyan1" not in stage.supervisor.ended
+
+
+def test_an_agent_that_was_ended_for_exceeding_a_limit_is_reported_with_the_limit_and_the_remedy() -> None:
+    stage = Stage()
+    stage.cast["cyan1"][-1].exceeded = "it used more than 2 GB of memory; raise [limits] memory"
+    stage.end("cyan1", -signal.SIGKILL)
+    (notice,) = stage.supervisor.check()
+    assert notice.sentence == (
+        "cyan1 was ended: it used more than 2 GB of memory; raise [limits] memory; started again (1 of 3)"
+    )
 
 
 def test_an_agent_that_keeps_crashing_is_launched_again_three_times_and_then_left() -> None:

@@ -1,0 +1,91 @@
+"""How the programs of a team are confined: `[limits]`, `[teams.cyan.limits]` and `isolate` of a match file."""
+
+from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Field
+
+from schemas.wire.message import Part
+
+CpuTime = Annotated[float, Field(ge=1, le=1e9)]
+Memory = Annotated[float, Field(ge=0.1, le=10_000)]
+OpenFiles = Annotated[int, Field(ge=32, le=1_000_000)]
+Processes = Annotated[int, Field(ge=16, le=100_000)]
+FileSize = Annotated[float, Field(ge=0.001, le=1e6)]
+Cores = Annotated[float, Field(ge=0.05, le=1024)]
+
+
+class Isolation(StrEnum):
+    """What separates the robots of a team from other programs of the machine, beside their limits."""
+
+    NONE = "none"
+    """Nothing: they run as the user who launches the match."""
+    USER = "user"
+    """A system user for each team; only root can launch such a match."""
+    BUBBLEWRAP = "bubblewrap"
+    """A read-only view of the system and process ids of its own for each robot, by the program `bwrap`."""
+
+
+class Limits(Part):
+    """What one robot may use of its machine, with all processes that its program starts."""
+
+    cpu_time: CpuTime = 3600.0
+    """CPU time in s. An hour of a whole core; matches last minutes."""
+    memory: Memory = 4.0
+    """Memory in GB. Above what numpy and a network of torch on the CPU need, and too little to fill a machine."""
+    open_files: OpenFiles = 1024
+    """Open files of each process. What Linux allows by default."""
+    processes: Processes = 256
+    """Processes and threads. A robot has about a dozen threads, numpy and torch add some for each core."""
+    file_size: FileSize = 1000.0
+    """Size of each written file, in MB. More than a model, less than a disk."""
+    cores: Cores = 2.0
+    """CPU cores. Enforced only where control groups can be written: a brain and the threads of its link."""
+
+    def breach(self, limit: str) -> str:
+        """What a robot did that exceeded a limit, named by its field, and the remedy."""
+        figure = getattr(self, limit)
+        return f"it {_BREACHES[limit].format(figure)}; raise [limits] {limit}"
+
+
+_BREACHES = {
+    "cpu_time": "used more than {:g} s of CPU time",
+    "memory": "used more than {:g} GB of memory",
+    "open_files": "opened more than {} files at once",
+    "processes": "had more than {} processes and threads",
+    "file_size": "wrote more than {:g} MB into one file",
+}
+"""Limit → what exceeds it."""
+
+
+class TeamLimits(Part):
+    """Limits of the robots of one team that replace those of the match."""
+
+    cpu_time: CpuTime | None = None
+    """CPU time of a robot in s; None for the match's."""
+    memory: Memory | None = None
+    """Memory of a robot in GB; None for the match's."""
+    open_files: OpenFiles | None = None
+    """Open files of each process; None for the match's."""
+    processes: Processes | None = None
+    """Processes and threads of a robot; None for the match's."""
+    file_size: FileSize | None = None
+    """Size of each written file, in MB; None for the match's."""
+    cores: Cores | None = None
+    """CPU cores of a robot; None for the match's."""
+
+    def over(self, limits: Limits) -> Limits:
+        """The limits of the match with those of this team in their place."""
+        return limits.model_copy(update=self.model_dump(exclude_none=True))
+
+
+UserName = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_.-]{0,31}$")]
+
+
+class IsolateUsers(Part):
+    """The system users that the teams' programs run as with `isolate = "user"`."""
+
+    cyan: UserName | None = None
+    """User of the team in cyan; None for that of TOUCHLINE_USER_CYAN, or touchline-cyan."""
+    magenta: UserName | None = None
+    """User of the team in magenta; None for that of TOUCHLINE_USER_MAGENTA, or touchline-magenta."""

@@ -1,0 +1,99 @@
+"""Confines a process and ends it with its launcher: `python leash.py PID CONFINEMENT PROGRAM …` becomes the program.
+
+The program can be ended by SIGINT and SIGTERM, even if the launcher ignores them, as shells have it for their
+background jobs: an ignored signal stays ignored in the programs that a process starts.
+
+This file is run by its path and imports the standard library alone, so that it costs a few milliseconds. It avoids
+running code between fork and exec in a supervisor that has threads. If the kernel is not Linux, the program runs
+without this protection.
+"""
+
+import ctypes
+import json
+import os
+import resource
+import signal
+import sys
+from typing import TypedDict
+
+_PR_SET_PDEATHSIG = 1
+"""linux/prctl.h; the setting survives exec, but not a change of user."""
+_PR_SET_CHILD_SUBREAPER = 36
+"""Descendants whose parent ends become children of this process."""
+_PR_SET_NO_NEW_PRIVS = 38
+"""No program that it executes gains rights, as `sudo` would."""
+
+
+class OwnConfinement(TypedDict, total=False):
+    """What a process applies to itself; what is absent stays as it is."""
+
+    control_group: str
+    """Folder of the control group that it joins."""
+    limits: dict[str, tuple[int, int]]
+    """Name in the module `resource` → soft and hard limit."""
+    folder: str
+    """Its working folder."""
+    user: tuple[int, int]
+    """Ids of user and group that it runs as, without further groups."""
+
+
+def confine(wanted: OwnConfinement) -> None:
+    """Confine this process.
+
+    Raises:
+        OSError: the kernel refuses.
+    """
+    if "control_group" in wanted:
+        handle = os.open(f"{wanted['control_group']}/cgroup.procs", os.O_WRONLY)
+        os.write(handle, b"0")
+        os.close(handle)
+    for name, (soft, hard) in wanted.get("limits", {}).items():
+        number = getattr(resource, name)
+        most = resource.getrlimit(number)[1]
+        if most != resource.RLIM_INFINITY:
+            soft, hard = min(soft, most), min(hard, most)
+        resource.setrlimit(number, (soft, hard))
+    if "folder" in wanted:
+        os.chdir(wanted["folder"])
+    if "user" in wanted:
+        user, group = wanted["user"]
+        os.setgroups([])
+        os.setgid(group)
+        os.setuid(user)
+        _prctl(_PR_SET_NO_NEW_PRIVS, 1)
+    if wanted:
+        _prctl(_PR_SET_CHILD_SUBREAPER, 1)
+
+
+def adopt_orphans() -> None:
+    """Let descendants whose parent ends become children of this process."""
+    _prctl(_PR_SET_CHILD_SUBREAPER, 1)
+
+
+def main(arguments: list[str]) -> int:
+    """Become the program; if that fails, print the reason in one line and return 127."""
+    launcher, confinement, *command = arguments
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+    try:
+        confine(json.loads(confinement))
+    except OSError as error:
+        sys.stderr.write(f"touchline: the limits of this process cannot be set: {error}\n")
+        return 127
+    _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if sys.platform == "linux" and os.getppid() != int(launcher):
+        return 1  # the launcher died before prctl took effect
+    try:
+        os.execvp(command[0], command)
+    except OSError as error:
+        sys.stderr.write(f"{command[0]}: {error.strerror}\n")
+    return 127
+
+
+def _prctl(option: int, value: int) -> None:
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(option, value)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
