@@ -22,7 +22,7 @@ BRAINS = {"cyan": "robot_agent.teams.simple:Simple", "magenta": "robot_agent.tea
 ROBOTS = {side: [f"{side}{number}" for number in range(1, 6)] for side in BRAINS}
 WARM_UP = 100
 """Ticks before the link is disturbed."""
-EVERY = 500
+EVERY = 250
 """Ticks between two cuts."""
 
 

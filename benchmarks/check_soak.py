@@ -15,12 +15,14 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from support.process_story import Program, wait_for
+from support.process_story import Program, is_running, wait_for
 
 MB_A_MINUTE = 1.0
 """Most growth of a process's memory, by a line through its samples."""
 MORE_THREADS, MORE_FILES = 2, 4
 """Most that the newest counts exceed those after the warm-up."""
+SETTLE_S = 10.0
+"""Wall time after which the processes that only start others have ended."""
 EVERY_S = 2.0
 """Wall time between two samples."""
 
@@ -65,10 +67,14 @@ def main() -> int:
         try:
             names = ("host", "recorder", "cyan1", "magenta1")
             wait_for(lambda: set(names) <= set(program.processes()), f"the processes; {program.err}")
+            time.sleep(SETTLE_S)
             pids, begin = program.processes(), time.monotonic()
             samples: dict[str, list[Sample]] = {name: [] for name in pids}
             while (elapsed := time.monotonic() - begin) < seconds:
                 for name, pid in pids.items():
+                    if not is_running(pid):
+                        sys.stderr.write(f"{name} has ended; {program.err}\n")
+                        return 1
                     samples[name].append(sample(pid, elapsed / 60.0))
                 time.sleep(EVERY_S)
         finally:
