@@ -2,14 +2,14 @@
 # into .venv. Its packages are pinned by hash in requirements.lock.
 
 .DEFAULT_GOAL := help
-.PHONY: help match test check bench lowest mutants clean
+.PHONY: help match test check bench bench-network soak lowest mutants clean
 READY := .venv/.ready
 # Compiled once: where Python writes no bytecode, as in many containers, each process would compile them at its start.
 PACKAGES := schemas sim_host robot_agent coach_gateway recordings touchline
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 help: ## show this list
-	@sed -n 's/^\([a-z]*\):.*## /make \1\t/p' Makefile | expand -t 14
+	@sed -n 's/^\([a-z-]*\):.*## /make \1\t/p' Makefile | expand -t 14
 
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
@@ -25,6 +25,12 @@ check: $(READY) ## format, lint, types, and the contracts on imports
 
 bench: $(READY) ## run every benchmark
 	@for bench in benchmarks/bench_*.py; do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done
+
+bench-network: $(READY) ## measure match quality over delay, loss and cuts, for example: make bench-network ARGS="--seconds 60"
+	@.venv/bin/python benchmarks/bench_network.py $(ARGS)
+
+soak: $(READY) ## play in real time and fail if memory, threads or descriptors grow: make soak ARGS="--minutes 10"
+	@.venv/bin/python benchmarks/check_soak.py $(ARGS)
 
 LOWEST_TESTS := tests/schemas tests/robot_agent tests/recordings tests/coach_gateway/access tests/touchline/cli \
 	tests/touchline/commands

@@ -57,7 +57,7 @@ def measure(attack: str, seconds: float, robots: int) -> str:
     sizes = {"cyan": {"size": robots // 2}, "magenta": {"size": robots // 2}}
     settings = {"duration": 3600.0, "teams": sizes, "patience": {"attendance": PATIENCE_S}}
     with (
-        running_match("idle_brain:act", settings) as (config, endpoint, host, _),
+        running_match("idle_brain:act", settings) as (config, endpoint, host, *_),
         open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus,
     ):
         gauge = Gauge(bus)

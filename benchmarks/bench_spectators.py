@@ -72,7 +72,7 @@ def with_pages(port: int, host: int, server: int, healths: Subscription) -> tupl
 def main() -> None:
     """Print the cost for host and server with and without spectators."""
     with (
-        running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, host, _),
+        running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, host, *_),
         open_client(config.name, WallClock(), endpoint, 60.0) as bus,
     ):
         port = reserve_port("127.0.0.1")

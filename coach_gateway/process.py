@@ -19,6 +19,7 @@ from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
 from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import WallClock
+from schemas.process.process_log import configure_log, log_line
 
 _PATIENCE = 3.0
 """s of wall time to find a host whose match is to be shown; services wait for theirs however long it takes."""
@@ -30,6 +31,7 @@ def run(settings: GatewaySettings) -> int:
     Raises:
         TouchlineError: no host answers, a package is not installed, a port is taken, or tokens cannot be read.
     """
+    configure_log("gateway", settings.log_format)
     if settings.web is None and not settings.bridges.wanted:
         _show(settings)
     else:
@@ -83,5 +85,4 @@ def _page(
 
 def say(line: str) -> None:
     """A line on stdout, at once."""
-    sys.stdout.write(printable(line) + "\n")
-    sys.stdout.flush()
+    log_line(printable(line), stream=sys.stdout)

@@ -9,7 +9,7 @@ from coach_gateway.ports import LOOPBACK
 from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.web.settings import WebSettings
 from schemas.bus.settings import ClientSettings
-from schemas.config.settings import CommandLine, Settings
+from schemas.config.settings import CommandLine, LogSettings, Settings
 from schemas.side import Side
 
 
@@ -43,7 +43,7 @@ class BridgeOptions(Settings):
 NO_BRIDGES = BridgeOptions()
 
 
-class GatewaySettings(ClientSettings):
+class GatewaySettings(ClientSettings, LogSettings):
     """One gateway process: a page, bridges, or both; with neither it shows the match as plain lines."""
 
     tokens: Annotated[Path | None, CommandLine(environment="TOUCHLINE_TOKENS")] = None

@@ -1,7 +1,6 @@
 """One robot's process: bus, brain, run. Importing it loads what every robot needs, and no brain."""
 
 import signal
-import sys
 from types import FrameType
 
 from robot_agent.brain_loader import load_brain
@@ -14,6 +13,7 @@ from schemas.bus.zenoh.waiting_client import open_when_there
 from schemas.config.match_config import LOCKSTEP
 from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
+from schemas.process.process_log import configure_log, log_line
 from schemas.process.scheduling import use_batch_scheduling
 
 
@@ -23,6 +23,7 @@ def run(settings: AgentSettings) -> int:
     Raises:
         TouchlineError: no host answers, or the brain cannot be made.
     """
+    configure_log("agent", settings.log_format, settings.robot)
     signal.signal(signal.SIGTERM, _end)
     clock = WallClock()
 
@@ -46,7 +47,7 @@ def run(settings: AgentSettings) -> int:
 
 
 def _report(line: str) -> None:
-    sys.stderr.write(f"{line}\n")
+    log_line(line)
 
 
 def _end(number: int, frame: FrameType | None) -> None:

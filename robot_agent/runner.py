@@ -1,7 +1,6 @@
 """Runs one brain on the bus: a sight in, a command out, until the host leaves or the process is ended."""
 
 import gc
-import sys
 from collections.abc import Callable
 
 from robot_agent.brain_error import BrainError
@@ -14,6 +13,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import Sight
+from schemas.process.process_log import Level, log_line
 from schemas.topics import COMMAND, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
 
@@ -94,7 +94,7 @@ class Runner:
     def _count_invalid(self, error: BadMessageError) -> None:
         self.invalid += 1
         if self.invalid == 1:
-            sys.stderr.write(f"a sight was skipped, and further ones will be without notice: {error}\n")
+            log_line(f"a sight was skipped, and further ones will be without notice: {error}", Level.WARNING)
 
 
 def ask_setup(bus: Bus, patience: float) -> Setup:
@@ -152,7 +152,7 @@ def serve(
             try:
                 runner.answer(sight)
             except BrainError as error:
-                sys.stderr.write(error.report())
+                log_line(error.report(), Level.ERROR, tick=sight.tick)
                 return 1 if runner.answered else FIRST_SIGHT_FAILED
         elif host.is_reachable():
             if is_new_match:
@@ -161,7 +161,7 @@ def serve(
                 membership.join(setup, patience)
                 is_new_match = False
         elif host.is_given_up(patience):
-            sys.stderr.write(f"{robot}: the host has been gone for {patience:g} s; leaving\n")
+            log_line(f"{robot}: the host has been gone for {patience:g} s; leaving", Level.WARNING)
             return 0
         else:
             is_new_match = True

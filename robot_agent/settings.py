@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import Field
 
 from schemas.bus.settings import ClientSettings
-from schemas.config.settings import CommandLine
+from schemas.config.settings import CommandLine, LogSettings
 from schemas.side import Side
 from schemas.wire.message import Name
 
@@ -14,7 +14,7 @@ FIRST_SIGHT_FAILED = 3
 """Exit status of an agent whose brain failed at its first sight: it would fail again."""
 
 
-class AgentSettings(ClientSettings):
+class AgentSettings(ClientSettings, LogSettings):
     """One robot's process: its match, its name and its brain."""
 
     robot: Annotated[Name, CommandLine(environment="TOUCHLINE_ROBOT")]

@@ -13,9 +13,11 @@ from touchline.commands import (
     coach,
     credentials,
     diff,
+    doctor,
     drive,
     export,
     filter,
+    health,
     host,
     import_log,
     info,
@@ -75,6 +77,7 @@ app.command("match", rich_help_panel=PLAY)(match.match)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
+app.command("health", rich_help_panel=WATCH)(health.health)
 app.command("replay", rich_help_panel=WATCH)(replay.replay)
 app.command("player", rich_help_panel=WATCH)(player.player)
 
@@ -85,6 +88,7 @@ app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
 app.command("drive", rich_help_panel=OPERATE)(drive.drive)
 app.add_typer(recorder.app, name="recorder", rich_help_panel=OPERATE)
 
+app.command("doctor", rich_help_panel=PROCESSES)(doctor.doctor)
 app.command("host", rich_help_panel=PROCESSES)(host.host)
 app.command("agent", rich_help_panel=PROCESSES)(agent.agent)
 app.command("team", rich_help_panel=PROCESSES)(team.team)

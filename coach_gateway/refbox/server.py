@@ -117,7 +117,7 @@ class RefBoxServer:
                 self._log(f"referee box: refused {refused}")
 
     async def _open(self, address: ServerAddress, bound: socket.socket) -> asyncio.Server:
-        return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound)
+        return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound, backlog=16)
 
     def send(self, calls: Sequence[Call]) -> None:
         """Send these commands to all base stations."""

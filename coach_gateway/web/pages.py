@@ -5,6 +5,7 @@ import hmac
 from collections import Counter
 from collections.abc import Callable, Iterator
 
+from coach_gateway.access.network_limits import NetworkLimits
 from coach_gateway.access.rate_limit import TokenBucket
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import Role
@@ -15,6 +16,10 @@ MESSAGES_PER_S = 100.0
 MESSAGES_AT_ONCE = 200.0
 STUCK_S = 5.0
 """Wall time in s after which a page that does not read is dropped."""
+OPENED_PER_S, OPENED_AT_ONCE = 5.0, 300.0
+"""Pages that one network may open per s of wall time, and at once: each is sent everything that is known."""
+TOO_LONG_WEIGHT = 50
+"""Unreadable messages that one beyond the longest counts for."""
 _MOST_BAD = 500
 """Unreadable or excess messages after which a page is disconnected."""
 _WRONG_TOKENS = 20
@@ -28,6 +33,7 @@ _FAULTS = {
     "broken": ("connection that broke the protocol", "connections that broke the protocol"),
     "control frames": ("flood of control frames", "floods of control frames"),
     "host": ("request for an unknown host name", "requests for an unknown host name"),
+    "opened": ("page opened beyond the rate limit", "pages opened beyond the rate limit"),
     "foreign": ("page refused for its origin", "pages refused for their origin"),
     "full": ("page refused for lack of room", "pages refused for lack of room"),
     "bad": ("unreadable message", "unreadable messages"),
@@ -70,9 +76,9 @@ class Page:
         self.close_reason = self.close_reason or why
         self.leave.set()
 
-    def note_bad(self) -> None:
-        """Count an unreadable message, or one beyond the rate limit."""
-        self._bad += 1
+    def note_bad(self, weight: int = 1) -> None:
+        """Count an unreadable message, or one beyond the rate limit; one that costs more effort has more weight."""
+        self._bad += weight
         if self._bad > _MOST_BAD:
             self.disconnect("this page has sent too many messages that could not be read or were beyond the rate limit")
 
@@ -103,6 +109,7 @@ class Pages:
         """At most `most` pages at once, of these at most `each` from one network."""
         self._most, self._each = most, each
         self._open: dict[Page, None] = {}
+        self._openings = NetworkLimits(OPENED_PER_S, OPENED_AT_ONCE)
         self.refusals = Refusals("page", log, {kind: one for kind, (one, _) in _FAULTS.items()})
         """Faults by kind."""
 
@@ -124,6 +131,13 @@ class Pages:
 
     def __iter__(self) -> Iterator[Page]:
         return iter(tuple(self._open))
+
+    def may_open(self, network: str | None, now: float) -> bool:
+        """Whether a network may open one more page, or has opened too many in a short time; counts it."""
+        allowed = self._openings.allow(network, now)
+        if not allowed:
+            self.refusals.note("opened", network, now)
+        return allowed
 
     def why_no_room(self, network: str | None) -> str:
         """Why no further page of this network is admitted; empty when it is."""

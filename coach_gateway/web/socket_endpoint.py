@@ -13,7 +13,7 @@ from coach_gateway.access.roles import Role
 from coach_gateway.web.broadcaster import PageBroadcaster
 from coach_gateway.web.door import Door
 from coach_gateway.web.manual_control import ManualControl
-from coach_gateway.web.pages import Page, Pages
+from coach_gateway.web.pages import TOO_LONG_WEIGHT, Page, Pages
 from coach_gateway.web.protocol import (
     MAX_BYTES,
     PAGE_REQUEST,
@@ -60,6 +60,9 @@ class SocketEndpoint:
         if not self._origins.allows(origin, host):
             self._pages.refusals.note("foreign", network, self._clock.now(), f"origin {origin}")
             await socket.close(_POLICY)  # before it is accepted: HTTP 403
+            return
+        if not self._pages.may_open(network, self._clock.now()):
+            await socket.close(_TRY_AGAIN)
             return
         await socket.accept()
         page = Page(origin, host, self._clock.now(), network)
@@ -138,7 +141,7 @@ class SocketEndpoint:
             except ValidationError as error:
                 number, why = _number(text), fault_sentence(error)
         self._pages.refusals.note("bad", page.network, self._clock.now(), why)
-        page.note_bad()
+        page.note_bad(TOO_LONG_WEIGHT if text is not None and len(text) > MAX_BYTES else 1)
         _reply(page, Reply(id=number, accepted=False, reason=why))
         return None
 

@@ -21,10 +21,12 @@ PIECE_BYTES = 1024
 """Bytes that are read at once."""
 MOST_FRAGMENTS = 256
 """Frames of one message."""
-_CONTROL_PER_S, _CONTROL_AT_ONCE = 10.0, 100.0
+_CONTROL_PER_S, _CONTROL_AT_ONCE = 2.0, 20.0
 """Pings and pongs of a client per s of wall time, and at once; browsers send none but the answers to ours."""
 _NOT_UTF_8 = 1007
 """WebSocket close code."""
+_MOST_CLOSING = 16
+"""Pieces that are read for the client's part of the closing handshake, among what it had sent before."""
 _CLOSING_S = 2.0
 """s of wall time for the client's part of the closing handshake."""
 
@@ -41,6 +43,7 @@ class SocketProtocol(WebSocketsSansIOProtocol):
         self.network = client_network(self.client[0] if self.client is not None else None)
         self._control = TokenBucket(_CONTROL_PER_S, _CONTROL_AT_ONCE, self.config.connections.clock.now())
         self._unread = bytearray()
+        self._pieces_closing = 0
         self._next: asyncio.Handle | None = None
         self.config.connections.enter(self)
 
@@ -113,6 +116,10 @@ class SocketProtocol(WebSocketsSansIOProtocol):
         self._next = None
         if self.transport.is_closing():
             self._unread.clear()
+            return
+        self._pieces_closing += self.close_sent
+        if self._pieces_closing > _MOST_CLOSING:
+            self.cut()
             return
         piece = bytes(self._unread[:PIECE_BYTES])
         del self._unread[:PIECE_BYTES]

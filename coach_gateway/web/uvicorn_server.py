@@ -2,6 +2,7 @@
 
 import contextlib
 import logging
+import socket
 from collections.abc import Iterator
 from typing import Any
 
@@ -15,6 +16,8 @@ from coach_gateway.web.socket_protocol import SocketProtocol
 
 _PING_S = 10.0
 """s of wall time between two pings to a page, and until a ping must be answered."""
+_AT_ONCE, _WAITING = 8, 1024
+"""Connections that are accepted before everything else takes a turn, and that wait in the kernel meanwhile."""
 _MOST_HEADER_BYTES = 16_384
 """Bytes of a request's first line and headers."""
 
@@ -49,12 +52,19 @@ def web_server(app: ASGIApp, connections: Connections) -> uvicorn.Server:
             h11_max_incomplete_event_size=_MOST_HEADER_BYTES,
             timeout_keep_alive=round(REQUEST_S),
             timeout_graceful_shutdown=1,
+            backlog=_AT_ONCE,
         )
     )
 
 
 class _Server(uvicorn.Server):
-    """Leaves signals to the process, which ends more than a web server."""
+    """Leaves signals to the process, which ends more than a web server, and lets a flood of connections wait."""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Listen; asyncio accepts as many connections in a row as its backlog has."""
+        await super().startup(sockets)
+        for listener in sockets or []:
+            listener.listen(_WAITING)
 
     @contextlib.contextmanager
     def capture_signals(self) -> Iterator[None]:

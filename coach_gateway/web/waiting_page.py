@@ -77,6 +77,9 @@ class WaitingPage:
             self.pages.refusals.note("foreign", network, self._clock.now(), f"origin {origin}")
             await socket.close(1008)
             return
+        if not self.pages.may_open(network, self._clock.now()):
+            await socket.close(1013)
+            return
         await socket.accept()
         page = Page(origin, host, self._clock.now(), network)
         with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError):  # the page leaves, or reads nothing

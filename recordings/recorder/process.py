@@ -8,6 +8,7 @@ import threading
 from recordings.recorder.record import record
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
+from schemas.process.process_log import configure_log, log_line
 from schemas.process.scheduling import use_batch_scheduling
 
 _GC_THRESHOLD = 100_000
@@ -20,6 +21,7 @@ def run(settings: RecorderSettings) -> int:
     Raises:
         TouchlineError: no host answers, or the file cannot be written.
     """
+    configure_log("recorder", settings.log_format)
     use_batch_scheduling()  # no process waits for the recorder
     gc.freeze()
     gc.set_threshold(_GC_THRESHOLD)
@@ -30,20 +32,21 @@ def run(settings: RecorderSettings) -> int:
     if summary is None:
         _report("stopped before there was a host; nothing is recorded")
         return 1
-    sys.stdout.write(_sentence(summary) + "\n")
+    result = summary.result
+    log_line(closing_line(summary), stream=sys.stdout, messages=result.messages, lost=result.lost, size=summary.size)
     return 0
 
 
 def _report(line: str) -> None:
-    sys.stderr.write(f"{line}\n")
-    sys.stderr.flush()
+    log_line(line)
 
 
-def _sentence(summary: RecordingSummary) -> str:
+def closing_line(summary: RecordingSummary) -> str:
+    """Files, counts and the reason of the end, for the terminal."""
     result = summary.result
-    files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
     if not summary.files:
         return "no file was kept"
+    files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
     return (
         f"{files}: {result.messages} messages, {result.tick + 1} ticks, {result.lost} lost, "
         f"{summary.size} bytes, ended by {result.ended.value}"

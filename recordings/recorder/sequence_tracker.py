@@ -87,7 +87,9 @@ class SequenceTracker:
             if stamp.sequence < writer.expected and stamp.sent_ns <= writer.sent_ns:
                 self._from_before(writer, stamp)
                 return
-        for writer in dict.fromkeys((*active, *writers)):
+        silent = [writer for writer in writers if writer not in active]
+        silent.sort(key=lambda writer: writer.expected != stamp.sequence)  # first one whose next message this is
+        for writer in (*active, *silent):
             if _is_plausible(writer, stamp):
                 self._gap(writer, stamp)
                 return

@@ -7,10 +7,10 @@ from pydantic import Field
 
 from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
-from schemas.config.settings import RecordOptions
+from schemas.config.settings import LogSettings, RecordOptions
 
 
-class RecorderSettings(ClientSettings):
+class RecorderSettings(ClientSettings, LogSettings):
     """One recorder process: its match, its file, and what goes into it."""
 
     out: Path

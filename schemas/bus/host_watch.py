@@ -14,6 +14,8 @@ CUT_OFF_S = 3600.0
 """The same where the network to the host is cut: the match goes on there, and lasts no longer."""
 _POLL_S = 0.02
 """Wall time between two checks while waiting for a host."""
+_PROBE_EVERY_S = 1.0
+"""Wall time between two checks whether the network is cut."""
 
 
 class HostWatch:
@@ -28,6 +30,7 @@ class HostWatch:
         self._reached_at = self._linked_at = 0.0
         self._cut_off_at = 0.0
         """When the network was last found to be cut."""
+        self._probed_at = 0.0
         self.seen = False
         """Whether a host has been present."""
 
@@ -65,12 +68,11 @@ class HostWatch:
         The wait begins again while the network is cut, for up to `CUT_OFF_S`.
         """
         now = self._now()
-        if now - max(self._reached_at, self._cut_off_at) < patience:
-            return False
-        if now - self._reached_at < CUT_OFF_S and self._bus.is_cut_off():
-            self._cut_off_at = now
-            return False
-        return True
+        if now - self._probed_at >= _PROBE_EVERY_S and now - self._reached_at < CUT_OFF_S:
+            self._probed_at = now
+            if self._bus.is_cut_off():
+                self._cut_off_at = now
+        return now - max(self._reached_at, self._cut_off_at) >= patience
 
     def has_left(self) -> bool:
         """For watchers: whether the host was present and its token is gone, or the link has been down for too long."""

@@ -10,6 +10,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from schemas.process.log_format import VARIABLE, LogFormat
 from schemas.wire.message import Part
 
 DEFAULT_MATCH = "friendly"
@@ -28,6 +29,13 @@ class CommandLine:
 
 class Settings(Part):
     """The base of all settings: immutable, without unknown fields, described by the docstrings of its fields."""
+
+
+class LogSettings(Settings):
+    """How a process writes its log."""
+
+    log_format: Annotated[LogFormat | None, CommandLine(environment=VARIABLE)] = None
+    """Format of the log: lines of text, or one JSON object a line; by default text."""
 
 
 class RecordOptions(Settings):

@@ -11,6 +11,7 @@ from typing import TypeVar
 from schemas.config.settings import Settings
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError
+from schemas.process.process_log import Level, log_line
 
 S = TypeVar("S", bound=Settings)
 
@@ -72,5 +73,5 @@ def exit_status(run: Callable[[], int]) -> int:
     try:
         return run()
     except TouchlineError as error:
-        sys.stderr.write(f"touchline: {error}\n")
+        log_line(str(error), Level.ERROR, prefix="touchline: ")
         return WRONG

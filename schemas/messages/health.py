@@ -4,6 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from schemas.messages.latency_counts import CLASSES
+from schemas.side import Side
 from schemas.wire.message import Message, Name, Part
 
 MAX_FAULT = 300
@@ -21,6 +23,8 @@ class RobotHealth(Part):
     """Ticks with an answer."""
     missed: int = 0
     """Ticks without an answer."""
+    missed_in_a_row: int = 0
+    """Newest ticks without an answer, one after the other."""
     duplicates: int = 0
     """Commands for a tick that it had already answered."""
     invalid: int = 0
@@ -34,8 +38,37 @@ class RobotHealth(Part):
     """Parts of commands that were refused."""
     latency_ms: float | None = None
     """Median wall time from sight to command over the last second, in ms; None without an answer."""
+    sights: int | None = None
+    """Sights sent to its agent while it was present, without repetitions; None in recordings that are older than this
+    field."""
+    unanswered: int | None = None
+    """Sights without an answer before the newest one that was answered: the sight was lost, the agent skipped it for a
+    newer one, or its answer was lost or invalid. None in recordings that are older than this field."""
+    late: int | None = None
+    """Those of `answers` to a sight that was no longer the newest; the others were on time. None in recordings that are
+    older than this field."""
+    lost_commands: int | None = None
+    """Commands that did not reach the host, by the gaps in the agent's sequence numbers; None in recordings that are
+    older than this field."""
+    radio_bytes: int | None = None
+    """Bytes of its radio messages that were sent; None in recordings that are older than this field."""
+    radio_refused: int | None = None
+    """Its radio messages that were refused, by the team's budget or by a channel in use; None in recordings that are
+    older than this field."""
+    latencies: Annotated[list[int], Field(max_length=CLASSES)] = Field(default_factory=list)
+    """Answers by wall time from sight to command: the first number counts those below 0.125 ms, and each class reaches
+    to 2^¼ times the end of the one before. Trailing zeros are left out."""
     fault: Annotated[str, Field(max_length=MAX_FAULT)] = ""
     """Why its messages are not answers to the newest sight; empty if it answers, or if nothing comes from it."""
+
+
+class TeamRadio(Part):
+    """Use of one team's radio."""
+
+    budget: float
+    """Most bits that the team may send in a second, in bit/s."""
+    busiest: float = 0.0
+    """Bits that the team sent in its busiest second since the match began, in bit/s."""
 
 
 class AccountHealth(Part):
@@ -72,6 +105,8 @@ class Health(Message):
     """Command key → messages on it, for names that no robot of this match has."""
     recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
     """Recorder → ticks that it is behind."""
+    radio: dict[Side, TeamRadio] = Field(default_factory=dict)
+    """Side → use of its radio; empty in recordings that are older than this field."""
     accounts: dict[str, AccountHealth] = Field(default_factory=dict)
     """Account → what it has sent; without credentials, each key counts as an account of its own."""
 

@@ -13,6 +13,7 @@ from schemas.side import Side
 from schemas.wire.struct import encode
 from sim_host.match.radio_medium import Budget, SharedChannel
 from sim_host.match.radio_timing import NEVER, RadioTiming, Ticks, arrival_ticks, last_arrival
+from sim_host.match.radio_use import RadioUse
 from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
@@ -60,13 +61,18 @@ class RadioAir:
     other; a receiver keeps the one that was sent last.
     """
 
-    def __init__(self, air: RadioChannel, roster: Roster, tick: float, streams: RandomStreams) -> None:
+    def __init__(
+        self, air: RadioChannel, roster: Roster, tick: float, streams: RandomStreams, use: RadioUse | None = None
+    ) -> None:
+        """`use` counts what is sent; by default a count of its own."""
+        self.use = use if use is not None else RadioUse()
         self._air = air
         self._roster = roster
         self._tick_s = tick
         self._streams = streams
         self._timing = RadioTiming(air, roster, tick, streams)
         self._budgets = {side: Budget() for side in Side}
+        self.use.follow(self._budgets)
         self._shared = SharedChannel()
         self._index = {name: index for index, name in enumerate(roster.names)}
         names = [(name, index, roster.sides[index]) for name, index in self._index.items()]
@@ -89,13 +95,15 @@ class RadioAir:
 
     def with_roster(self, roster: Roster) -> "RadioAir":
         """The radio for another roster: robots that remain on their side keep all messages between them."""
-        successor, before = RadioAir(self._air, roster, self._tick_s, self._streams), self._roster
+        successor = RadioAir(self._air, roster, self._tick_s, self._streams, self.use)
+        before = self._roster
         kept = {
             old: roster.names.index(name)
             for old, name in enumerate(before.names)
             if name in roster.names and roster.side_of(name) is before.side_of(name)
         }
         successor._budgets, successor._shared = self._budgets, self._shared
+        self.use.follow(self._budgets)
         if not kept:
             return successor
         old, new = list(kept), list(kept.values())
@@ -123,10 +131,13 @@ class RadioAir:
         for left, index in outgoing:
             name = self._roster.names[index]
             content = contents[name]
-            end, refusal = self._transmit(left, 8 * len(encode(content)), self._roster.sides[index])
+            side, bits = self._roster.sides[index], 8 * len(encode(content))
+            end, refusal = self._transmit(left, bits, side)
             if refusal is not None:
                 refusals[name] = refusal
+                self.use.refused[name] += 1
                 continue
+            self.use.bits[name] += bits
             messages[name] = _RadioMessage(left, ReceivedRadio.of(content))
             ends[index] = end
         if self._air.model == "shared":

@@ -16,20 +16,25 @@ class Budget:
     def __init__(self) -> None:
         self._sent: deque[tuple[float, int]] = deque()
         """(time in s, bits) of each message of the last second."""
-        self._bits = 0
+        self.bits = 0
+        """Bits of the last second before the newest message, which they include."""
+        self.busiest = 0
+        """Most bits of a second so far."""
 
     def refusal(self, at: float, bits: int, budget: float) -> str | None:
         """Why the team may not send these bits at this time, or None; `budget` in bit/s."""
         while self._sent and self._sent[0][0] <= at - _WINDOW_S + _ROUNDING:
-            self._bits -= self._sent.popleft()[1]
-        if self._bits + bits > budget * _WINDOW_S:
+            self.bits -= self._sent.popleft()[1]
+        if self.bits + bits > budget * _WINDOW_S:
             return f"radio: the team's budget of {budget / 1e6:g} Mbit/s is used up"
         return None
 
     def spend(self, at: float, bits: int) -> None:
         """Count a message that is sent at this time."""
         self._sent.append((at, bits))
-        self._bits += bits
+        self.bits += bits
+        if self.bits > self.busiest:
+            self.busiest = self.bits
 
 
 class SharedChannel:

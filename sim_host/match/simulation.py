@@ -27,6 +27,7 @@ from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.program_versions import program_versions
+from sim_host.match.radio_use import RadioUse
 from sim_host.match.sights import Send
 from sim_host.match.start_scene import opening_layout
 from sim_host.match.subsystems import Subsystems
@@ -108,6 +109,11 @@ class Simulation:
     def referee(self) -> Referee:
         """The referee from the next tick on."""
         return self._subsystems.referee
+
+    @property
+    def radio_use(self) -> RadioUse:
+        """What the robots have sent by radio since the match began."""
+        return self._subsystems.radio_use
 
     @property
     def over(self) -> bool:

@@ -10,6 +10,7 @@ from schemas.config.rule_book import RuleBook
 from sim_host.actuation.latest_commands import CommandLimits, LatestCommands
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.radio import RadioAir
+from sim_host.match.radio_use import RadioUse
 from sim_host.match.referee_factory import make_referee
 from sim_host.match.sights import Sights
 from sim_host.referee.core import Referee
@@ -33,6 +34,7 @@ class Subsystems:
         """The robots that take part from the next tick on."""
         self.referee = self._new_referee()
         self.commands = LatestCommands(self.roster.names, self._command_limits, self.roster.still)
+        self.radio_use = RadioUse()
         self.radio, self._perception = self._new_radio(), self._new_perception()
         self.sights = Sights(self.roster, self._perception, self.radio)
 
@@ -76,7 +78,7 @@ class Subsystems:
     def _new_radio(self) -> RadioAir:
         """A radio without messages."""
         profile = self._live_parameters.profile
-        return RadioAir(profile.radio, self.roster, profile.time.tick, self._streams)
+        return RadioAir(profile.radio, self.roster, profile.time.tick, self._streams, self.radio_use)
 
     def _new_perception(self) -> Perception:
         """Sensors without memory."""

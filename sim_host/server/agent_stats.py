@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from statistics import median
 
 from schemas.messages.health import MAX_FAULT, RobotHealth
+from schemas.messages.latency_counts import CLASSES, class_of, without_empty_end
+from sim_host.match.radio_use import NO_RADIO, RobotRadio
 
 SILENT_TICKS = 3
 """A robot that has missed this many ticks in a row is not waited for until it sends a valid message."""
@@ -14,6 +16,8 @@ QUICK_S = 0.1
 """A late answer with a shorter latency was late for its tick, not for the time that the agent took."""
 LATENCY_SAMPLES = 50
 """Commands that the median latency is taken over: one second of ticks."""
+_REPEATED_COMMANDS = 100
+"""Most commands that an agent sends in addition to one for each tick: a larger gap is another agent's numbering."""
 
 
 @dataclass(slots=True)
@@ -29,6 +33,10 @@ class AgentStats:
     duplicates: int = 0
     invalid: int = 0
     refused: int = 0
+    sights: int = 0
+    unanswered: int = 0
+    late: int = 0
+    lost_commands: int = 0
     silent: int = 0
     """Ticks missed in a row, for which the host waits for the agent; late answers lower it."""
     missed_in_a_row: int = 0
@@ -51,6 +59,12 @@ class AgentStats:
     refused_order: str = ""
     """Why it does not carry out that order; empty where it does."""
     latencies: deque[float] = field(default_factory=lambda: deque(maxlen=LATENCY_SAMPLES))
+    latency_counts: list[int] = field(default_factory=lambda: [0] * CLASSES)
+    """All latencies since the match began, by class."""
+    _ticks_without_sight: int = 0
+    """Ticks since its newest answer in which no sight was sent to it."""
+    next_sequence: int = -1
+    """Sequence number of its next message; -1 before the first."""
 
     @property
     def is_silent(self) -> bool:
@@ -65,12 +79,31 @@ class AgentStats:
     def end_tick(self, answered: bool) -> None:
         """Count a tick that ended with or without its command."""
         self.answering = answered
+        if answered or (self.alive and not self.removed):
+            self.sights += 1
+        else:
+            self._ticks_without_sight += 1
         if answered:
             self.silent = self.missed_in_a_row = self.next_chance = 0
         elif not self.idle:
             self.missed += 1
             self.missed_in_a_row += 1
             self.silent += 1
+
+    def jump_to(self, sequence: int, tick: int) -> None:
+        """Count the messages that are missing before this sequence number, which is not the next and arrives at `tick`.
+
+        A restarted agent counts from 0 again. A gap that is longer than an agent can make is one of another agent.
+        """
+        gap = sequence - self.next_sequence
+        if self.next_sequence >= 0 and 0 < gap <= tick - self.newest + _REPEATED_COMMANDS:
+            self.lost_commands += gap
+        self.next_sequence = sequence
+
+    def add_latency(self, latency_s: float) -> None:
+        """Add the wall time in s from a sight to its command."""
+        self.latencies.append(latency_s)
+        self.latency_counts[class_of(latency_s)] += 1
 
     def add_invalid(self, reason: str) -> None:
         """Count a message that is not a valid command."""
@@ -87,8 +120,13 @@ class AgentStats:
         if answered <= self.newest:
             self.duplicates += 1
             return False
+        if answered != self.newest + 1:
+            self.unanswered += max(0, answered - self.newest - 1 - self._ticks_without_sight)
+            self._ticks_without_sight = 0
         self.newest = answered
         self.answers += 1
+        if answered < tick:
+            self.late += 1
         if self.silent >= SILENT_TICKS and self.missed_in_a_row >= self.next_chance:
             self.next_chance = self.missed_in_a_row + min(self.missed_in_a_row, MOST_TICKS_GIVEN_UP)
             self.silent = SILENT_TICKS - 1
@@ -107,18 +145,26 @@ class AgentStats:
         """Median wall time from sight to command; 0 without an answer."""
         return median(self.latencies) if self.latencies else 0.0
 
-    def health(self, tick: int) -> RobotHealth:
-        """The statistics as they are published at this tick."""
+    def health(self, tick: int, radio: RobotRadio = NO_RADIO) -> RobotHealth:
+        """The statistics as they are published at this tick, with the use of its robot's radio."""
         return RobotHealth(
             alive=self.alive,
             answering=self.answering,
             answers=self.answers,
             missed=self.missed,
+            missed_in_a_row=self.missed_in_a_row,
             duplicates=self.duplicates,
             invalid=self.invalid,
             refused=self.refused,
             removed=self.removed,
             still=self.still,
             latency_ms=round(self.latency_s * 1e3, 3) if self.latencies else None,
+            sights=self.sights,
+            unanswered=self.unanswered,
+            late=self.late,
+            lost_commands=self.lost_commands,
+            radio_bytes=radio.bytes,
+            radio_refused=radio.refused,
+            latencies=without_empty_end(self.latency_counts),
             fault="" if self.answering or self.idle else self.fault(tick)[:MAX_FAULT],
         )

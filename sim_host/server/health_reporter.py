@@ -2,8 +2,10 @@
 
 from collections import deque
 
-from schemas.messages.health import Health
+from schemas.messages.health import Health, TeamRadio
 from schemas.process.clock import Clock
+from schemas.side import Side
+from sim_host.match.radio_use import RadioUse
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import PresenceTracker
@@ -42,10 +44,19 @@ class HealthReporter:
         return True
 
     def report(
-        self, tick: int, time: float, late: int, inbox: Inbox, presence: PresenceTracker, accounts: AccountLimits
+        self,
+        tick: int,
+        time: float,
+        late: int,
+        inbox: Inbox,
+        presence: PresenceTracker,
+        accounts: AccountLimits,
+        radio: RadioUse,
+        radio_budget: float,
     ) -> Health:
-        """The report on the last second; `late` counts ticks that began late."""
-        (began, then), (now, until) = self._marks[0], self._marks[-1]
+        """The report on the last second; `late` counts ticks that began late, `radio_budget` is a team's in bit/s."""
+        marks = self._marks or [(0.0, 0.0)]
+        (began, then), (now, until) = marks[0], marks[-1]
         return Health(
             tick=tick,
             time=time,
@@ -53,8 +64,9 @@ class HealthReporter:
             real_time_factor=round((until - then) / (now - began), 3) if now > began else 0.0,
             late_ticks=late,
             worst_tick_ms=round(max((took for _, took in self._tick_times), default=0.0) * 1e3, 3),
-            robots={name: stats.health(tick) for name, stats in inbox.agent_stats.items()},
+            robots={name: stats.health(tick, radio.of_robot(name)) for name, stats in inbox.agent_stats.items()},
             strangers=dict(inbox.unknown_senders),
             recorders=presence.recorder_lags(tick),
+            radio={side: TeamRadio(budget=radio_budget, busiest=radio.busiest(side)) for side in Side},
             accounts=accounts.health(),
         )

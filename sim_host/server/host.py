@@ -168,6 +168,7 @@ class Host:
     def wait_for_recorders(self) -> None:
         """Wait until the recorders have read the last tick, and after full time until watchers can have received it."""
         last = self.simulation.now.tick
+        self._publish_health(self.simulation.now)  # the counts of the whole match
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
         while self._clock.now() < deadline:
@@ -289,10 +290,15 @@ class Host:
         if invalid is not None:
             self._outbox.publish_invalid(invalid)
         if self._health.end_tick(tick.time):
-            late = self.pace.late_ticks
-            self._outbox.publish_health(
-                self._health.report(tick.tick, tick.time, late, self.inbox, self.presence, self.accounts)
-            )
+            self._publish_health(tick)
+
+    def _publish_health(self, tick: TickResult) -> None:
+        simulation, late = self.simulation, self.pace.late_ticks
+        budget = simulation.profile.radio.budget
+        report = self._health.report(
+            tick.tick, tick.time, late, self.inbox, self.presence, self.accounts, simulation.radio_use, budget
+        )
+        self._outbox.publish_health(report)
 
 
 def _pace(

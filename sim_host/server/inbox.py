@@ -1,6 +1,5 @@
 """Receives, validates and counts the robots' commands; no payload can stop the host."""
 
-from collections import deque
 from collections.abc import Container
 from itertools import chain, repeat
 
@@ -10,7 +9,7 @@ from schemas.messages.command import Command
 from schemas.topics import COMMAND
 from schemas.wire.message import BadMessageError
 from sim_host.server.account_limits import AccountLimits
-from sim_host.server.agent_stats import LATENCY_SAMPLES, AgentStats
+from sim_host.server.agent_stats import AgentStats
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 
@@ -18,6 +17,8 @@ _MAX_UNKNOWN_SENDERS = 100
 """Keys of unknown robots that are counted separately; a flood of invented names must not fill the memory."""
 _MAX_INVALID_IN_A_ROW = 1000
 """Invalid messages read in one call before the host goes on with its work: a flood must not block it."""
+_TICKS_WITH_TIMES = 500
+"""Newest ticks for which the latency of an answer can be measured: ten seconds in real time."""
 
 
 class Inbox:
@@ -34,7 +35,8 @@ class Inbox:
         self.agent_stats: dict[str, AgentStats] = {}
         self.unknown_senders: dict[str, int] = {}
         """Key → commands received on it, for names that no robot of the match has."""
-        self._sent_at: deque[tuple[int, int]] = deque(maxlen=LATENCY_SAMPLES)
+        self._sent_at: dict[int, int] = {}
+        """Tick → wall time at which its sights were sent, in ns since 1970, of the newest ticks."""
         self.set_roster(roster)
 
     def set_roster(self, roster: Roster) -> None:
@@ -48,7 +50,8 @@ class Inbox:
 
     def sights_sent(self, tick: int, unix_ns: int) -> None:
         """Note when the sights of a tick were sent, to measure the latency of the commands that answer them."""
-        self._sent_at.append((tick, unix_ns))
+        self._sent_at[tick] = unix_ns
+        self._sent_at.pop(tick - _TICKS_WITH_TIMES, None)
 
     def receive_command(self, tick: int, timeout: float) -> tuple[str, Command] | None:
         """The next valid command that answers this tick, or an earlier one not answered yet; None after `timeout` s.
@@ -86,6 +89,10 @@ class Inbox:
             return None
         if stats.removed:
             return None  # it answers a sight from before it was removed
+        if received.stamp is not None:
+            if received.stamp.sequence != stats.next_sequence:
+                stats.jump_to(received.stamp.sequence, tick)
+            stats.next_sequence += 1
         try:
             command = Command.decode(received.payload)
             if command.answers_tick > tick:
@@ -117,7 +124,6 @@ class Inbox:
         self._invalid_log.add(received.key, reason, received.payload)
 
     def _note_latency(self, stats: AgentStats, tick: int, arrived_ns: int) -> None:
-        for sent_tick, sent_ns in reversed(self._sent_at):
-            if sent_tick == tick and arrived_ns:
-                stats.latencies.append((arrived_ns - sent_ns) * 1e-9)
-                return
+        sent_ns = self._sent_at.get(tick)
+        if sent_ns is not None and arrived_ns:
+            stats.add_latency((arrived_ns - sent_ns) * 1e-9)

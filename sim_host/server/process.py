@@ -3,7 +3,6 @@
 import importlib.util
 import logging
 import signal
-import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 from types import FrameType
@@ -18,6 +17,7 @@ from schemas.bus.zenoh.open_access import open_access
 from schemas.bus.zenoh.router_limits import router_limits
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
+from schemas.process.process_log import configure_log
 from schemas.process.scheduling import use_batch_scheduling
 from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
@@ -31,7 +31,7 @@ def run(settings: HostSettings) -> int:
     Raises:
         TouchlineError: PyBullet is missing, or the endpoint cannot be listened on or is open to others unguarded.
     """
-    logging.basicConfig(level=logging.INFO, stream=sys.stderr, format="%(asctime)s %(name)s: %(message)s")
+    configure_log("host", settings.log_format, text="%(asctime)s %(name)s: %(message)s")
     signal.signal(signal.SIGTERM, _leave)
     try:
         _serve(settings)
@@ -46,9 +46,10 @@ def _serve(settings: HostSettings) -> None:
     config, listen = settings.config, settings.listen
     check_protected(settings)
     protection = Protection.from_file(settings.credentials, config)
-    limits = router_limits(config.name, [robot for robots in robots_of(config).values() for robot in robots])
+    robots = robots_of(config)
+    limits = router_limits(config.name, [name for names in robots.values() for name in names])
     if protection is None:
-        limits["access_control"] = open_access(config.name)
+        limits["access_control"] = open_access(config.name, robots)
     use_batch_scheduling(config.speed is None)
     with open_host(config.name, WallClock(), listen, protection, limits) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)

@@ -7,11 +7,11 @@ from pydantic import Field
 
 from schemas.bus.settings import ListenSettings
 from schemas.config.match_config import MatchConfig
-from schemas.config.settings import CommandLine
+from schemas.config.settings import CommandLine, LogSettings
 from schemas.wire.message import Name
 
 
-class HostSettings(ListenSettings):
+class HostSettings(ListenSettings, LogSettings):
     """One host process: the match that it plays, and where it listens."""
 
     config: MatchConfig = Field(default_factory=MatchConfig)

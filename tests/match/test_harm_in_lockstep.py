@@ -8,7 +8,10 @@ import pytest
 
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
+from schemas.access.accounts import Account
+from schemas.bus.zenoh.bus import open_client
 from schemas.messages.command import Command, Drive
+from schemas.process.clock import WallClock
 from schemas.topics import key_prefix
 from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import SILENT_TICKS
@@ -68,11 +71,12 @@ class Story:
         self.interrupted()
 
     def bad_messages(self):
-        session, prefix = self.heard.bus.session, key_prefix("harmed")
-        for payload in RUBBISH.values():
-            session.put(f"{prefix}robot/cyan1/command", payload)
-        session.put(f"{prefix}robot/cyan7/command", Command(answers_tick=1).encode())
-        self.heard.until(lambda heard: heard.robot("cyan1").invalid == len(RUBBISH), "a count of the invalid messages")
+        prefix = key_prefix("harmed")
+        with open_client("harmed", WallClock(), self.heard.bus.endpoint, account=Account.CYAN) as team:
+            for number, payload in enumerate(RUBBISH.values(), 1):
+                team.session.put(f"{prefix}robot/cyan1/command", payload)  # one by one: the host limits the rate
+                self.heard.until(lambda heard, sent=number: heard.robot("cyan1").invalid >= sent, "a count of each")
+            team.session.put(f"{prefix}robot/cyan7/command", Command(answers_tick=1).encode())
         self.heard.until(lambda heard: heard.healths[-1].strangers, "a count of strangers")
         self.heard.until(lambda heard: len(heard.invalid) == len(RUBBISH) + 1, "word of each invalid message")
         self.at_bad_messages = self.heard.tick

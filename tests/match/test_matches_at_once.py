@@ -43,6 +43,19 @@ def test_matches_that_start_in_the_same_second_are_the_matches_of_their_seeds_al
     assert outcomes == [alone[seed] for seed in SEEDS]
 
 
+def test_a_match_with_tls_is_played_and_leaves_no_passwords(start, tmp_path):
+    (tmp_path / "small.toml").write_text(MATCH)
+    program = start("touchline", "match", "small.toml", "--duration", "1", "--tls", "--json", folder=tmp_path)
+    assert program.status() == 0, program.err
+    assert json.loads(program.out)["recording"]
+    (run,) = (tmp_path / "runs").iterdir()
+    assert 'match "friendly" on tls/127.0.0.1:' in (run / "host.log").read_text()
+    assert not (run / "credentials").exists()
+    assert not [
+        file for file in run.iterdir() if b'"password"' in file.read_bytes() or b"PRIVATE KEY" in file.read_bytes()
+    ]
+
+
 @pytest.fixture(scope="module")
 def running(start, folder, tmp_path_factory):
     """A match without end of one against one, its folder, and the environment in which it is announced."""
@@ -70,16 +83,32 @@ def test_a_client_finds_the_running_match_whatever_its_port_and_name(start, fold
     assert json.loads(asked.out)["tick"] >= 0
 
 
-def test_an_agent_of_another_launch_is_refused_by_name_on_both_ends(start, folder, running):
-    program, environment = running
+def test_an_agent_without_credentials_is_refused_in_one_line(start, folder, running):
+    _, environment = running
     brain = ("--brain", "robot_agent.teams.nubot:NuBot")
     refused = command(start, folder, "foreign", "agent", "--robot", "cyan1", *brain, **environment)
     assert refused.status() == 2
-    assert refused.err.splitlines() == [
-        "touchline: cyan1: refused by the host: the host admits only agents of its own launch, "
-        "which know TOUCHLINE_LAUNCH_TOKEN"
-    ]
+    (line,) = refused.err.splitlines()
+    assert "admits only clients with credentials; add --credentials FILE, or set TOUCHLINE_CREDENTIALS" in line
+
+
+def test_a_second_agent_of_a_robot_is_refused_by_name_on_both_ends(start, folder, running):
+    program, environment = running
+    (credentials,) = program.folder.glob("runs/*/credentials/cyan.json")
+    robot = ("--robot", "cyan1", "--brain", "robot_agent.teams.nubot:NuBot", "--credentials", str(credentials))
+    refused = command(start, folder, "second_agent", "agent", *robot, **environment)
+    assert refused.status() == 2
+    assert refused.err.startswith("touchline: cyan1: refused by the host: cyan1 has an agent already: process ")
     wait_for(lambda: re.search(r"an agent \(process \d+ on .*\) that claimed cyan1 was refused", program.out), "event")
+
+
+def test_an_agent_with_the_credentials_of_the_other_side_is_refused(start, folder, running):
+    program, environment = running
+    (credentials,) = program.folder.glob("runs/*/credentials/magenta.json")
+    robot = ("--robot", "cyan1", "--brain", "robot_agent.teams.nubot:NuBot", "--credentials", str(credentials))
+    refused = command(start, folder, "other_side", "agent", *robot, **environment)
+    assert refused.status() == 2
+    assert "cyan1 plays for cyan" in refused.err
 
 
 def test_an_agent_that_crashed_gets_its_robot_back(folder, running):
@@ -87,7 +116,7 @@ def test_an_agent_that_crashed_gets_its_robot_back(folder, running):
     os.kill(program.process("cyan1"), signal.SIGKILL)
     wait_for(lambda: "cyan1 was ended by SIGKILL; started again (1 of 3)" in program.out + program.err, "notice")
     wait_for(lambda: "cyan1 answers" in program.out, "answers of the new agent")
-    assert "claimed cyan1 was refused: cyan1" not in program.out
+    assert program.out.count("claimed cyan1 was refused: cyan1") == 1  # that of the second agent before
 
 
 def test_of_two_running_matches_a_client_lists_both(start, folder, running):

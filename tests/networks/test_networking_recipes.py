@@ -1,6 +1,7 @@
 """The commands of docs/networking.md, run as they are printed: each machine is a network namespace with its own folder.
 
-A match lasts 4 s at four times real time and has two robots a side here, where the page has 60 s in real time.
+A match lasts 4 s at four times real time and has two robots a side here, where the page has 60 s in real time. Only the
+machine of the host has the packages of the extras.
 """
 
 import os
@@ -26,6 +27,8 @@ MACHINES = ("host", "cyan", "magenta", "coach", "recorder")
 SMALL = "[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n"
 LASTING = ("match", "host", "team", "agent", "record")
 """Commands that run until the match is over."""
+EXTRAS = ("pybullet", "starlette", "uvicorn", "trustme", "foxglove")
+"""Packages that robots, coaches and recorders on other machines do not have."""
 READY = {
     "match": "waiting for magenta",
     "host": "on t",  # match "friendly" on tcp/…
@@ -54,6 +57,10 @@ class Lab:
         for machine in net.names:
             (folder / machine).mkdir()
         (folder / "host" / "small.toml").write_text(SMALL)
+        self._without = folder / "without"
+        self._without.mkdir()
+        for package in EXTRAS:
+            (self._without / f"{package}.py").write_text(f"raise ModuleNotFoundError(name={package!r})\n")
 
     def type(self, line: str, machine: str) -> None:
         """Run one line on a machine: to its end, or until it is ready where it lasts as long as the match."""
@@ -70,7 +77,8 @@ class Lab:
             words[words.index("--pace") + 1] = "x4"
         log = self.folder / machine / f"program{len(self.programs)}.out"
         folder = self.folder / machine
-        environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "COLUMNS": "200", "PYTHONPATH": str(ROOT)}
+        path = str(ROOT) if machine == "host" else f"{self._without}{os.pathsep}{ROOT}"
+        environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "COLUMNS": "200", "PYTHONPATH": path}
         with log.open("wb") as out:
             program = self.net.run(
                 machine,

@@ -39,7 +39,7 @@ class Machines:
     def __init__(self, net: Network, folder: Path, **match: Any) -> None:
         """`match` overrides settings of the match; the host is to be on the machine `host`."""
         self.net = net
-        self._folder = folder
+        self.folder = folder
         self._endpoint = f"tcp/{net.address('host')}:{PORT}"
         teams = {f"teams.{side}.robots": [f"{side}1"] for side in ("cyan", "magenta")}
         self._overrides = {
@@ -51,6 +51,8 @@ class Machines:
             **match,
         }
         self._count = 0
+        self.python_path = os.environ.get("PYTHONPATH", "")
+        """In which the processes find their modules."""
         self.programs: dict[str, Program] = {}
         self._tunnel = Tunnel(lambda: net.connect("host", net.address("host"), PORT))
         self._listeners: list[Listener] = []
@@ -63,11 +65,11 @@ class Machines:
             "host", "host", "sim_host", HostSettings(config=config, listen=self._endpoint, insecure=True)
         )
 
-    def start_agent(self, robot: str, machine: str, patience: float = 10.0, **environment: str) -> Program:
-        """Start a robot that drives in circles; with SPEED, at that speed in m/s."""
-        settings = AgentSettings(
-            connect=self._endpoint, match=MATCH, robot=robot, brain="circles:act", patience=patience
-        )
+    def start_agent(
+        self, robot: str, machine: str, patience: float = 10.0, brain: str = "circles:act", **environment: str
+    ) -> Program:
+        """Start a robot; by default it drives in circles, with SPEED at that speed in m/s."""
+        settings = AgentSettings(connect=self._endpoint, match=MATCH, robot=robot, brain=brain, patience=patience)
         return self._start(robot, machine, "robot_agent", settings, **environment)
 
     def start_recorder(self, machine: str, out: Path) -> Program:
@@ -111,10 +113,10 @@ class Machines:
     def _start(self, name: str, machine: str, module: str, settings: Settings, **environment: str) -> Program:
         self._count += 1
         label = f"{name}-{self._count}"
-        file = self._folder / f"{label}.json"
+        file = self.folder / f"{label}.json"
         file.write_text(settings.model_dump_json())
         prefix = self.net.command(machine, [])
-        program = Program([module, "--settings", str(file)], self._folder, label, environment, prefix)
+        program = Program([module, "--settings", str(file)], self.folder, label, environment, prefix)
         self.programs[name] = program
         return program
 

@@ -38,6 +38,7 @@ class MatchScript:
         self.messages: list[tuple[int, Any]] = []
         self.tick = -1
         self.places = dict(CORNERS)
+        self.headings = dict.fromkeys(CORNERS, 0.0)
         self.ball = (0.0, 0.0)
         self.held_by: str | None = None
         self.episode = 1
@@ -66,7 +67,7 @@ class MatchScript:
                 x=x,
                 y=y,
                 z=0.4,
-                heading=0.0,
+                heading=self.headings.get(name, 0.0),
                 vx=(moving or {}).get(name, (0.0, 0.0))[0],
                 vy=(moving or {}).get(name, (0.0, 0.0))[1],
                 omega=0.0,

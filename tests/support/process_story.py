@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from recordings.reading.recording import RecordedMessage
+from schemas.access.accounts import Account
 from schemas.bus.contract import ReceivedMessage, Subscription
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.game import EventKind
@@ -166,7 +167,7 @@ class Listener:
     def __init__(self, match: str, endpoint: str, program: Program, *, every_tick: bool = True) -> None:
         """Without `every_tick`, only the newest world and the newest inputs are kept."""
         self._program = program
-        self.bus: ZenohBus = open_client(match, WallClock(), endpoint, LIMIT)
+        self.bus: ZenohBus = open_client(match, WallClock(), endpoint, LIMIT, account=Account.VIEWER)
         self._subscriptions: dict[str, Subscription] = {
             topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
         }

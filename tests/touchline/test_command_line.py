@@ -93,7 +93,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a match file that is not there": (["match", "cup.toml"], "cup.toml: No such file"),
     "a match name that is no key": (["host", "--match", "The Cup"], "name is 'The Cup'"),
     "an open host without a word on it": (["host", "--listen", "tcp/0.0.0.0:0"], "add --insecure"),
-    "an open match without a word on it": (["match", "--listen", "tcp/[::]:0"], "touchline credentials new"),
+    "an open host without passwords": (["host", "--listen", "tcp/[::]:0"], "touchline credentials new"),
     "TLS without a certificate": (["host", "--listen", "tls/127.0.0.1:0"], "touchline credentials new --tls"),
     "TLS for a match that admits everybody": (["match", "--tls", "--insecure"], "not for --insecure"),
     "credentials of a host that are not there": (["host", "--credentials", "host.json"], "host.json: No such file"),

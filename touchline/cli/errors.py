@@ -7,6 +7,7 @@ import typer
 from typer.core import TyperGroup
 
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.process.process_log import Level, log_line
 
 PREFIX = "touchline: "
 FAILED = 1
@@ -43,5 +44,5 @@ def _placed(sentence: str, error: typer.TyperException) -> str:
 
 
 def _say(sentence: str, status: int) -> int:
-    typer.echo(f"{PREFIX}{sentence}", err=True)
+    log_line(sentence, Level.ERROR, prefix=PREFIX)
     return status

@@ -15,7 +15,7 @@ from touchline.cli.option_groups import FieldsOf, with_option_groups
 def bridge(
     bridges: BridgeOptions,
     joined: ClientSettings,
-    tokens: Annotated[dict[str, Any], FieldsOf(GatewaySettings, "tokens")],
+    more: Annotated[dict[str, Any], FieldsOf(GatewaySettings, "tokens", "log_format")],
 ) -> None:
     """Join coach programs, a league's referee box or team software to a running match, until Ctrl-C.
 
@@ -25,5 +25,5 @@ def bridge(
     """
     if not bridges.wanted:
         raise TouchlineError("no bridge is named; name --udp, --refbox, --refbox-server or --audience")
-    settings = GatewaySettings(**joined.model_dump(), bridges=bridges, **tokens)
+    settings = GatewaySettings(**joined.model_dump(), bridges=bridges, **more)
     raise typer.Exit(run(settings))

@@ -18,7 +18,7 @@ _ALWAYS_S = 86_400.0
 def host(
     match: options.MatchOptions,
     waiting: Annotated[dict[str, Any], FieldsOf(Patience, attendance="wait")],
-    more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement")],
+    more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement", "log_format")],
 ) -> None:
     """Run the simulation host of a match; robots join with `touchline agent` or `touchline team`.
 

@@ -68,7 +68,7 @@ def match(
     from touchline.launch.check_brains import check_teams
     from touchline.launch.confinement import isolation_note, team_confinements
     from touchline.launch.processes import CREDENTIALS, check_robot_names
-    from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run
+    from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run, with_credentials
 
     teams = _teams_of(ghost) if ghost else {}
     sockets = _open_ports(bridges) if bridges.wanted else ()
@@ -87,21 +87,18 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
+    endpoint = _endpoint(played.listening, tls=tls)
+    _check_tls(played.listening, tls=tls)
     brain_folder = played.file.parent if played.file is not None else None
     confinements = team_confinements(config, brain_folder, RUNS)
     check_teams(config, brain_folder, lambda line: typer.echo(line, err=True), confinements)
-    endpoint = _endpoint(played.listening, tls=tls)
-    _check_tls(played.listening, tls=tls)
     clock = WallClock()
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
-    plan = replace(
-        plan,
-        isolation_note=isolation_note(config, brain_folder, confinements),
-    )
+    plan = replace(plan, isolation_note=isolation_note(config, brain_folder, confinements))
     if played.listening.credentials is not None:
-        plan = replace(plan, credentials=played.listening.credentials.resolve().parent)
+        plan = with_credentials(plan, played.listening.credentials.resolve().parent)
     elif not played.listening.insecure:
         plan = prepare_credentials(plan, tls=tls)
     if brain_folder is not None:

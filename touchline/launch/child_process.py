@@ -14,6 +14,7 @@ from schemas.config.settings_file import STANDARD_INPUT, write_settings
 from schemas.errors import TouchlineError
 from schemas.process import leash
 from schemas.process.leash import OwnConfinement
+from schemas.process.process_log import message_of
 from touchline.launch.control_groups import end_group, killed_for_memory
 from touchline.launch.process_tree import tree_of
 from touchline.launch.processes import Process
@@ -89,7 +90,8 @@ class ProcessHandle(ABC):
             start = self._log_start if self._log_start <= size else 0  # the log was cut meanwhile
             log.seek(max(start, size - _TAIL_BYTES))
             text = log.read().decode("utf-8", "replace")
-        return [line for line in text.splitlines() if line.strip()][-count:]
+        lines = [part for line in text.splitlines() for part in message_of(line).splitlines()]
+        return [line for line in lines if line.strip()][-count:]
 
     def _signal_within(self, number: signal.Signals) -> None:
         """Signal the programs in bubblewrap; bwrap itself ends with them, or at once by SIGKILL."""

@@ -81,7 +81,12 @@ def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
         write_credentials(folder, new_credentials(plan.config.name, make_certificate(names) if tls else None))
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its credentials there") from None
-    return replace(plan, credentials=folder)
+    return with_credentials(plan, folder)
+
+
+def with_credentials(plan: MatchPlan, folder: Path) -> MatchPlan:
+    """The plan with the credentials in a folder: an agent that has those of its team needs no secret of the launch."""
+    return replace(plan, credentials=folder, launch_token=None)
 
 
 def _why_not_writable(out: Path) -> str:

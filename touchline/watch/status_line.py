@@ -5,7 +5,7 @@ from collections import Counter
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import state_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
-from schemas.messages.health import Health
+from schemas.messages.health import Health, RobotHealth
 from touchline.watch.agent_faults import agent_faults
 
 _NAMED = 4
@@ -31,17 +31,27 @@ def status_line(follower: MatchFollower, total: int, names: TeamNames = SIDES_AL
 
 
 def robots_text(health: Health, total: int) -> str:
-    """Robots that answer, as `robots 9/10 (silent: magenta3)`; before the first tick, robots that are connected.
+    """Robots that answer, as `robots 9/10 (silent: magenta3 57 ticks)`; before the first tick, those connected.
 
     Robots that stand still in the current scene have no agent, so they are not expected to answer.
     """
     playing = health.tick > 0
     moving = {name: robot for name, robot in health.robots.items() if not robot.still}
-    silent = [name for name, robot in moving.items() if not (robot.answering if playing else robot.alive)]
+    silent = [
+        f"{name}{_silence(robot) if playing else ''}"
+        for name, robot in moving.items()
+        if not (robot.answering if playing else robot.alive)
+    ]
     text = f"robots {len(moving) - len(silent)}/{total}"
     if not silent:
         return text
     return f"{text} ({'silent' if playing else 'missing'}: {', '.join(_abbreviated(silent))})"
+
+
+def _silence(robot: RobotHealth) -> str:
+    """How long a robot has been silent; empty where the host does not report it."""
+    count = robot.missed_in_a_row
+    return f" {count} tick{'s' if count > 1 else ''}" if count else ""
 
 
 def losses_text(follower: MatchFollower) -> str:

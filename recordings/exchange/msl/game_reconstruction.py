@@ -67,12 +67,12 @@ class GameReconstruction:
         return stepped
 
     def _advance_to(self, time: float, box_clock: float | None) -> None:
-        """Advance the time, with a game state each second; the box's clock takes precedence if it differs by 1 s."""
+        """Advance the time, with a game state each second; the box's clock takes precedence if it is ahead."""
         while self._time + _STATE_S <= time:
             self._advance(self._time + _STATE_S)
             self._add_state()
         self._advance(max(time, self._time))
-        if box_clock is not None and self._clock_runs and not 0.0 <= self._clock - (self._base + box_clock) < 1.0:
+        if box_clock is not None and self._clock_runs:
             self._clock = max(self._clock, self._base + box_clock)
 
     def _advance(self, time: float) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import zenoh
 
 from schemas.access.accounts import Account
-from schemas.access.credentials import read_credentials
+from schemas.access.credentials import Credentials, read_credentials
 from schemas.access.protection import Protection
 from schemas.access.rights import writers_of
 from schemas.bus.contract import (
@@ -19,6 +19,7 @@ from schemas.bus.contract import (
     PresenceKind,
     PresenceWatch,
     Publisher,
+    RefusedClientError,
     Server,
     Subscription,
     check_publishable,
@@ -38,6 +39,9 @@ from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import WireMessage
+
+_ANNOUNCED_S = 0.2
+"""Wall time after which a host that listens has announced itself."""
 
 
 def open_host(
@@ -91,15 +95,20 @@ def open_client(
     known = read_credentials(credentials) if credentials is not None else None
     if known is not None:
         match, connect = match or known.match, connect or known.connect
-    if connect is None or (known is None and account is not None):
-        from schemas.bus.find_host import find_host  # needs file locks, which not every system of a robot has
-
-        found = find_host(match, connect)
-        connect = found.endpoint
-        if known is None and account is not None:
-            known = found.credentials_of(account)
     deadline = clock.now() + patience
-    session, endpoint = open_connection(connect, clock, patience, known)
+    if known is None or connect is None:
+        connect, found = _announced(match, connect, account if known is None else None)
+        known = known or found
+    try:
+        session, endpoint = open_connection(connect, clock, patience, known)
+    except RefusedClientError:
+        if known is not None:
+            raise
+        clock.sleep_until(clock.now() + _ANNOUNCED_S)
+        connect, known = _announced(match, connect, account)  # by a host that has started meanwhile
+        if known is None:
+            raise
+        session, endpoint = open_connection(connect, clock, patience, known)
     try:
         name = match_at(session, endpoint, clock, deadline) if match is None else match
         if match is not None and match not in (others := hosts_of(session)) and others:
@@ -110,6 +119,16 @@ def open_client(
         session.close()  # type: ignore[no-untyped-call]
         raise
     return ZenohBus(name, clock, session, endpoint, is_client=True, account=known.user if known is not None else None)
+
+
+def _announced(match: str | None, connect: str | None, account: Account | None) -> tuple[str, Credentials | None]:
+    """The endpoint of the running match, by default the given one, and the credentials that it has for an account."""
+    if connect is not None and account is None:
+        return connect, None
+    from schemas.bus.find_host import find_host  # needs file locks, which not every system of a robot has
+
+    found = find_host(match, connect)
+    return found.endpoint, found.credentials_of(account) if account is not None else None
 
 
 class ZenohBus(Bus):

@@ -7,16 +7,15 @@ answering in its place, keys with wildcards, and keys of no topic.
 from typing import Any
 
 from schemas.access.access_rules import access_rules
-from schemas.side import Side
+from schemas.access.rights import Robots
 from schemas.tokens import PresenceKind
 from schemas.topics import ALIVE, CLAIM, key_prefix
 
 _ANYBODY = "anybody"
-_ANY_ROBOT = {side: ["*"] for side in Side}
 
 
-def open_access(match: str) -> dict[str, Any]:
-    """The `access_control` section of a host without credentials."""
+def open_access(match: str, robots: Robots) -> dict[str, Any]:
+    """The `access_control` section of a host without credentials, for a match with these robots."""
     prefix = key_prefix(match)
     extra = [
         _rule("claims a robot", "ingress", "query", prefix + CLAIM.key),
@@ -24,7 +23,7 @@ def open_access(match: str) -> dict[str, Any]:
         _rule("knows who decides claims", "egress", "declare_queryable", prefix + CLAIM.key),
         _rule("declares a session", "ingress", "liveliness_token", prefix + ALIVE.fill(kind=PresenceKind.SESSION)),
     ]
-    rules = [*access_rules(match, _ANY_ROBOT)["rules"], *extra]
+    rules = [*access_rules(match, robots)["rules"], *extra]
     return {
         "enabled": True,
         "default_permission": "deny",

@@ -2,28 +2,28 @@
 
 Zenoh drops what is over a limit before any Python code runs. A rate is a least time between two messages, and a rule
 holds for all its keys together: each robot's commands therefore have a rule of their own, or robots of one program that
-answer in the same moment would lose commands. Of several rules for one key the first applies; of several sizes the
-smallest.
+answer in the same moment would lose commands. If several rules match a key, it is undefined which one applies: no two
+of these match the same key. Keys that no rule matches are refused by the router's access rules.
 """
 
 from collections.abc import Iterable, Mapping
+from itertools import product
 from typing import Any
 
+from schemas.side import Side
 from schemas.topic import Delivery, Party, Topic
-from schemas.topics import TOPICS, key_prefix
+from schemas.topics import COMMAND, TOPICS, key_prefix
 
 _ROBOT_RATE = 4000.0
 """Most commands a second of one robot: several times the ticks a second of the fastest match."""
 _KEY_RATE = 1000.0
-"""Most messages a second of one link on all keys of any other topic, or of robots that the match does not name."""
+"""Most messages a second of one link on each other key."""
 _QUERY_RATE = 500.0
 """Most queries a second of one link to one service."""
 _HISTORY_RATE = 200.0
 """Most requests a second of one link for the history of one topic."""
 _CACHES = "@adv/**"
 """Below the key of a `recovered` topic: the caches of its publishers."""
-_OTHER_CACHE_RATE = 20.0
-"""Most requests a second of one link for histories of several topics at once."""
 _LEAST_SIZE = 16_384
 """A payload that is longer than its message may be passes up to this size, so that the host can report it."""
 _MAX_MESSAGE_BYTES = 4 * 2**20
@@ -50,16 +50,15 @@ def router_limits(match: str, robots: Iterable[str]) -> dict[str, Any]:
 
 
 def _sizes(prefix: str) -> list[dict[str, Any]]:
-    """Largest payloads that clients may send: those of the topic table, and none larger on any key."""
+    """Largest payloads that clients may send: those of the topic table."""
     limits: dict[int, list[str]] = {}
     for topic in _sent_by_clients():
         limits.setdefault(max(_LEAST_SIZE, _size_of(topic)), []).append(prefix + topic.fill())
-    largest = max(max(limits), *(_size_of(topic, reply=True) for topic in TOPICS.values()))
+    largest = max(_size_of(topic, reply=True) for topic in TOPICS.values())
     rules = [
         _size_rule(f"at most {size} bytes", ["put", "delete", "query"], keys, size) for size, keys in limits.items()
     ]
-    every = ["put", "delete", "query", "reply"]
-    return [*rules, _size_rule("all keys", every, ["**", f"{prefix}**/{_CACHES}"], largest)]
+    return [*rules, _size_rule("replies", ["reply"], ["**"], largest)]
 
 
 def _size_rule(name: str, messages: list[str], keys: list[str], size: int) -> dict[str, Any]:
@@ -73,15 +72,25 @@ def _size_of(topic: Topic, *, reply: bool = False) -> int:
 
 
 def _rates(prefix: str, robots: list[str]) -> list[dict[str, Any]]:
-    command = TOPICS["command"]
-    puts = {prefix + command.fill(robot=robot): _ROBOT_RATE for robot in robots}
-    puts |= {prefix + topic.fill(): _KEY_RATE for topic in _sent_by_clients() if topic.delivery is not Delivery.QUERY}
-    puts["**"] = _KEY_RATE
-    queries = {prefix + topic.fill(): _QUERY_RATE for topic in _sent_by_clients() if topic.delivery is Delivery.QUERY}
-    recovered = (topic for topic in TOPICS.values() if topic.delivery is Delivery.RECOVERED)
-    queries |= {f"{prefix}{topic.fill()}/{_CACHES}": _HISTORY_RATE for topic in recovered}
-    queries |= {f"**/{_CACHES}": _OTHER_CACHE_RATE, "**": _KEY_RATE}
+    puts: dict[str, float] = {}
+    queries: dict[str, float] = {}
+    for topic in _sent_by_clients():
+        rate = _ROBOT_RATE if topic.key == COMMAND.key else _KEY_RATE
+        is_query = topic.delivery is Delivery.QUERY
+        for key in _filled(topic, robots):
+            (queries if is_query else puts)[prefix + key] = _QUERY_RATE if is_query else rate
+    for topic in TOPICS.values():
+        if topic.delivery is Delivery.RECOVERED:
+            queries |= {f"{prefix}{key}/{_CACHES}": _HISTORY_RATE for key in _filled(topic, robots)}
     return [_rate_rule("messages", ["put", "delete"], puts), _rate_rule("queries", ["query"], queries)]
+
+
+def _filled(topic: Topic, robots: list[str]) -> list[str]:
+    """The keys of a topic for each robot and each side, none of which includes another."""
+    values = {"robot": robots, "side": [side.value for side in Side]}
+    named = [name for name in topic.chunks if name in values]
+    choices = product(*(values[name] for name in named))
+    return [topic.fill(**dict(zip(named, choice, strict=True))) for choice in choices]
 
 
 def _rate_rule(name: str, messages: list[str], rates: Mapping[str, float]) -> dict[str, Any]:

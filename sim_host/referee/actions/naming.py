@@ -49,8 +49,8 @@ def possible_robots(draft: RulingDraft, action: RefereeAction) -> tuple[str, ...
 
 def why_none(draft: RulingDraft, action: RefereeAction) -> str:
     """Why an action is allowed for no robot of its side."""
-    mine = _robots_of(draft, action.side)
-    why = _why_illegal(draft, action, mine[-1]) if mine else "it has no robot"
+    last = _robots_of(draft, action.side)[-1]  # each side has one robot at least
+    why = _why_illegal(draft, action, last)
     return f"it is allowed for no robot of {action.side}: {why}"
 
 

@@ -87,7 +87,7 @@ def any_host(request, tmp_path_factory) -> Iterator[tuple[ZenohBus, dict[str, st
             "transport/auth/usrpwd/password": magenta.password,
         }
     else:
-        limits["access_control"] = open_access(MATCH)
+        limits["access_control"] = open_access(MATCH, ROBOTS)
     with open_host(MATCH, WallClock(), "tcp/127.0.0.1:0", protection, limits) as bus:
         bus.declare_alive(PresenceKind.HOST, "host")
         bus.folder = folder if user else None

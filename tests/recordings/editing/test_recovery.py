@@ -201,6 +201,53 @@ def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
     check_with_the_stock_readers(several_chunks)
 
 
+def change(path: Path, old: bytes, new: bytes) -> None:
+    """Change bytes that stand in the file once, and keep their number."""
+    content = path.read_bytes()
+    assert content.count(old) == 1 and len(old) == len(new)
+    path.write_bytes(content.replace(old, new))
+
+
+def test_a_result_that_has_changed_is_left_out(recorded):
+    before = told(recorded.path)
+    with recorded.path.open("rb") as file:
+        (result,) = [one for one in make_reader(file).get_summary().metadata_indexes if one.name == "result"]
+    content = bytearray(recorded.path.read_bytes())
+    at = content.index(b'"cyan":1', result.offset)
+    assert at < result.offset + result.length
+    content[at + 7] = ord("9")
+    recorded.path.write_bytes(content)
+
+    done = recover(recorded.path)
+    assert (done.repaired, done.damaged) == (True, 1)
+    recording = open_recording(recorded.path, whole=True)
+    assert (recording.result, recording.damaged_records) == (None, 1)
+    assert facts_of(recording).score == {"cyan": 1, "magenta": 0}, "from the game states"
+    assert told(recorded.path) == before
+    check_with_the_stock_readers(recorded.path)
+
+
+def test_an_attachment_that_has_changed_is_left_out_and_named(recorded):
+    name, content = next(iter(recorded.attachments.items()))
+    change(recorded.path, content, content[:-1] + bytes([content[-1] ^ 1]))
+    assert recover(recorded.path).damaged == 1
+    recording = open_recording(recorded.path, whole=True)
+    assert recording.damaged == [name] and name not in recording.attachments
+    check_with_the_stock_readers(recorded.path)
+
+
+def test_a_file_that_was_repaired_needs_no_other_repair(several_chunks):
+    with several_chunks.open("rb") as file:
+        chunk = make_reader(file).get_summary().chunk_indexes[5]
+    data = bytearray(several_chunks.read_bytes())
+    data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 4
+    several_chunks.write_bytes(data)
+    assert recover(several_chunks).repaired
+    repaired = several_chunks.read_bytes()
+    assert not recover(several_chunks).repaired
+    assert several_chunks.read_bytes() == repaired
+
+
 @pytest.mark.parametrize("finished", [True, False])
 @pytest.mark.parametrize("field", [0, 8])
 def test_times_of_a_chunk_that_have_changed_are_put_right(several_chunks, finished, field):

@@ -151,8 +151,8 @@ def test_targets_batteries_and_intentions_are_the_robots_beliefs(log: Log) -> No
     }
 
 
-def line(after_ms: int, part: str, character: str, text: str) -> str:
-    return f"{START_MS + after_ms},00:01(00:01),{part},{character},{text}"
+def line(after_ms: int, part: str, character: str, text: str, clock: str = "00:01(00:01)") -> str:
+    return f"{START_MS + after_ms},{clock},{part},{character},{text}"
 
 
 def test_signals_after_the_last_record_keep_their_times_and_count_in_info_and_stats(log: Log) -> None:
@@ -237,3 +237,20 @@ def test_the_command_lists_what_was_left_out(log: Log) -> None:
     assert "left out, a recording has no place for it:" in result.stdout
     assert "4  obstacles that a team sees (first: A, record 1)" in result.stdout
     assert open_recording(log.folder.with_suffix(".mcap")).complete
+
+
+def test_the_boxs_clock_of_a_half_counts_where_it_is_ahead_of_the_log(log: Log) -> None:
+    """The clock stands from a signal of 9 s after the first half's 2 s on, one second of the second half later."""
+    log.write("A", [record(time) for time in range(0, 6001, PERIOD_MS)])
+    log.events(
+        line(0, "1st Half", "s", "START", "00:00(00:00)"),
+        line(2000, "Halftime", "h", "Halftime", "00:02(00:02)"),
+        line(3000, "2nd Half", "k", "MAGENTA Kickoff", "00:00(00:00)"),
+        line(3000, "2nd Half", "s", "START", "00:00(00:00)"),
+        line(4000, "2nd Half", "S", "STOP", "00:09(00:09)"),
+        line(5000, "2nd Half", "s", "START", "00:02(00:02)"),
+        line(6000, "End Game", "e", "End Game", "00:12(00:12)"),
+    )
+    _, recording = log.read()
+    clocks = {round(state.time): state.clock for _, state in recording.decoded("game/state")}
+    assert [clocks[time] for time in (3, 4, 5, 6)] == pytest.approx([2.0, 11.0, 12.0, 14.0])

@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 
 from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
 from recordings.inspection.recording_facts import CUT_OFF, facts_of
@@ -53,3 +54,22 @@ def test_the_facts_are_json_and_a_table(recorded):
     assert len(table) == 8
     assert {len(row) for row in table} == {len(HEADINGS)}
     assert dict(summary_lines(facts))["score"] == "1 : 0"
+
+
+def test_a_filtered_and_paused_recording_is_summarised_with_its_keys_and_what_was_left_out(recorded):
+    facts = replace(facts_of(recorded), include=["world", "game/**"], exclude=["game/event"], left_out=12)
+    lines = dict(summary_lines(facts))
+    assert lines["keys"] == "world game/** not game/event"
+    assert lines["paused"] == "12 messages left out meanwhile"
+    assert not {"keys", "paused", "lost on", "part", "damaged", "made"} & set(dict(summary_lines(facts_of(recorded))))
+
+
+def test_the_summary_names_match_teams_numbers_and_losses(recorded):
+    keys = facts_of(recorded).keys
+    facts = replace(facts_of(recorded), keys=[replace(keys[0], lost=3), *keys[1:]], lost=3, complete=False)
+    lines = dict(summary_lines(facts))
+    assert lines["match"] == "friendly" and lines["teams"] == "Team cyan – Team magenta"
+    assert lines["messages"] == "1203, 3 lost, 0 sent before it began" and lines["lost on"] == f"{keys[0].key} 3"
+    assert lines["duration"] == "3.98 s simulated, from 0.00 to 3.98 s" and lines["last tick"] == "199 at 3.98 s"
+    assert (lines["seed"], lines["pace"], lines["events"]) == ("7", "lockstep", "1")
+    assert lines["size"] == f"{facts.size} bytes, cut off"

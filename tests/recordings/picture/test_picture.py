@@ -1,5 +1,6 @@
 import sys
 
+import matplotlib
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -76,6 +77,18 @@ def test_the_way_of_the_ball_is_drawn_over_the_whole_match(recorded, tmp_path):
     assert red[0] > 10 * red[1] > 0
 
 
+@pytest.mark.parametrize(("times", "score"), [([1.0], "0 : 0"), ([1.0, 3.98], "1 : 0"), (None, "1 : 0")])
+def test_a_picture_is_headed_by_the_teams_and_the_score(recorded, tmp_path, times, score):
+    """Moments, with the score of the last one, and the way of the ball, with that of the end."""
+    path = tmp_path / "match.svg"
+    with matplotlib.rc_context({"svg.fonttype": "none"}):
+        if times is None:
+            trace(recorded.path, path)
+        else:
+            draw(recorded.path, path, times)
+    assert all(f">{words}<" in path.read_text() for words in ("Team cyan", "Team magenta", score))
+
+
 def test_a_cut_off_recording_can_be_drawn(recorded, tmp_path):
     data = recorded.path.read_bytes()
     part = tmp_path / "cut.mcap.part"
@@ -121,6 +134,14 @@ def test_a_restart_is_named_with_its_side(rig):
     rig.play(range(10, 20))
     rig.leave()
     assert PictureData(rig.path).panel_data(0.3).caption == "0:00   throw-in, magenta"
+
+
+def test_a_match_that_was_never_in_play_is_drawn_at_its_end(rig):
+    rig.host.referee(0, Phase.KICK_OFF, Score(), Side.CYAN)
+    rig.play(range(20))
+    rig.leave()
+    data = PictureData(rig.path)
+    assert data.last_play() == data.end == pytest.approx(0.38)
 
 
 def test_only_play_counts_for_the_way_of_the_ball(rig):

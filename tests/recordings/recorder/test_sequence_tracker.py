@@ -55,6 +55,11 @@ def test_two_writers_of_a_key_lose_nothing_by_taking_turns():
     assert (found.messages, found.lost, found.restarts, found.duplicates, found.late) == (1000, 0, 1, 0, 0)
 
 
+def test_one_of_two_writers_that_goes_on_after_seconds_of_silence_has_lost_nothing():
+    found = count((3000, 0), (0, 1), (1, 2), (3001, 3 * SECOND), (2, 3 * SECOND + 1))
+    assert (found.lost, found.restarts, found.late, found.duplicates) == (0, 1, 0, 0)
+
+
 def test_what_one_of_two_writers_loses_is_lost_once():
     found = count((3000, 0), (0, 1), (3001, 2), (1, 3), (3002, 4), (4, 5), (3003, 6), (5, 7), (3006, 8))
     assert (found.lost, found.restarts) == (4, 1)

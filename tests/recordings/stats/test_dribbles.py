@@ -56,3 +56,11 @@ def test_a_touch_of_another_a_kick_and_a_stop_end_a_dribble(script) -> None:
     script.shot(phase=Phase.PLAY, running=True)
     carry(script, 0.6)
     assert of(script) == (3, approx(3.6), approx(1.2))
+
+
+def test_the_way_of_a_robot_that_is_placed_with_the_ball_is_no_dribble(script) -> None:
+    carry(script, 1.2)
+    script.places["cyan2"] = (5.0, -4.0)
+    script.shot(touches=["cyan2"], placed=["cyan2"])
+    carry(script, 0.3)
+    assert of(script) == (1, approx(1.5), approx(1.5))

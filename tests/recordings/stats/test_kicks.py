@@ -191,3 +191,11 @@ def test_passes_and_shots_are_counted_by_robot_and_side(script) -> None:
     assert (magenta.passes, magenta.passes_completed, magenta.shots) == (1, 1, 0)
     assert [robot.kicks.passes for robot in figures.robots] == [0, 2, 0, 1]
     assert figures.sides[Side.MAGENTA].saves == 1
+
+
+@pytest.mark.parametrize(("metres", "outcome"), [(0.95, KickOutcome.LOST), (1.05, KickOutcome.RECEIVED)])
+def test_a_pass_is_received_at_least_a_metre_away(script, metres, outcome) -> None:
+    kick(script, ELSEWHERE)
+    script.ball = (metres, 0.0)
+    script.shot(touches=["cyan1"])
+    assert only(script).outcome is outcome

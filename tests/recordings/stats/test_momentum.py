@@ -1,5 +1,6 @@
 """Momentum: half possession, half ground."""
 
+import pytest
 from pytest import approx
 
 from recordings.stats.momentum import BINS, MIN_WIDTH_S, Momentum
@@ -39,3 +40,11 @@ def test_a_free_ball_at_the_centre_and_a_stopped_game_give_no_side_momentum(scri
 def test_a_long_match_has_no_more_values_than_a_page_shows() -> None:
     assert Momentum(0.0, 60.0, 11.0).width == MIN_WIDTH_S
     assert Momentum(0.0, 5400.0, 11.0).width == 5400.0 / BINS
+
+
+@pytest.mark.parametrize(("ball", "momentum"), [((22.0, 0.0), 0.5), ((-22.0, 0.0), -0.5)])
+def test_a_ball_beyond_the_goal_line_counts_as_one_on_the_line(script, ball, momentum) -> None:
+    script.ball = ball
+    script.rest(120)
+    assert script.figures().momentum[1:] == approx([momentum] * len(script.figures().momentum[1:]))
+    assert len(script.figures().momentum) > 1

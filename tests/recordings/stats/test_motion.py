@@ -70,3 +70,13 @@ def test_missing_ticks_are_bridged(script) -> None:
     script.messages = [(time, message) for time, message in script.messages if time not in lost]
     assert of(script, "cyan2").distance == approx(2.0)
     assert script.figures().in_play_s == approx(1.0)
+
+
+def test_a_side_without_robots_has_a_top_speed_of_zero(script) -> None:
+    script.messages.clear()
+    for name in ("magenta1", "magenta2"):
+        del script.places[name]
+    script.shot(moving={"cyan2": (2.0, 0.0)}, **script.game)
+    figures = script.figures()
+    assert figures.sides[Side.CYAN].top_speed == approx(2.0)
+    assert figures.sides[Side.MAGENTA].top_speed == 0.0

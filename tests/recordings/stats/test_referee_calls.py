@@ -42,7 +42,8 @@ def test_a_restart_is_counted_when_it_is_signalled_and_not_when_its_state_is_rep
         script.out()
         script.shot(phase=phase, side=side, running=False)
         script.shot(phase=phase, side=side, running=False)
-        script.shot(phase=phase, side=side, running=True)
+        for _ in range(3):
+            script.shot(phase=phase, side=side, running=True)
         script.shot(phase=Phase.PLAY, side=None, running=True)
     script.out()
     script.shot(phase=Phase.DROP_BALL, side=None, running=False)

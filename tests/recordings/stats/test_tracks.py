@@ -1,8 +1,10 @@
 """What a page knows of a match's motion, and how large it is."""
 
+import math
 from array import array
 from base64 import b64decode
 
+import pytest
 from pytest import approx
 
 from recordings.stats.match_statistics import MatchStatistics
@@ -10,6 +12,7 @@ from recordings.stats.page import page
 from recordings.stats.page.content import content_of
 from recordings.stats.page.game_history import GameHistory
 from recordings.stats.tracks import ABSENT, MAX_RATE, NO_HOLDER, Tracks, sample_rate
+from schemas.config.match_config import MatchConfig
 from schemas.game import Phase
 from schemas.side import Side
 
@@ -30,6 +33,16 @@ def test_a_sample_is_the_world_at_its_time_to_a_centimetre(script) -> None:
     assert tracks.ball_x[50] == 234 and tracks.ball_y[50] == -5
     assert tracks.robots["cyan2"].y[50] == 490
     assert tracks.holder[50] == 2 and tracks.holder[0] == NO_HOLDER
+
+
+@pytest.mark.parametrize(
+    ("heading", "sample"), [(0.0, 0), (math.pi / 2, 64), (-math.pi / 2, 192), (math.pi, 128), (-0.001, 0)]
+)
+def test_a_heading_is_a_byte_for_a_whole_turn_counterclockwise_from_the_x_axis(script, heading, sample) -> None:
+    script.headings["cyan2"] = heading
+    script.rest(3)
+    tracks = script.history()[1]
+    assert (tracks.robots["cyan2"].heading[-1], tracks.robots["cyan1"].heading[-1]) == (sample, 0)
 
 
 def test_a_robot_that_is_not_there_is_away(script) -> None:
@@ -106,3 +119,12 @@ def test_half_an_hour_makes_a_page_below_six_megabytes_and_a_day_too(script) -> 
         statistics.update(match_ticks[0])
         content = content_of(script.manifest, script.setup, statistics.figures(), tracks, history)
         assert len(page(content)) < 6e6
+
+
+def test_the_page_names_profile_rule_book_pace_and_seed_of_the_match(script) -> None:
+    script.rest(2)
+    setup = script.setup
+    profile, rules = f"msl (version {setup.profile_version})", f"friendly (version {setup.rules_version})"
+    assert script.content()["about"] == [f"profile {profile}", f"rules {rules}", f"pace {setup.pace}"]
+    script.manifest = script.manifest.model_copy(update={"config": MatchConfig(seed=7)})
+    assert script.content()["about"][-1] == "seed 7"

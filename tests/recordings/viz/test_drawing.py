@@ -93,6 +93,9 @@ def test_lines_bound_the_pitch_of_the_profile_with_their_outer_edges(profile):
     pitch = load_profile(profile).field
     lines = Board(setup_of(profile)).scene(FIELD, world())["lines"].lines
     assert {line.thickness for line in lines} == {pitch.line_width}
+    origins = {(line.pose.position.x, line.pose.position.y, line.pose.position.z) for line in lines}
+    assert origins == {(0.0, 0.0, 0.0)}, "points are counted from the origin of the field"
+    assert {line.pose.orientation.w for line in lines} == {1.0}
     half = pitch.line_width / 2
     outer = [(point.x, point.y) for point in lines[0].points]
     assert max(x for x, _ in outer) + half == pytest.approx(pitch.length / 2)
@@ -274,6 +277,8 @@ def test_the_board_has_each_team_at_the_half_that_it_defends(board, setup):
     texts = {text.text: text for text in board.scene(GAME, state, topic=STATE)["board"].texts}
     assert set(texts) == {"Water", "NuBot", "2 : 1", "1:05  throw in cyan"}
     assert texts["Water"].pose.position.x == -texts["NuBot"].pose.position.x == -setup.pitch.length / 4
+    beside = setup.pitch.touch_line + setup.pitch.border
+    assert all(text.pose.position.y > beside and text.pose.position.z > 0.0 for text in texts.values())
     turned = board.scene(GAME, state.model_copy(update={"cyan_attacks": -1}), topic=STATE)["board"].texts
     places = {text.text: text.pose.position.x for text in turned}
     assert places["Water"] > 0 > places["NuBot"]

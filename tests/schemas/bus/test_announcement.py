@@ -5,6 +5,8 @@ from contextlib import ExitStack
 
 import pytest
 
+from schemas.access.accounts import Account
+from schemas.access.credentials import HOST_FILE, account_file, new_credentials, write_credentials
 from schemas.bus.announcement import Announcement, announced, announced_to_user, announcement_in, running_hosts
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.find_host import find_host
@@ -103,3 +105,29 @@ def test_where_it_is_not_clear_which_match_is_meant_they_are_listed(run, name):
 
 def test_without_an_announcement_a_client_tries_the_default_endpoint():
     assert find_host(None).endpoint == find_host("cup").endpoint == DEFAULT_ENDPOINT
+
+
+@pytest.mark.parametrize("connect", [None, "tcp/127.0.0.1:7003", "tls/127.0.0.1:7003", "tcp/localhost:7003"])
+def test_a_client_of_the_user_finds_the_credentials_of_its_account_with_and_without_an_endpoint(tmp_path, run, connect):
+    made = new_credentials()
+    write_credentials(tmp_path, made)
+    run(Announcement.of("cup", "tls/127.0.0.1:7003", tmp_path / HOST_FILE))
+    run(FRIENDLY)
+    found = find_host("cup" if connect is None else None, connect)
+    assert found.endpoint == (connect or "tls/127.0.0.1:7003")
+    for account in Account:
+        credentials = found.credentials_of(account)
+        assert credentials is not None and credentials.password == made.passwords[account]
+
+
+def test_a_host_without_credentials_and_one_that_is_not_announced_give_none(run):
+    run(FRIENDLY)
+    for connect in (None, "tcp/192.0.2.1:7001"):
+        assert find_host(None, connect).credentials_of(Account.VIEWER) is None
+
+
+def test_accounts_whose_file_was_given_away_are_joined_without_credentials(tmp_path, run):
+    write_credentials(tmp_path, new_credentials())
+    account_file(tmp_path, Account.CYAN).unlink()
+    run(Announcement.of("cup", "tcp/127.0.0.1:7003", tmp_path / HOST_FILE))
+    assert find_host(None).credentials_of(Account.CYAN) is None

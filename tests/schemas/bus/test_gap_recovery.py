@@ -140,6 +140,16 @@ def test_what_never_comes_is_waited_for_for_a_while_and_given_up(reader):
     assert reader.recovery.accept_if_next(message(12))
 
 
+def test_a_gap_that_becomes_smaller_is_waited_for_anew(reader):
+    reader.hear(20)
+    (gap,) = reader.recovery.due_requests(0.0)
+    assert reader.answer(gap, 8, now=GIVE_UP_S - 1.0) == [8]
+    (gap,) = reader.recovery.due_requests(GIVE_UP_S + 1.0)
+    assert gap == Gap("world", "a", 9, 20)
+    assert reader.recovery.due_requests(2 * GIVE_UP_S - 1.0) == []
+    assert reader.ready() == [20]
+
+
 def test_a_gap_in_one_key_holds_no_other_back(reader):
     assert reader.hear(0, key="host/applied") == [0]
     reader.hear(10)

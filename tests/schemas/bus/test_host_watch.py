@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from schemas.bus.contract import PresenceKind
-from schemas.bus.host_watch import LINK_GRACE_S, HostWatch
+from schemas.bus.host_watch import CUT_OFF_S, LINK_GRACE_S, HostWatch
 from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.process.clock import SteppedClock
 
@@ -17,10 +17,12 @@ class Client:
     host: InProcessBus
     bus: InProcessBus
     linked: bool = True
+    cut_off: bool = False
     watch: HostWatch = field(init=False)
 
     def __post_init__(self) -> None:
         self.bus.connected = lambda: self.linked
+        self.bus.is_cut_off = lambda: self.cut_off
         self.watch = HostWatch(self.bus)
 
     def come(self) -> None:
@@ -37,6 +39,16 @@ class Client:
             self.watch.update()
             self.watch.is_reachable()
         return 0.0 if self.watch.is_reachable() else self.watch.unreachable_s()
+
+    def given_up_after(self, longest: float) -> float | None:
+        """The wall time after which an agent with a patience of 10 s gives the match up; None if it does not."""
+        clock = self.bus.clock
+        for number in range(round(longest * 4)):
+            self.watch.update()
+            if not self.watch.is_reachable() and self.watch.is_given_up(10.0):
+                return number / 4
+            clock.sleep_until(clock.now() + 0.25)
+        return None
 
 
 @pytest.fixture
@@ -133,3 +145,20 @@ def test_who_waits_for_a_host_waits_as_long_as_its_patience(client):
     assert client.bus.clock.now() == pytest.approx(3.0, abs=0.1)
     client.come()
     assert client.watch.wait(0.0)
+
+
+def test_an_agent_gives_up_a_host_that_is_gone(met):
+    met.linked = False
+    assert met.given_up_after(20.0) == pytest.approx(10.0, abs=0.5)
+
+
+def test_an_agent_does_not_give_up_a_host_from_which_it_is_cut_off(met):
+    met.linked, met.cut_off = False, True
+    assert met.given_up_after(600.0) is None
+    met.cut_off = False
+    assert met.given_up_after(20.0) == pytest.approx(10.0, abs=1.5), "its patience begins when the network is back"
+
+
+def test_an_agent_gives_up_a_machine_that_never_comes_back(met):
+    met.linked, met.cut_off = False, True
+    assert met.given_up_after(CUT_OFF_S + 60.0) == pytest.approx(CUT_OFF_S + 10.0, abs=2.0)

@@ -1,6 +1,8 @@
 """Kicks against the paper's equations, and lobs against the flight they are solved for."""
 
 import math
+from contextlib import nullcontext
+from dataclasses import replace
 
 import pytest
 from pytest import approx
@@ -130,6 +132,15 @@ def test_a_lob_that_meets_no_goal_line_is_refused_with_its_reason() -> None:
 def test_a_lob_beyond_the_devices_power_is_refused_with_its_reason() -> None:
     with pytest.raises(KickRefusedError, match=r"reaches the goal, 31\.1 m away, with at most 20 m/s"):
         kicked(KickMode.LOB, 12.0, x=-11.0, heading=math.pi / 4)
+
+
+def test_a_lob_that_needs_more_speed_than_the_kicker_has_is_refused() -> None:
+    """A lob over 8 m takes about 9 m/s."""
+    needed = math.hypot(*kicked(KickMode.LOB, 6.0, x=3.0))
+    for most, is_refused in ((needed - 0.01, True), (needed + 0.01, False)):
+        profile = replace(MSL, kicker=replace(MSL.kicker, max_air_speed=most))
+        with pytest.raises(KickRefusedError, match="with at most") if is_refused else nullcontext():
+            kicked(KickMode.LOB, 6.0, profile, x=3.0)
 
 
 def test_modes_have_names() -> None:

@@ -1,5 +1,7 @@
 """The places of robots off the field: their distances, which people beside a real field know too."""
 
+import math
+
 import pytest
 
 from support.referee_rig import RefereeRig
@@ -32,3 +34,10 @@ def test_each_side_has_its_bench_along_the_right_touch_line_of_its_half(halted):
     (x, y), (other_x, other_y) = (halted.robots[name] for name in ("cyan1", "magenta1"))
     assert x < 0.0 and y < 0.0
     assert (other_x, other_y) == pytest.approx((-x, -y))
+
+
+@pytest.mark.parametrize(("robot", "heading"), [("cyan1", math.pi / 2), ("magenta1", -math.pi / 2)])
+def test_a_robot_on_the_bench_faces_the_field(halted, robot, heading):
+    (placement,) = halted.ask("red_card", robot=robot).placements
+    assert placement.body == robot
+    assert math.remainder(placement.heading - heading, math.tau) == pytest.approx(0.0)

@@ -6,7 +6,9 @@ from schemas.game import Card, EventKind, OffField, Phase, Score
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.participation import CardCount, Participation
 from sim_host.referee.procedures.decision import carry_out
+from sim_host.referee.procedures.discipline import for_next_half
 from sim_host.referee.ruling_draft import RulingDraft
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
@@ -106,6 +108,13 @@ def test_in_the_simulation_league_three_yellows_are_a_red_and_are_forgotten_at_h
     rig.ask("end_half")
     rig.until(lambda state: state.half == 2)
     assert rig.state.participation.cards["cyan3"].yellow == 0
+
+
+def test_at_half_time_yellow_cards_are_forgotten_and_red_cards_are_not(new_rig):
+    before = Participation(cards={"cyan2": CardCount(yellow=1, red=2)})
+    for rules, yellow in (("china-sim-2020", 0), ("msl", 1)):
+        after = for_next_half(before, new_rig(rules=rules).book.discipline)
+        assert after.cards == {"cyan2": CardCount(yellow, red=2)}
 
 
 def test_in_the_simulation_league_one_robot_of_a_side_comes_back_in_a_stoppage(new_rig):

@@ -87,6 +87,18 @@ def test_the_benches_have_places_for_all_robots_apart_beyond_the_boundary_and_be
         assert abs(pose.x) + rig.hull <= pitch.goal_line + pitch.border
 
 
+@pytest.mark.parametrize("size", [(22.0, 14.0), (9.0, 6.0)])
+def test_a_bench_has_no_second_row_as_long_as_the_first_has_a_place(size):
+    rig = RefereeRig("msl", "eleven", size=11)
+    pitch = replace(rig.pitch, length=size[0], width=size[1])
+    match = replace(rig.constants, pitch=pitch)
+    places = [bench_pose(match, off_field(rig.roster.names), name) for name in rig.roster.names[:11]]
+    first = [place for place in places if place.y == max(one.y for one in places)]
+    to_the_next = 2.0 * rig.hull + 0.2
+    has_room = min(place.x for place in first) - to_the_next - rig.hull >= -(pitch.goal_line + pitch.border)
+    assert len(first) == len(places) or not has_room
+
+
 @pytest.mark.parametrize("ball", [(0.0, 0.0), (-4.0, -7.0)])
 def test_eleven_robots_come_back_in_one_stoppage_apart_on_the_field_and_clear_of_the_ball(ball):
     """With the ball at the touch line of their bench, the places beside it are too near."""

@@ -77,6 +77,17 @@ def test_a_kick_releases_the_ball_when_there_is_air_behind_it(played):
     assert played.state.evidence.dribble is None
 
 
+@pytest.mark.parametrize(("pause", "ended"), [(0.48, False), (0.52, True)])
+def test_a_backward_movement_ends_after_half_a_second_without_backward_motion(played, pause, ended):
+    backward = {"motions": {"cyan3": (0.0, -1.0, 0.0)}}
+    for _ in range(20):
+        played.tick((2.0, 1.0), ["cyan3"], possession="cyan3", **backward)
+    for _ in range(round(pause / played.dt)):
+        played.tick((2.0, 1.0), ["cyan3"], possession="cyan3")
+    played.tick((2.0, 1.0), ["cyan3"], possession="cyan3", **backward)
+    assert (played.state.evidence.dribble.backward < 0.1) is ended
+
+
 def test_a_kick_in_flight_has_its_apex_and_its_landing(played):
     played.robots["cyan3"] = (2.0, 1.0)
     heights = ((2.4, 0.05), (4.0, 0.8), (6.0, 0.4), (7.0, 0.02), (8.0, 0.3), (9.0, 0.0))

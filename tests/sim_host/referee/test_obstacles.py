@@ -77,6 +77,16 @@ def test_a_corner_that_is_built_over_stays_inside_the_lines(rig):
     assert math.dist((x, y), (rig.pitch.goal_line, rig.pitch.touch_line)) >= 1.0 + room(rig)
 
 
+def test_a_ball_beside_the_outer_side_of_a_wide_block_is_moved_outward_and_not_around_it(rig):
+    """The free ground is 0.3 m away from the centre of the field; toward the centre it is metres away."""
+    rig.obstacles = (block(0.0, 0.0, 0.0, 4.6, 10.0),)
+    rig.playing((4.0, 0.0))
+    rig.ask("drop_ball", place=(2.3, 0.0))
+    rig.until(lambda state: state.phase is Phase.DROP_BALL)
+    x, y = rig.state.spot
+    assert x >= 2.3 + room(rig) - 1e-6 and math.dist((x, y), (2.3, 0.0)) < room(rig) + 0.06
+
+
 def test_an_obstacle_that_leaves_the_spot_free_moves_nothing(rig):
     rig.obstacles = (pillar(0.5, 0.0),)
     rig.tick((3.0, 3.0))

@@ -133,6 +133,17 @@ def test_a_direct_goal_from_a_free_kick_does_not_count_and_is_a_goal_kick(rig):
     ruling = shot(rig)
     assert ruling.events[0].kind is EventKind.NO_GOAL and (ruling.events[0].measured, ruling.events[0].limit) == (1, 2)
     assert ruling.state.score == Score() and ruling.state.pending[:2] == (Phase.GOAL_KICK, MAGENTA)
+    assert (ruling.events[0].side, ruling.events[0].robot) == (CYAN, "cyan2")
+
+
+@pytest.mark.parametrize(("rules", "cards"), [("china-sim-2020", [("cyan2", Card.YELLOW)]), ("msl", [])])
+def test_a_direct_goal_is_a_yellow_card_for_the_kicker_where_the_rule_book_says_so(new_rig, rules, cards):
+    rig = taken(new_rig(rules=rules))
+    kick(rig, away=1.0)
+    ruling = shot(rig)
+    assert ruling.events[0].kind is EventKind.NO_GOAL
+    rig.run(1.0)
+    assert [(event.robot, event.card) for event in rig.events if event.kind is EventKind.CARD] == cards
 
 
 @pytest.mark.parametrize(("touches", "counts"), [(["cyan3"], True), (["cyan2"], False), (["magenta3"], False)])
@@ -182,10 +193,12 @@ def test_who_stands_wrong_at_the_limit_is_named_carded_and_moved(rig):
     rig.ask("free_kick", CYAN, SPOT)
     rig.robots["magenta2"] = (SPOT[0] + 1.0, SPOT[1])
     rig.robots["magenta3"] = (SPOT[0], SPOT[1] + 2.0)
+    stood = dict(rig.robots)
     rig.until(lambda state: state.running)
     near = {"magenta2": 1.0 - rig.hull, "magenta3": 2.0 - rig.hull}
     assert {foul.robot: foul.measured for foul in fouls(rig)} == pytest.approx(near, abs=1e-3)
     assert {foul.limit for foul in fouls(rig)} == {3.0}
+    assert {foul.robot: (foul.place.x, foul.place.y) for foul in fouls(rig)} == {name: stood[name] for name in near}
     cards = [(event.robot, event.card) for event in rig.events if event.kind is EventKind.CARD]
     assert sorted(cards) == [("magenta2", Card.YELLOW), ("magenta3", Card.YELLOW)]
     for name in near:

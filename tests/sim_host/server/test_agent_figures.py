@@ -12,6 +12,7 @@ from schemas.config.profile import load_profile
 from schemas.messages.command import Command
 from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND
+from sim_host.match.radio_use import RadioUse
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.health_reporter import HealthReporter
@@ -32,7 +33,7 @@ def speed_after(*stretches):
             clock.sleep_until(clock.now() + took)
             tick += 1
             reporter.end_tick(tick * 0.02)
-    return reporter.report(tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS, AccountLimits({}))
+    return reporter.report(tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS, AccountLimits({}), RadioUse(), 2e6)
 
 
 def test_the_real_time_factor_and_the_worst_tick_are_those_of_the_last_second():

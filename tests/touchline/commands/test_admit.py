@@ -52,7 +52,7 @@ def test_an_account_is_admitted_again(host: FakeHost) -> None:
 
 
 def test_an_account_that_is_not_cut_off_is_refused_with_the_names_of_those_that_are(host: FakeHost) -> None:
-    result = touchline("coach", "admit", "magenta")
+    result = touchline("referee", "admit", "magenta")
     assert result.exit_code == 1
     assert result.stderr == "touchline: refused: magenta is not cut off; cut off are: cyan_coach\n"
 

@@ -118,3 +118,12 @@ def test_agents_that_do_not_keep_up_stand_in_the_line_with_their_figures() -> No
     assert status_line(playing, 4).endswith(
         f"robots 3/4 (silent: cyan2)  cyan2 {fault}  magenta2 takes 310 ms a tick  1 more"
     )
+
+
+def test_silent_robots_are_named_with_the_ticks_they_have_missed() -> None:
+    playing = health(
+        90,
+        cyan2=RobotHealth(alive=True, missed=80, missed_in_a_row=57),
+        magenta1=RobotHealth(alive=True, missed=1, missed_in_a_row=1),
+    )
+    assert robots_text(playing, 3) == "robots 1/3 (silent: cyan2 57 ticks, magenta1 1 tick)"

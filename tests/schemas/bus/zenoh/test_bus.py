@@ -46,6 +46,23 @@ def test_a_host_without_an_endpoint_takes_the_default_one_or_a_free_one(monkeypa
         assert second.endpoint.startswith("tcp/127.0.0.1:") and second.endpoint != default
 
 
+def test_a_client_tries_again_within_its_patience() -> None:
+    """The host begins to listen after the first attempt of its client has failed."""
+    endpoint, hosts = with_free_port("tcp/127.0.0.1:0"), []
+
+    class ClockOfAClient(WallClock):
+        def sleep_until(self, when: float) -> None:
+            if not hosts:
+                hosts.append(open_host("test", WallClock(), endpoint))
+
+    try:
+        with open_client("test", ClockOfAClient(), endpoint, 60.0) as client:
+            assert len(hosts) == 1 and client.connected()
+    finally:
+        for host in hosts:
+            host.close()
+
+
 def test_an_address_of_another_machine_is_one_line_with_the_remedy() -> None:
     with pytest.raises(
         BusError, match=r"^--listen tcp/192\.0\.2\.1:0 cannot be listened on \(.*\); choose another address$"

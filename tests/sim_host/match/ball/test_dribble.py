@@ -160,3 +160,15 @@ def test_a_ball_that_an_opponent_presses_is_not_pumped_into_it(rig, build, tell,
     for _ in range(round(2.0 / rig.profile.time.tick)):
         snapshot = rig.tick(cyan1=tell(0.5, dribble=True), magenta1=tell(0.5))
         assert overlap_with(rig, snapshot, "magenta1") < 0.02
+
+
+@pytest.mark.parametrize("way", ["pose", "velocity"])
+@pytest.mark.parametrize(("deeper", "held"), [(0.005, True), (0.02, False)])
+def test_a_ball_that_its_holder_has_run_over_is_released(build, tell, way, deeper, held):
+    rig = build(dribble={"method": way})
+    rig.give("cyan1", 0.0)
+    assert rig.run(0.1, cyan1=tell(dribble=True)).possession == "cyan1"
+    robot, gap, r = rig.at("cyan1"), rig.profile.dribble.gap, rig.profile.ball.radius
+    rig.engine.set_ball_state((robot.x + gap - deeper, robot.y, r), (0, 0, 0), (0, 0, 0))
+    rig.engine.read()
+    assert rig.tick(cyan1=tell(dribble=True)).possession == ("cyan1" if held else None)

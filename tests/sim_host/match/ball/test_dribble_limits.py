@@ -11,6 +11,7 @@ from itertools import pairwise
 import pytest
 
 from schemas.config.profile import load_profile
+from sim_host.actuation.possession import can_hold
 
 MSL = load_profile("msl")
 RESISTS = MSL.ball.mass + MSL.ball.inertia / MSL.ball.radius**2
@@ -127,3 +128,16 @@ def test_a_ball_that_leaves_is_not_thrown(build, tell):
     speeds = [math.hypot(*rig.tick(cyan1=tell(dribble=True)).ball[3:5]) for _ in range(50)]
     assert all(after <= before + 0.02 for before, after in pairwise(speeds))
     assert speeds[-1] > 1.0
+
+
+def test_the_ball_has_no_holder_any_more_in_the_tick_in_which_it_leaves_it(build, tell):
+    """A brake that is too hard; whoever holds the ball at the end of a tick fulfils the hold condition there."""
+    rig = build(ball=NO_AIR, drive={"deceleration": 9.0})
+    rig.give("cyan1", -5.0, 0)
+    rig.run(2.0, cyan1=tell(vx=4.0, dribble=True))
+    for _ in range(50):
+        snapshot = rig.tick(cyan1=tell(dribble=True))
+        if snapshot.possession is None:
+            break
+        assert can_hold(rig.at("cyan1"), snapshot.ball, rig.profile.dribble)
+    assert snapshot.possession is None and not can_hold(rig.at("cyan1"), snapshot.ball, rig.profile.dribble)

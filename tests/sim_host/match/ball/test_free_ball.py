@@ -197,6 +197,34 @@ def test_a_ball_in_the_goal_rests_there(rig, velocity):
     assert rig.run(2.0).ball == approx(end, abs=1e-4)
 
 
+@pytest.mark.parametrize("wall", ["side", "other side", "back", "roof"])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_net_keeps_a_ball_outside_that_does_not_come_through_the_front(rig, wall, sign):
+    field, r = rig.profile.field, rig.profile.ball.radius
+    middle, width, depth = field.goal_line + field.goal_depth / 2, field.goal_width / 2, field.goal_depth
+    position, velocity = {
+        "side": ((middle, width + 0.6, r), (0, -4, 0)),
+        "other side": ((middle, -width - 0.6, r), (0, 4, 0)),
+        "back": ((field.goal_line + depth + 0.4, 0, r), (-4, 0, 0)),
+        "roof": ((middle, 0, field.goal_height + 0.8), (0, 0, -2)),
+    }[wall]
+    rig.set_ball((sign * position[0], position[1], position[2]), (sign * velocity[0], velocity[1], velocity[2]))
+    for _ in range(50):
+        ball = rig.tick().ball
+        is_inside = field.goal_line < sign * ball.x < field.goal_line + depth and abs(ball.y) < width
+        assert not is_inside or ball.z > field.goal_height
+
+
+@pytest.mark.parametrize("velocity", [(0, 5, 0), (0, -5, 0), (0, 0, 5), (5, 0, 0)])
+def test_the_net_keeps_a_ball_in_the_goal(rig, velocity):
+    field, r = rig.profile.field, rig.profile.ball.radius
+    rig.set_ball((field.goal_line + field.goal_depth / 2, 0.0, 2 * r), velocity)
+    for _ in range(50):
+        ball = rig.tick().ball
+        assert abs(ball.y) < field.goal_width / 2 and ball.z < field.goal_height
+        assert ball.x < field.goal_line + field.goal_depth
+
+
 def test_a_checkpoint_lets_a_rolling_ball_roll_on(build):
     """Spin is not part of a snapshot: a ball on the ground is given that of rolling, and does not slide again."""
     rig = build(ball=STILL)

@@ -186,3 +186,15 @@ def test_a_pass_arrives_at_the_speed_that_it_was_kicked_for(build, tell, distanc
     while ball.x < start + distance:
         ball = rig.tick().ball
     assert ball.vx == approx(3.5, abs=0.15)
+
+
+def test_a_robot_that_catches_up_with_the_ball_it_has_kicked_pushes_it_ahead(build, tell):
+    """The kicked ball is slower than its kicker, before it has left the hull."""
+    rig = build("paper")
+    rig.give("cyan1", -5.0)
+    rig.run(2.0, cyan1=tell(vx=3.0, dribble=True))
+    rig.tick(cyan1=tell(vx=3.0, dribble=True, kick=("ground", 1.0)))
+    for _ in range(25):
+        snapshot = rig.tick(cyan1=tell(vx=3.0))
+        ahead = snapshot.ball.x - rig.at("cyan1").x
+        assert ahead > rig.profile.robot.radius

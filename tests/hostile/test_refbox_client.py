@@ -1,0 +1,139 @@
+"""A referee box that attacks the base station which is connected to it: garbage, floods, endless lines, silence."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+
+from coach_gateway.refbox import signal_queue
+from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.framing import BoxProtocol
+from schemas.game import ActionName, Phase
+from schemas.messages.game import ActionReply
+from schemas.side import Side
+from support.gateway_bench import Bench, opened, until
+from support.referee_box import Box
+
+
+@asynccontextmanager
+async def connected(protocol: BoxProtocol = BoxProtocol.AUTO) -> AsyncIterator[tuple[Bench, Box, RefBoxClient]]:
+    """A box, and a base station of ours that is connected to it, beside a host."""
+    async with opened() as bench:
+        bench.stage.say(phase=Phase.STOPPED)
+        box = Box()
+        port = await box.open()
+        client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port, protocol), bench.logged.append)
+        bench.start(client)
+        try:
+            await until(lambda: box.links and client.connected, "the connection, on both sides")
+            yield bench, box, client
+        finally:
+            bench.stop.set()
+            await box.close()
+
+
+GARBAGE = [
+    b"\x00" * 10_000,
+    bytes(range(128, 256)) * 100 + b"\x00",
+    b'{"command": ' + b"[" * 980 + b"]" * 980 + b"}\x00",
+    b'{"a": ' + b"{" * 20_000 + b"\x00",
+    b"{}" * 30_000 + b"\x00",
+    b'{"command": "START' + b"x" * 300_000 + b'"}\x00',
+    b'{"command": "\\ud800"}\x00',
+    b'{"command": {"command": "START"}}\x00',
+    b'{"command": ["START"]}\x00',
+    b'{"command": "START", "robotID": 1e999}{"command": NaN}\x00',
+    b'{"command": "REPAIR", "targetTeam": 7, "robotID": -5}\x00',
+    b'{"command": "REPAIR", "robotID": "999999999999"}\x00',
+    b'{"command": "GOAL", "targetTeam": "' + b"y" * 60_000 + b'"}\x00',
+    b'{"command": "stop\x1b[2J"}\x00',
+    b"HTTP/1.1 200 OK\r\n\r\n\x00",
+]
+
+
+@pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
+def test_garbage_of_a_box_is_counted_and_its_next_command_is_forwarded(protocol: BoxProtocol) -> None:
+    async def play() -> None:
+        async with connected(protocol) as (bench, box, client):
+            for garbage in GARBAGE:
+                box.send(garbage)
+                forwarded = sum(action.action is ActionName.STOP for action in bench.stage.asked)
+                box.say("STOP")
+                await until(
+                    lambda before=forwarded: (
+                        sum(action.action is ActionName.STOP for action in bench.stage.asked) > before
+                    ),
+                    repr(garbage[:40]),
+                )
+            assert client.connected and client.counts["connections"] == 1 and client.counts["unreadable"] > 5
+            assert all(action.robot is None for action in bench.stage.asked)
+            assert all(line.isprintable() and len(line) < 300 for line in bench.logged if "referee box" in line)
+
+    asyncio.run(play())
+
+
+def test_a_box_that_floods_start_and_stop_is_forwarded_in_turn_and_neither_fills_memory_nor_the_log() -> None:
+    async def play() -> None:
+        async with connected() as (bench, box, client):
+            bench.stage.answer = lambda _: ActionReply(accepted=False, reason="not now")
+            flood = b'{"command": "START"}\x00{"command": "STOP"}\x00' * 20_000
+            box.send(flood)
+            box.say("GOAL", "224.16.32.44")
+            await until(lambda: client.counts["received"] > 40_000)
+            await until(lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.GOAL)
+            assert client.counts["dropped"] > 30_000
+            assert len(bench.stage.asked) <= 40_000 - client.counts["dropped"] + signal_queue.MOST_WAITING
+            assert len([line for line in bench.logged if "not now" in line]) <= 40
+
+    asyncio.run(play())
+
+
+def test_a_line_without_end_fills_no_memory_and_the_base_station_goes_on() -> None:
+    async def play() -> None:
+        async with connected(BoxProtocol.JSON) as (bench, box, client):
+            box.send(b'{"command": "')
+            for _ in range(50):
+                box.send(b"x" * 1_000_000)
+                await box.links[0].drain()
+            box.send(b'"}\x00')
+            box.say("STOP")
+            await until(lambda: any(action.action is ActionName.STOP for action in bench.stage.asked))
+            assert client.counts["unreadable"] == 1
+
+    asyncio.run(play())
+
+
+@pytest.mark.parametrize("flood", [b"S", b"sS" * 10, b"?" * 100, b"Kk1\x00\r\n "])
+def test_characters_in_a_flood_leave_the_last_one_in_force(flood: bytes) -> None:
+    async def play() -> None:
+        async with connected(BoxProtocol.CHARACTERS) as (bench, box, client):
+            box.send(flood * 5000 + b"N")  # a drop ball
+            await until(
+                lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.DROP_BALL, "the last character"
+            )
+            assert client.connected
+
+    asyncio.run(play())
+
+
+def test_a_second_box_takes_nothing_from_the_first() -> None:
+    """Both claim the seat by name; the host refuses the second's actions, which is logged in few lines."""
+
+    async def play() -> None:
+        async with connected() as (bench, first, client):
+            second_box = Box()
+            port = await second_box.open()
+            second = RefBoxClient(bench.live, BoxAddress(Side.MAGENTA, "127.0.0.1", port), bench.logged.append)
+            bench.start(second)
+            await until(lambda: second.connected)
+            for box in (first, second_box):
+                box.say("STOP")
+            await until(lambda: len(bench.stage.asked) >= 1)
+            names: set[Any] = {action.referee for action in bench.stage.asked}
+            assert all(name and name.startswith("box_127_0_0_1_") for name in names)
+            assert client.connected
+            await second_box.close()
+
+    asyncio.run(play())
