@@ -10,7 +10,7 @@ import pytest
 
 from touchline.launch.process_tree import process_line
 
-_PATIENCE_S = 120.0
+_PATIENCE_S = 240.0
 HEAD = """
 import os, signal, sys, threading, time
 from pathlib import Path
@@ -44,7 +44,7 @@ size = 1
 [limits]
 {limits}
 [patience]
-answer = 0.5
+answer = 60.0
 """
 
 

@@ -73,3 +73,13 @@ def usage_of(pids: list[int]) -> Usage:
     """What these processes use together."""
     lines = [line.usage for line in map(process_line, pids) if line is not None]
     return Usage(sum(one.memory for one in lines), sum(one.threads for one in lines), sum(one.cpu_s for one in lines))
+
+
+def proportional_memory(pids: list[int]) -> int:
+    """Memory of these processes in bytes; of a page that several share, each has its part. Costly to find out."""
+    total = 0
+    for pid in pids:
+        with suppress(OSError):  # it has ended
+            lines = (PROC / str(pid) / "smaps_rollup").read_text().splitlines()
+            total += sum(int(line.split()[1]) * 1024 for line in lines if line.startswith("Pss:"))
+    return total

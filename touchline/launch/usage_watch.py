@@ -10,7 +10,7 @@ from contextlib import suppress
 from typing import Protocol
 
 from schemas.config.confinement import Limits
-from touchline.launch.process_tree import Usage, children_of, process_line, tree_of, usage_of
+from touchline.launch.process_tree import Usage, children_of, process_line, proportional_memory, tree_of, usage_of
 
 PERIOD_S = 0.5
 """Wall time between two looks: about a millisecond of CPU time for ten robots."""
@@ -32,7 +32,7 @@ class WatchedRobot(Protocol):
 
 def exceeded(usage: Usage, limits: Limits) -> str | None:
     """The limit that a robot exceeds; None for none."""
-    used = {"memory": usage.memory / 1e9, "processes": usage.threads, "cpu_time": usage.cpu_s}
+    used = {"processes": usage.threads, "memory": usage.memory / 1e9, "cpu_time": usage.cpu_s}
     return next((limit for limit, amount in used.items() if amount > getattr(limits, limit)), None)
 
 
@@ -55,7 +55,10 @@ class UsageWatch:
                 continue
             tree = tree_of(robot.pid)
             self._robot_of.update(dict.fromkeys(tree, name))
-            limit = exceeded(usage_of(tree), limits)
+            usage = usage_of(tree)
+            limit = exceeded(usage, limits)
+            if limit == "memory":  # perhaps only because forks share their pages
+                limit = exceeded(usage._replace(memory=proportional_memory(tree)), limits)
             if limit is not None:
                 robot.end_for(limit)
 
