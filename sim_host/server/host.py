@@ -1,15 +1,11 @@
 """The host of one match: steps the simulation on the bus, tick by tick, at the pace of the match."""
 
-import logging
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
-from schemas.game import EventKind
-from schemas.messages.game import GameEvent
 from schemas.recovery_window import PARTING_S
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
@@ -19,6 +15,7 @@ from sim_host.server.active_order_publisher import ActiveOrderPublisher
 from sim_host.server.admission import Admission
 from sim_host.server.eligibility import Eligibility
 from sim_host.server.health_reporter import HealthReporter
+from sim_host.server.host_reports import HostReports
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.server.manual_control import ManualControl
@@ -27,8 +24,6 @@ from sim_host.server.pace import Lockstep, Pace, Realtime
 from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.referee_seat import RefereeSeat
 from sim_host.server.services import Services
-
-log = logging.getLogger("sim_host")
 
 _FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
 """Wall time that the host stays after full time for its watchers: missed messages of the end show with the bus's next
@@ -93,6 +88,7 @@ class Host:
         self._supervision = AccountSupervision(bus, self.accounts, admission, self.inbox.agent_stats)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
+        self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self._supervision)
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
         )
@@ -129,7 +125,7 @@ class Host:
                 return
             self.presence.update(timeout=0.02)
             self._process_requests()
-            self._report_refusals(self.simulation.now)
+            self._reports.publish(self.simulation.now)
             self._report(self.simulation.now)
             self._batches.send_if_due()
             if self._services.actions:
@@ -230,12 +226,12 @@ class Host:
 
     def _update_stats(self, tick: TickResult) -> None:
         """Count refusals; publish an event when an agent falls silent or answers, and when manual control changes."""
-        self._report_refusals(tick)
+        self._reports.publish(tick)
         for name, count in tick.refused.items():
             self.inbox.agent_stats[name].refused += count
         for name, driven in self._manual.changes():
             text = f"{name} is under manual control" if driven else f"{name} is controlled by its brain again"
-            self._publish_agent_event(tick, name, "manual_control", text)
+            self._reports.publish_on_agent(tick, name, "manual_control", text)
         for name, was_silent in self._silent.items():
             stats = self.inbox.agent_stats[name]
             if stats.idle:
@@ -247,41 +243,7 @@ class Host:
             self._silent[name] = silent
             fault = stats.fault(tick.tick) if stats.alive else ""
             text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
-            self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
-
-    def _log_agents(self) -> None:
-        """Log agents that have joined or left."""
-        for change in self.presence.pop_changes():
-            missing = self.presence.missing_agents()
-            still = f"; missing: {', '.join(missing)}" if missing else ""
-            joined = f"joined: {self.presence.agent_source(change.name)}" if change.alive else "left"
-            log.info("%s %s%s", change.name, joined, still)
-
-    def _report_refusals(self, tick: TickResult) -> None:
-        """Publish an event for each agent that was refused, and for each change of the referee's seat."""
-        self._log_agents()
-        for refusal in self.presence.pop_refusals():
-            log.warning(refusal.text)
-            if refusal.robot in self._roster.names:
-                self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
-            else:
-                self._publish_report(tick, "claim", refusal.text)
-        for text in self._seat.pop_changes():
-            log.warning(text)
-            self._publish_report(tick, "referee_seat", text)
-        for text in self._supervision.pop_reports():
-            self._publish_report(tick, "account", text)
-
-    def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
-        if name not in self._roster.names:
-            return
-        self._publish_report(tick, rule, text, side=self._roster.side_of(name), robot=name)
-
-    def _publish_report(self, tick: TickResult, rule: str, text: str, **about: Any) -> None:
-        """Publish an event that is the host's own report, and none of the referee's decisions."""
-        time, clock = tick.time, self.simulation.state.clock
-        event = GameEvent(tick=tick.tick, time=time, clock=clock, kind=EventKind.AGENT, rule=rule, text=text, **about)
-        self._outbox.publish_event(event)
+            self._reports.publish_on_agent(tick, name, "agent_silent", text if silent else f"{name} answers")
 
     def _report(self, tick: TickResult) -> None:
         """Publish the host's health when a report is due, and at most one invalid payload: a flood is not echoed."""

@@ -9,23 +9,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import clock_text, event_line
-from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
+from coach_gateway.match.lines import clock_text
+from coach_gateway.match.team_names import TeamNames
 from schemas.access.accounts import Account
 from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
-from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint, parse_endpoint
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.messages.game import GameEvent, GameState
-from schemas.messages.health import Health
 from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.join_command import join_lines
 from touchline.launch.log_limit import LogLimit
+from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.page_probe import AddressLines
 from touchline.launch.processes import (
@@ -36,20 +33,13 @@ from touchline.launch.processes import (
     client_processes,
     host_process,
 )
-from touchline.launch.recording_outcome import (
-    NO_RECORDING,
-    RecordingOutcome,
-    finished_recording,
-    unfinished_recording,
-)
+from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
 from touchline.launch.remote_teams import RemoteTeams
-from touchline.launch.result import NOTABLE, MatchResult
+from touchline.launch.result import MatchResult
 from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor, ending
-from touchline.watch.agent_faults import SlowAgents
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor
 from touchline.watch.screen import Screen
-from touchline.watch.status_line import status_line
 
 if TYPE_CHECKING:
     from coach_gateway.web.protocol import ResultUpdate
@@ -94,11 +84,10 @@ class MatchRun:
         self._clock = clock
         self._losses = losses
         self._published = published
-        self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._has_clients = False
         self._names = TeamNames.of_match(plan.config)
-        self._slow_agents = SlowAgents()
         self._remote = RemoteTeams(plan.config)
+        self._match_screen = MatchScreen(plan, screen, self._remote, clock)
         self._logs: dict[str, Path] = {}
         self._log_limit = LogLimit()
         self._fork_server = ForkServer()
@@ -190,17 +179,7 @@ class MatchRun:
         while self._poll_processes(stop):
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
-                expected = local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
-                is_unexpected = parse_endpoint(announcement.endpoint)[1:] != parse_endpoint(expected)[1:]
-                self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
-                if self._names != SIDES_ALONE:
-                    self._screen.event(str(self._names), notable=True)
-                for line in join_lines(
-                    self._plan.config, self._plan.listen, announcement.endpoint, self._plan.credentials
-                ):
-                    self._screen.event(line, notable=True)
-                for note in filter(None, (self._plan.isolation_note, self._limits.note)):
-                    self._screen.event(note, notable=False)
+                self._match_screen.begin(announcement, (self._plan.isolation_note, self._limits.note))
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
@@ -216,12 +195,12 @@ class MatchRun:
         with bus:
             follower = MatchFollower(bus)
             while self._poll_processes(stop):
-                self._show(follower)
+                self._match_screen.update(follower)
                 self._clock.sleep_until(self._clock.now() + _POLL)
             deadline = self._clock.now() + _LAST_MESSAGES
             while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
                 self._clock.sleep_until(self._clock.now() + _POLL / 10)
-            self._show(follower)
+            self._match_screen.update(follower)
         return follower
 
     def _connect(self, stop: StopSignals) -> Bus | None:
@@ -259,21 +238,6 @@ class MatchRun:
             return self._remote.absent
         return next((side for side in Side if self._supervisor.has_no_robot(self._plan.config.robots(side))), None)
 
-    def _show(self, follower: MatchFollower) -> None:
-        self._report(follower, follower.update().messages)
-
-    def _report(self, follower: MatchFollower, news: Sequence[GameEvent | GameState | Health]) -> None:
-        for message in news:
-            if isinstance(message, GameEvent):
-                self._screen.event(event_line(message, self._names), notable=message.kind in NOTABLE)
-            elif isinstance(message, Health):
-                for sentence in self._slow_agents.update(message):
-                    self._screen.warn(sentence)
-                for line in self._remote.update(message, self._clock.now()):
-                    self._screen.event(line, notable=True)
-        waiting = self._remote.waiting(follower.health) if follower.health is not None else ""
-        self._screen.status(waiting or status_line(follower, self._robots, self._names))
-
     def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:
         """Why a match ended, of which one side has no robot left."""
         if side is self._remote.absent:
@@ -296,7 +260,7 @@ class MatchRun:
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
             # this process may have missed the last messages if it was stalled
-            self._report(follower, follower.merge_recorded(self._published(self._plan)))
+            self._match_screen.report(follower, follower.merge_recorded(self._published(self._plan)))
         if status == 0 and follower is not None and follower.finished:
             return self._result(follower)
         log = self._supervisor.last_lines("host")
@@ -320,20 +284,5 @@ class MatchRun:
         return replace(MatchResult.of(follower, self._recording()), names=self._names)
 
     def _recording(self) -> RecordingOutcome:
-        path = self._plan.recording
-        if path is None:
-            return NO_RECORDING
-        status = self._supervisor.ended.get("recorder")
-        finished = self._plan.recording_files
-        is_there = bool(finished) or self._plan.config.record.snapshot is not None  # a match without a goal has none
-        log = self._supervisor.last_lines("recorder")
-        reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
-        if status is not None and status < 0:
-            reason = f"the recorder {ending(status)}"
-        if status == 0 and is_there:
-            try:
-                return finished_recording(path, self._losses(self._plan))
-            except TouchlineError as error:
-                reason = str(error)
-        left = [*finished, *self._plan.unfinished_recordings]
-        return unfinished_recording(path, left, reason, self._plan.folder / "recorder.log")
+        ended, log = self._supervisor.ended.get("recorder"), self._supervisor.last_lines("recorder")
+        return outcome_of(self._plan, ended, log, self._losses)

@@ -1,11 +1,14 @@
 """What became of a match's recording: where it is, what it misses, and what can be done about it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from schemas.errors import TouchlineError
 from schemas.topic import Party
 from schemas.topics import TOPICS
+from touchline.launch.processes import MatchPlan
+from touchline.launch.supervisor import ending
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +30,30 @@ class RecordingOutcome:
 
 NO_RECORDING = RecordingOutcome(None, {})
 """No recording was asked for."""
+
+
+def outcome_of(
+    plan: MatchPlan, status: int | None, log: Sequence[str], losses: Callable[[MatchPlan], Mapping[str, int]]
+) -> RecordingOutcome:
+    """The outcome after the recorder has ended with this exit status and these last lines of its log.
+
+    `losses` returns those of the finished recording.
+    """
+    path = plan.recording
+    if path is None:
+        return NO_RECORDING
+    finished = plan.recording_files
+    is_there = bool(finished) or plan.config.record.snapshot is not None  # a match without a goal has none
+    reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
+    if status is not None and status < 0:
+        reason = f"the recorder {ending(status)}"
+    if status == 0 and is_there:
+        try:
+            return finished_recording(path, losses(plan))
+        except TouchlineError as error:
+            reason = str(error)
+    left = [*finished, *plan.unfinished_recordings]
+    return unfinished_recording(path, left, reason, plan.folder / "recorder.log")
 
 
 def finished_recording(path: Path, losses: Mapping[str, int]) -> RecordingOutcome:

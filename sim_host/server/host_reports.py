@@ -1,0 +1,65 @@
+"""The host's own reports: events on agents, accounts and the referee's seat, none of which the referee decides."""
+
+import logging
+from typing import Any
+
+from schemas.game import EventKind
+from schemas.messages.game import GameEvent
+from sim_host.match.simulation import Simulation, TickResult
+from sim_host.server.account_supervision import AccountSupervision
+from sim_host.server.outbox import Outbox
+from sim_host.server.presence_tracker import PresenceTracker
+from sim_host.server.referee_seat import RefereeSeat
+
+log = logging.getLogger("sim_host")
+
+
+class HostReports:
+    """Publishes and logs what happens around a match."""
+
+    def __init__(
+        self,
+        outbox: Outbox,
+        simulation: Simulation,
+        presence: PresenceTracker,
+        seat: RefereeSeat,
+        supervision: AccountSupervision,
+    ) -> None:
+        self._outbox = outbox
+        self._simulation = simulation
+        self._presence = presence
+        self._seat = seat
+        self._supervision = supervision
+
+    def publish(self, tick: TickResult) -> None:
+        """Log agents that joined or left; publish refusals, changes of the referee's seat and accounts cut off."""
+        self._log_agents()
+        for refusal in self._presence.pop_refusals():
+            log.warning(refusal.text)
+            if refusal.robot in self._simulation.roster.names:
+                self.publish_on_agent(tick, refusal.robot, "claim", refusal.text)
+            else:
+                self._publish(tick, "claim", refusal.text)
+        for text in self._seat.pop_changes():
+            log.warning(text)
+            self._publish(tick, "referee_seat", text)
+        for text in self._supervision.pop_reports():
+            self._publish(tick, "account", text)
+
+    def publish_on_agent(self, tick: TickResult, robot: str, rule: str, text: str) -> None:
+        """Publish an event on the agent of a robot, unless the robot was removed."""
+        roster = self._simulation.roster
+        if robot in roster.names:
+            self._publish(tick, rule, text, side=roster.side_of(robot), robot=robot)
+
+    def _log_agents(self) -> None:
+        for change in self._presence.pop_changes():
+            missing = self._presence.missing_agents()
+            still = f"; missing: {', '.join(missing)}" if missing else ""
+            joined = f"joined: {self._presence.agent_source(change.name)}" if change.alive else "left"
+            log.info("%s %s%s", change.name, joined, still)
+
+    def _publish(self, tick: TickResult, rule: str, text: str, **about: Any) -> None:
+        time, clock = tick.time, self._simulation.state.clock
+        event = GameEvent(tick=tick.tick, time=time, clock=clock, kind=EventKind.AGENT, rule=rule, text=text, **about)
+        self._outbox.publish_event(event)
