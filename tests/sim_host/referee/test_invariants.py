@@ -1,6 +1,6 @@
 """What holds in every match, however the ball flies and whatever people ask for."""
 
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from schemas.config.match_config import MatchConfig
@@ -51,6 +51,16 @@ silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
 
 
 @settings(max_examples=40)
+@example(
+    rules="china-sim-2020",
+    mode=OfficiatingMode.AUTOMATIC,
+    winner=False,
+    advantage=None,
+    story=[
+        ((0.0, 0.0, 0.0, "cyan1", 10), None, (), None),
+        ((0.0, 0.0, 0.0, "cyan1", 1), RefereeAction(action=ActionName.DOUBLE_YELLOW, robot="cyan1"), (), None),
+    ],
+)
 @given(
     rules=st.sampled_from(["friendly", "msl", "paper", "china-sim-2020"]),
     mode=st.sampled_from(OfficiatingMode),
@@ -125,9 +135,11 @@ def sound_step(rig, ball, touches, asked, **seen):
     assert after.stage is not GameStage.SHOOT_OUT or after.score == before.score
     assert after.running or (after.advantage is None and not after.participation.owed), "a card is owed after a stop"
     assert after.advantage is None or after.phase is Phase.PLAY
+    sent_off = {event.robot for event in ruling.events if event.kind is EventKind.OFF_FIELD}  # also for 0 s
+    off_field = {*after.participation.absences, *before.participation.absences, *sent_off}
     for placement in ruling.placements:
         inside = abs(placement.x) <= rig.pitch.goal_line and abs(placement.y) <= rig.pitch.touch_line
-        assert inside or placement.body in {*after.participation.absences, *before.participation.absences}
+        assert inside or placement.body in off_field
     for event in ruling.events:
         if event.kind is EventKind.FOUL and event.rule in TOO_MUCH:
             assert event.measured > event.limit and event.robot is not None and event.unit
