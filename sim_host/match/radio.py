@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
 from schemas.messages.radio import Radio
@@ -18,10 +20,8 @@ from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
 
-_NEVER_SENT = -1
-"""In place of a tick: no message has arrived yet."""
-_MOST_TICKS = 250
-"""Messages of more ticks than this are searched for overtaken ones."""
+Objects = NDArray[Any]
+"""An array of `_RadioMessage` and None."""
 
 
 @dataclass(slots=True, eq=False)
@@ -44,7 +44,8 @@ class _RadioMessage:
 class _Batch:
     """The messages of one tick that are under way."""
 
-    tick: int
+    messages: Objects
+    """Per sender: its message, or None."""
     arrives: Ticks
     """Receiver × sender: the tick of arrival, or `NEVER`."""
     first: int
@@ -83,10 +84,9 @@ class RadioAir:
         """Per robot: name and index of each teammate."""
         self._under_way: list[_Batch] = []
         count = len(roster.names)
-        self._newest: Ticks = np.full((count, count), _NEVER_SENT)
-        """Receiver × sender: the tick of the newest message that has arrived, or `_NEVER_SENT`."""
-        self._messages: dict[int, dict[str, _RadioMessage]] = {}
-        """Tick → sender → its message, of messages that are under way or newest; older ones are dropped in time."""
+        self._held: Objects = np.full((count, count), None)
+        """Receiver × sender: the newest message that has arrived, or None."""
+        self._arrived = np.zeros((count, count), dtype=bool)
 
     def change(self, air: RadioChannel) -> None:
         """Use other delays, losses and limits from now on; messages under way arrive as planned."""
@@ -107,12 +107,13 @@ class RadioAir:
         if not kept:
             return successor
         old, new = list(kept), list(kept.values())
-        successor._newest[np.ix_(new, new)] = self._newest[np.ix_(old, old)]
-        successor._messages = self._messages
+        successor._held[np.ix_(new, new)] = self._held[np.ix_(old, old)]
         for batch in self._under_way:
+            messages: Objects = np.empty(len(roster.names), dtype=object)
             arrives = np.full((len(roster.names),) * 2, NEVER)
+            messages[new] = batch.messages[old]
             arrives[np.ix_(new, new)] = batch.arrives[np.ix_(old, old)]
-            successor._under_way.append(_Batch(batch.tick, arrives, batch.first, batch.last))
+            successor._under_way.append(_Batch(messages, arrives, batch.first, batch.last))
         return successor
 
     def send(self, tick: int, contents: Mapping[str, Radio]) -> dict[str, str]:
@@ -125,7 +126,7 @@ class RadioAir:
             return {}
         drawn = self._timing.at(tick)
         outgoing = sorted([(tick - 1 + drawn.leaves[self._index[name]], self._index[name]) for name in contents])
-        messages = self._messages[tick] = {}
+        messages: Objects = np.empty(len(self._index), dtype=object)
         ends: dict[int, float] = {}
         refusals = {}
         for left, index in outgoing:
@@ -138,15 +139,15 @@ class RadioAir:
                 self.use.refused[name] += 1
                 continue
             self.use.bits[name] += bits
-            messages[name] = _RadioMessage(left, ReceivedRadio.of(content))
+            messages[index] = _RadioMessage(left, ReceivedRadio.of(content))
             ends[index] = end
         if self._air.model == "shared":
             senders, arrives = list(ends), np.full(drawn.arrives.shape, NEVER)
             arrives[:, senders] = arrival_ticks(np.array([*ends.values()]) + drawn.flights[:, senders])
-            self._under_way.append(_Batch(tick, arrives, tick, int(last_arrival(arrives))))
+            self._under_way.append(_Batch(messages, arrives, tick, int(last_arrival(arrives))))
         else:
             arrives = np.where([index in ends for index in range(len(self._index))], drawn.arrives, NEVER)
-            self._under_way.append(_Batch(tick, arrives, drawn.first, drawn.last))
+            self._under_way.append(_Batch(messages, arrives, drawn.first, drawn.last))
         return refusals
 
     def _transmit(self, left: float, bits: int, side: Side) -> tuple[float, str | None]:
@@ -163,25 +164,21 @@ class RadioAir:
 
     def receive(self, tick: int) -> list[dict[str, ReceivedRadio]]:
         """Per robot, in the order of the roster: teammate → its newest message that has arrived by this tick."""
-        newest = self._newest
-        for batch in self._under_way:
+        under_way, arrived = self._under_way, self._arrived
+        for (
+            batch
+        ) in under_way:  # in the order of sending: newer messages replace older ones, also those that come later
             if batch.first <= tick:
-                np.maximum(newest, batch.tick, out=newest, where=batch.arrives <= tick)
-        self._under_way = [batch for batch in self._under_way if batch.last > tick]
-        if len(self._messages) > _MOST_TICKS:
-            self._drop_overtaken()
-        messages, tick_s = self._messages, self._tick_s
+                np.less_equal(batch.arrives, tick, out=arrived)
+                np.copyto(self._held, batch.messages, where=arrived)
+        while under_way and under_way[0].last <= tick:
+            under_way.pop(0)
+        tick_s = self._tick_s
         return [
             {
                 name: message.received if message.at == tick else message.read_at(tick, tick_s)
                 for name, sender in mates
-                if (sent := sent_at[sender]) != _NEVER_SENT
-                for message in (messages[sent][name],)
+                if (message := of_robot[sender]) is not None
             }
-            for mates, sent_at in zip(self._mates, newest.tolist(), strict=True)
+            for mates, of_robot in zip(self._mates, self._held.tolist(), strict=True)
         ]
-
-    def _drop_overtaken(self) -> None:
-        """Drop the messages that no receiver will read again."""
-        needed = {*np.unique(self._newest).tolist(), *[batch.tick for batch in self._under_way]}
-        self._messages = {tick: sent for tick, sent in self._messages.items() if tick in needed}

@@ -69,20 +69,21 @@ class CollisionCandidates:
         free_x, free_y = self._free_x - _MARGIN, self._free_y - _MARGIN
         ball_x, ball_y, _, ball_vx, ball_vy, _ = ball
         room = self._ball_radius + math.hypot(ball_vx, ball_vy) * tick + _MARGIN
+        gains, strikes, reaches, yields = self._gains, self._strikes, self._reaches, self._yields
         moving, fixed, touching = [], [], set()
         for place, (x, y, _, _, vx, vy, omega, _) in enumerate(robots):
-            extra = self._gains[place] + abs(omega) * self._strikes[place]
+            extra = gains[place] + abs(omega) * strikes[place]
             speed = math.hypot(vx, vy) + extra
-            travel = self._reaches[place] + speed * tick
+            travel = reaches[place] + speed * tick
             moving.append((x, y, vx, vy, extra, travel, place))
             near = travel + room
-            if self._yields[place] and -near < ball_x - x < near and -near < ball_y - y < near:
+            if -near < ball_x - x < near and -near < ball_y - y < near and yields[place]:
                 touching.add(place)  # another robot may press the ball against it
             if not (obstacles or abs(x) + travel > free_x or abs(y) + travel > free_y):
                 continue
             if speed > fast:
                 fixed += self._fixed(place, x, y, travel)
-            if self._yields[place] and self._fixed(place, x, y, travel + _MARGIN):
+            if yields[place] and self._fixed(place, x, y, travel + _MARGIN):
                 touching.add(place)
         if not moving:
             return Candidates([], fixed, [], False, [])
