@@ -250,6 +250,7 @@ HEALTH = Topic(
     Delivery.RECOVERED,
     True,
     "real-time factor, late ticks, answers and losses of each agent",
+    cache_size=120,  # 30 s
 )
 INVALID = Topic(
     "host/invalid",
