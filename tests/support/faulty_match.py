@@ -7,8 +7,9 @@ from support.machines import Machines
 from support.process_story import Listener
 
 CYAN = tuple(f"cyan{number}" for number in range(1, 6))
-PATIENCE_S = 2.0
-"""Shorter than the longest cut: an agent does not give up a match from which it is cut off."""
+PATIENCE_S = 4.0
+"""Shorter than the time without a link in the longest cut, 5.5 s: an agent does not give up a match from which it is cut
+off. Longer than it takes to find that the network is back: 1 s since the last probe, 1 s for a new connection."""
 
 
 class Match:
