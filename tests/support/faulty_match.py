@@ -8,8 +8,8 @@ from support.process_story import Listener
 
 CYAN = tuple(f"cyan{number}" for number in range(1, 6))
 PATIENCE_S = 4.0
-"""Shorter than the time without a link in the longest cut, 5.5 s: an agent does not give up a match from which it is cut
-off. Longer than it takes to find that the network is back: 1 s since the last probe, 1 s for a new connection."""
+"""Shorter than the time without a link in the longest cut, 6 s: an agent does not give up a match from which it is
+cut off. Longer than it takes to find the host again: up to 1.3 s since the last probe, and 1 s for a new connection."""
 
 
 class Match:
