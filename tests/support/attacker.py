@@ -171,6 +171,17 @@ def flood(session: zenoh.Session, prefix: str, until: float) -> None:
             publisher.put(COMMAND)
 
 
+def steady_flood(session: zenoh.Session, prefix: str, until: float) -> None:
+    """Small messages on one robot's key at a rate that the router lets through, three times what the host allows.
+
+    Faster ones reach the host in smaller numbers: of those that arrive together, the router passes few.
+    """
+    publisher = session.declare_publisher(f"{prefix}robot/cyan1/command", express=True)
+    while time.monotonic() < until:
+        publisher.put(COMMAND)
+        time.sleep(1 / 3000)
+
+
 def flood_of_names(session: zenoh.Session, prefix: str, until: float) -> None:
     """Small messages on keys of robots that do not exist, as fast as they can be sent."""
     number = 0
@@ -316,6 +327,8 @@ RAW_ATTACKS: dict[str, Callable[[str, float], None]] = {
     "slow_loris": slow_loris,
 }
 """Attacks on the port itself."""
+STEADY_ATTACKS: dict[str, Attack] = {"steady_flood": steady_flood}
+"""Attacks that take effect after seconds only."""
 
 
 def main() -> None:
@@ -326,7 +339,7 @@ def main() -> None:
         RAW_ATTACKS[name](endpoint, until)
         return
     with open_session(endpoint) as session:
-        ATTACKS[name](session, f"touchline/{match}/", until)
+        {**ATTACKS, **STEADY_ATTACKS}[name](session, f"touchline/{match}/", until)
 
 
 if __name__ == "__main__":

@@ -7,8 +7,9 @@ from support.machines import Machines
 from support.process_story import Listener
 
 CYAN = tuple(f"cyan{number}" for number in range(1, 6))
-PATIENCE_S = 2.0
-"""Shorter than the longest cut: an agent does not give up a match from which it is cut off."""
+PATIENCE_S = 10.0
+"""That of agents by default. Shorter than the time without a link in the longest cut, 12.5 s: an agent does not give up
+a match from which it is cut off."""
 
 
 class Match:

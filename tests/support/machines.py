@@ -14,7 +14,7 @@ from schemas.config.match_config import load_match
 from schemas.config.settings import Settings
 from sim_host.server.settings import HostSettings
 from support.namespaces import Network, network
-from support.process_story import LIMIT, Listener, Program
+from support.process_story import SHORT_LIMIT, Listener, Program
 from support.tunnel import Tunnel
 
 PORT = 7447
@@ -84,13 +84,14 @@ class Machines:
 
     def listen(self) -> Listener:
         """A client of the host that no fault of a cable concerns."""
-        self._listeners.append(Listener(MATCH, f"tcp/127.0.0.1:{self._tunnel.port}", self.programs["host"]))
+        endpoint = f"tcp/127.0.0.1:{self._tunnel.port}"
+        self._listeners.append(Listener(MATCH, endpoint, self.programs["host"], limit=SHORT_LIMIT))
         return self._listeners[-1]
 
     def kill(self, name: str) -> None:
         """Kill a process, and wait until it is gone."""
         self.programs[name].popen.kill()
-        self.programs[name].popen.wait(LIMIT)
+        self.programs[name].popen.wait(SHORT_LIMIT)
 
     def suspend(self, *names: str) -> None:
         """Stop processes, which keep their connections."""

@@ -24,12 +24,14 @@ from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
 
 LIMIT = 90.0
 """Patience in s; no test depends on the exact time."""
+SHORT_LIMIT = 40.0
+"""The same where a step takes a few seconds: a failure shows sooner."""
 POLL = 0.01
 
 
-def wait_for(condition: Callable[[], Any], what: str) -> Any:
+def wait_for(condition: Callable[[], Any], what: str, limit: float = LIMIT) -> Any:
     """The first true result of the condition."""
-    deadline = time.monotonic() + LIMIT
+    deadline = time.monotonic() + limit
     while time.monotonic() < deadline:
         found = condition()
         if found:
@@ -164,10 +166,13 @@ class MessageLog(Sequence[Any]):
 class Listener:
     """A client that keeps the messages that a host publishes."""
 
-    def __init__(self, match: str, endpoint: str, program: Program, *, every_tick: bool = True) -> None:
-        """Without `every_tick`, only the newest world and the newest inputs are kept."""
+    def __init__(
+        self, match: str, endpoint: str, program: Program, *, every_tick: bool = True, limit: float = LIMIT
+    ) -> None:
+        """Without `every_tick`, only the newest world and the newest inputs are kept; `limit` is its patience in s."""
         self._program = program
-        self.bus: ZenohBus = open_client(match, WallClock(), endpoint, LIMIT, account=Account.VIEWER)
+        self._limit = limit
+        self.bus: ZenohBus = open_client(match, WallClock(), endpoint, limit, account=Account.VIEWER)
         self._subscriptions: dict[str, Subscription] = {
             topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
         }
@@ -186,7 +191,7 @@ class Listener:
             return condition(self)
 
         try:
-            return wait_for(updated, what)
+            return wait_for(updated, what, self._limit)
         except AssertionError as error:
             newest = f"tick {self.tick}, connected {self.bus.connected()}, health {self.healths[-1:]}"
             program = f"status {self._program.popen.poll()}, stderr: {self._program.err}"

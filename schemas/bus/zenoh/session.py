@@ -25,9 +25,9 @@ _THREADS = "ZENOH_RUNTIME"
 _MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
 """Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
 over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
-_CLIENT_THREADS = "(app: (worker_threads: 2), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
-"""Fewer threads than by default, since a match has many small processes; two, since closing a broken link
-blocks one (see `_HOST_THREADS`)."""
+_CLIENT_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
+"""Few threads, since a match has many small processes. Closing a broken link blocks one for up to 10 s (see
+`_HOST_THREADS`): with two, a client that had lost its link twice within that time sometimes did not connect again."""
 _HOST_THREADS = "(app: (worker_threads: 16), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
 """A thread that waits for room in a link's queue, as a reply from a cache does, must not be the thread that makes the
 room. Zenoh closes a stalled link on the threads that read: if there were few, all of them could be waiting for room in

@@ -11,7 +11,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
 from schemas.config.settings_file import write_settings
 from sim_host.server.settings import HostSettings
-from support.process_story import Listener, Program
+from support.process_story import SHORT_LIMIT, Listener, Program
 
 ROBOTS = {"cyan": "cyan1", "magenta": "magenta1"}
 BRAIN = """
@@ -36,7 +36,7 @@ class Target:
         for robot in ROBOTS.values():
             agent = AgentSettings(connect=self.endpoint, match="besieged", robot=robot, brain="mind:act", patience=90.0)
             self.start(robot, "robot_agent", agent)
-        self.watcher = Listener("besieged", self.endpoint, self.host, every_tick=False)
+        self.watcher = Listener("besieged", self.endpoint, self.host, every_tick=False, limit=SHORT_LIMIT)
 
     def start(self, name: str, module: str, settings: Settings) -> Program:
         write_settings(settings, self._folder / f"{name}.json")
@@ -75,7 +75,7 @@ def attack(target: Target) -> Callable[..., Program]:
 
     def carry_out(name: str, seconds: float = 1.0) -> Program:
         attacker = target.attack(name, seconds)
-        attacker.popen.wait(60)
+        attacker.popen.wait(SHORT_LIMIT)
         target.watcher.for_ticks(20)
         return attacker
 

@@ -5,6 +5,7 @@ import pytest
 from schemas.game import EventKind
 from sim_host.server.account_limits import OVER_RATE
 from support.attacker import ATTACKS, RAW_ATTACKS
+from support.process_story import SHORT_LIMIT
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(180)]
 
@@ -38,11 +39,11 @@ def test_silent_and_slow_recorders_are_not_waited_for(target, attack):
     target.watcher.until(lambda one: "slow" in one.healths[-1].recorders, "the slow recorder")
     target.watcher.for_ticks(400)
     target.watcher.until(lambda one: one.healths[-1].recorders.get("slow", 999) > 250, "a recorder that is far behind")
-    attacker.popen.wait(60)
+    attacker.popen.wait(SHORT_LIMIT)
 
 
 def test_who_floods_is_cut_off_and_named(target):
-    attacker = target.attack("flood", 20.0)
+    attacker = target.attack("steady_flood", SHORT_LIMIT)
     target.watcher.until(
         lambda one: one.healths[-1].accounts["robot/cyan1/command"].cut_off, "the cut of the flooded key"
     )
