@@ -16,7 +16,7 @@ class CommandLimits(NamedTuple):
     age: float
     """Most ticks since the sight that it answers."""
     silence: float
-    """Ticks since it arrived after which it no longer counts."""
+    """Ticks since it arrived after which it no longer counts, if one arrives in each tick."""
 
     @classmethod
     def of(cls, safety: Safety, tick: float) -> "CommandLimits":
@@ -29,6 +29,7 @@ class LatestCommands:
 
     A command is as old as the sight that it answers, so that a burst of old commands after a broken link has no effect.
     A robot whose commands stop arriving brakes before that: a delay makes commands old, but does not make them rare.
+    Those of a brain that thinks for several ticks are rare, so the pause between the last two is allowed once more.
     """
 
     def __init__(self, names: tuple[str, ...], limits: CommandLimits, still: tuple[str, ...] = ()) -> None:
@@ -39,12 +40,15 @@ class LatestCommands:
         self._newest: dict[str, Command] = {}
         self._arrived: dict[str, int] = {}
         """Robot → the tick in which its newest command arrived."""
+        self._pauses: dict[str, int] = {}
+        """Robot → ticks without a command between its last two."""
 
     def with_roster(self, names: tuple[str, ...], limits: CommandLimits, still: tuple[str, ...]) -> "LatestCommands":
         """The commands for another roster or limits; robots that remain keep their last command."""
         successor = LatestCommands(names, limits, still)
         successor._newest = {name: command for name, command in self._newest.items() if name in names}
         successor._arrived = {name: tick for name, tick in self._arrived.items() if name in names}
+        successor._pauses = {name: pause for name, pause in self._pauses.items() if name in names}
         return successor
 
     def inputs(
@@ -56,6 +60,7 @@ class LatestCommands:
         """
         self._newest.update(fresh)
         for name in fresh:
+            self._pauses[name] = tick - self._arrived.get(name, tick - 1) - 1
             self._arrived[name] = tick
         return {name: _AT_REST if name in off_field else self._input(name, tick, name in fresh) for name in self._names}
 
@@ -63,7 +68,7 @@ class LatestCommands:
         command = self._newest.get(name)
         if command is None or name in self._still or tick - command.answers_tick > self._limits.age:
             return _AT_REST
-        if not is_fresh and tick - self._arrived[name] >= self._limits.silence:
+        if not is_fresh and tick - self._arrived[name] - self._pauses[name] >= self._limits.silence:
             return _AT_REST
         if is_fresh:
             return AppliedInput(command.drive, command.dribble, command.kick, command.answers_tick)

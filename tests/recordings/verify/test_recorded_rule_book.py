@@ -139,12 +139,16 @@ def test_an_embedded_rule_book_that_cannot_be_read_is_named_in_one_line(today: P
 
 @pytest.mark.usefixtures("later_numbers")
 @pytest.mark.parametrize(
-    ("attachment", "what"), [("rules.json", "rule book friendly"), ("profile.json", "profile msl")]
+    ("attachment", "what", "version"),
+    [("rules.json", "rule book friendly", 1), ("profile.json", "profile msl", 2)],
 )
-def test_lost_numbers_are_not_replaced_by_those_of_another_version(today: Path, attachment: str, what: str) -> None:
+def test_lost_numbers_are_not_replaced_by_those_of_another_version(
+    today: Path, attachment: str, what: str, version: int
+) -> None:
     recording = open_recording(today)
     del recording.attachments[attachment]
-    with pytest.raises(TouchlineError, match=f"{what} has version 91 in this program, 1 in the recording; use another"):
+    versions = f"version 9{version} in this program, {version} in the recording"
+    with pytest.raises(TouchlineError, match=f"{what} has {versions}; use another"):
         config_of(recording)
 
 

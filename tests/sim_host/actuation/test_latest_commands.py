@@ -68,3 +68,18 @@ def test_robots_that_remain_keep_the_time_of_their_last_command() -> None:
     changed = commands.with_roster(("cyan1",), BOTH, ())
     assert changed.inputs(7, {})["cyan1"].drive == GO
     assert changed.inputs(8, {})["cyan1"].drive == Drive()
+
+
+def test_a_brain_that_thinks_for_five_ticks_does_not_brake_once_its_rhythm_is_known() -> None:
+    """100 ms of thought in real time: a command every fifth tick, five ticks old when it arrives."""
+    commands = LatestCommands(NAMES, BOTH)
+    answers = {tick: {"cyan1": command(tick - 5)} for tick in range(5, 60, 5)}
+    inputs = {tick: commands.inputs(tick, answers.get(tick, {}))["cyan1"] for tick in range(5, 60)}
+    assert [tick for tick, given in inputs.items() if given.drive != GO] == [8, 9]
+
+
+def test_a_pause_is_allowed_once_more_and_not_for_ever() -> None:
+    commands = LatestCommands(NAMES, BOTH)
+    for tick in (1, 6, 7):
+        commands.inputs(tick, {"cyan1": command(tick)})
+    assert [commands.inputs(tick, {})["cyan1"].drive == GO for tick in (8, 9, 10)] == [True, True, False]

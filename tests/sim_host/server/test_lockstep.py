@@ -10,6 +10,8 @@ from sim_host.server.agent_stats import SILENT_TICKS
 PATIENCE_S = 1.0
 """How long the host waits for an answer; the match file's default."""
 REST = AppliedInput(drive=Drive(), dribble=False)
+HELD_TICKS = 2
+"""Ticks without a new command in which the last one is in force: in the third one, after 0.06 s, the robot brakes."""
 
 
 def answered(inputs):
@@ -66,8 +68,8 @@ def test_a_silent_robot_rests_and_is_waited_for_when_it_answers_again(rig):
     rig.ticks(100)
     inputs = rig.inputs("cyan2")
     assert answered(inputs[:50]) == list(range(50))
-    assert all(given.drive == Drive(vx=1.0) for given in inputs[:60])
-    assert inputs[60:] == [REST] * 90
+    assert all(given.drive == Drive(vx=1.0) for given in inputs[: 50 + HELD_TICKS])
+    assert inputs[50 + HELD_TICKS :] == [REST] * (100 - HELD_TICKS)
     assert abs(rig.truth("cyan2")["vx"]) < 1e-3
     assert rig.truth("cyan1")["vx"] > 0.5
     health = rig.health().robots["cyan2"]
