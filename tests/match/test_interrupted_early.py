@@ -15,16 +15,18 @@ import os, signal, sys
 
 class Finder:
     def find_spec(name, path=None, target=None):
-        if name == os.environ["INTERRUPTED_AT"]:
-            os.killpg(0, signal.SIGINT)
+        if name == {module!r}:
+            os.killpg(os.getsid(0), signal.SIGINT)
         return None
 
 sys.meta_path.insert(0, Finder)
 """
-"""As `sitecustomize`, sends SIGINT to the process group as Ctrl-C does, when a module is imported."""
+"""As `sitecustomize`, sends SIGINT when a module is imported, to the process group that Ctrl-C reaches: the launcher's,
+which leads the session. Robots have groups of their own, and no variables but those of a list."""
 MODULES = {
     "the commands": "touchline.commands.match",
     "the simulation, to check the match file": "sim_host.match.live_parameters",
+    "the check of the brains, in its process": "robot_agent.build_check",
     "the launch": "touchline.launch.match_run",
     "the robots, in the fork server": "robot_agent.process",
 }
@@ -32,14 +34,14 @@ MODULES = {
 
 @pytest.mark.parametrize("moment", MODULES)
 def test_ctrl_c_during_the_start_ends_the_match_without_a_traceback(moment: str, tmp_path: Path) -> None:
-    (tmp_path / "sitecustomize.py").write_text(INTERRUPTING)
+    (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(module=MODULES[moment]))
     path = os.pathsep.join([str(tmp_path), *filter(None, [os.environ.get("PYTHONPATH")])])
     cup = tmp_path / "cup"
     cup.mkdir()
     done = subprocess.run(
         [sys.executable, "-m", "touchline", "match", "--listen", "tcp/127.0.0.1:0"],
         cwd=cup,
-        env={**os.environ, "PYTHONPATH": path, "INTERRUPTED_AT": MODULES[moment]},
+        env={**os.environ, "PYTHONPATH": path},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

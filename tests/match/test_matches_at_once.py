@@ -4,6 +4,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 import signal
 from pathlib import Path
 
@@ -18,6 +19,7 @@ pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
 MATCH = "[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n"
 SEEDS = (1, 1, 2)
+ROOT = Path(__file__).parents[2]
 
 
 def outcome(program, folder):
@@ -59,7 +61,10 @@ def test_a_match_with_tls_is_played_and_leaves_no_passwords(start, tmp_path):
 @pytest.fixture(scope="module")
 def running(start, folder, tmp_path_factory):
     """A match without end of one against one, its folder, and the environment in which it is announced."""
-    environment = {"XDG_RUNTIME_DIR": str(tmp_path_factory.mktemp("runtime"))}
+    environment = {
+        name: str(tmp_path_factory.mktemp("user"))  # clients look in both, and find no other match of this user
+        for name in ("XDG_RUNTIME_DIR", "XDG_STATE_HOME")
+    }
     (folder / "long.toml").write_text(
         'name = "cup"\npace = "realtime"\n[teams.cyan]\nsize = 1\n[teams.magenta]\nsize = 1\n'
     )
@@ -108,15 +113,20 @@ def test_an_agent_with_the_credentials_of_the_other_side_is_refused(start, folde
     robot = ("--robot", "cyan1", "--brain", "robot_agent.teams.nubot:NuBot", "--credentials", str(credentials))
     refused = command(start, folder, "other_side", "agent", *robot, **environment)
     assert refused.status() == 2
-    assert "cyan1 plays for cyan" in refused.err
+    reason = "cyan1 is a robot of cyan, and the agent plays for magenta"
+    assert refused.err == f"touchline: cyan1: refused by the host: {reason}\n"
+    event = "that claimed cyan1 was refused: cyan1 is a robot of Simple, and the agent plays for NuBot"
+    wait_for(lambda: event in program.out, event)
 
 
 def test_an_agent_that_crashed_gets_its_robot_back(folder, running):
     program, _ = running
+    occupied = "claimed cyan1 was refused: cyan1 has an agent already"
+    refusals = program.out.count(occupied)  # that of the second agent above
     os.kill(program.process("cyan1"), signal.SIGKILL)
     wait_for(lambda: "cyan1 was ended by SIGKILL; started again (1 of 3)" in program.out + program.err, "notice")
     wait_for(lambda: "cyan1 answers" in program.out, "answers of the new agent")
-    assert program.out.count("claimed cyan1 was refused: cyan1") == 1  # that of the second agent before
+    assert program.out.count(occupied) == refusals
 
 
 def test_of_two_running_matches_a_client_lists_both(start, folder, running):
@@ -139,30 +149,42 @@ def test_of_two_running_matches_a_client_lists_both(start, folder, running):
     second.status()
 
 
-def test_the_agent_of_the_readme_plays_as_typed_and_a_second_one_is_refused(start, folder):
-    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
-    (line,) = re.findall(r"^touchline (agent .*)$", readme, re.MULTILINE)
+def typed(page, beginning):
+    """The words of the first command of a page that begins so, after `touchline`."""
+    text = (ROOT / page).read_text("utf-8")
+    return shlex.split(re.findall(rf"^touchline ({beginning} .*)$", text, re.MULTILINE)[0], comments=True)
+
+
+def test_the_team_of_the_readme_plays_as_typed_and_a_second_agent_is_refused(start, folder):
+    """The second agent is the one that docs/networking.md starts alone."""
     endpoint = folder / "readme.json"
     (folder / "cup.toml").write_text('name = "cup"\n' + MATCH)
-    start(
+    (folder / "my_team.py").write_text("from robot_agent.teams.simple import Simple as Striker\n")
+    assert command(start, folder, "readme_credentials", *typed("docs/networking.md", "credentials new")).status() == 0
+    shutil.copy(folder / "credentials" / "magenta.json", folder)
+    host = start(
         *("touchline", "host", "cup.toml", "--announcement", str(endpoint), "--listen", "tcp/127.0.0.1:0"),
+        *("--credentials", "credentials/host.json"),
         folder=folder,
         name="readme_host",
     )
-    announcement = wait_for(lambda: announcement_in(endpoint), "announcement")
-    words = re.sub(r"tcp/\S+", announcement.endpoint, line)
-    root = {"PYTHONPATH": str(Path(__file__).parents[2])}
-    first = start("touchline", *shlex.split(words), folder=folder, name="readme_first", **root)
+    announcement = wait_for(lambda: announcement_in(endpoint), f"announcement; {host.err}")
 
-    def robots():
-        asked = command(start, folder, "readme_state", "coach", "state", "--connect", announcement.endpoint)
-        return "1 of 4 robots are connected" in asked.err
+    def here(words):
+        return [re.sub(r"^tcp/\S+", announcement.endpoint, word) for word in words]
 
-    wait_for(robots, f"the agent; {first.err}")
-    second = command(start, folder, "readme_second", *shlex.split(words), **root)
+    root = {"PYTHONPATH": str(ROOT)}
+    team = start("touchline", *here(typed("README.md", "team magenta")), folder=folder, name="readme_team", **root)
+    state = ("coach", "state", "--connect", announcement.endpoint, "--credentials", "credentials/viewer.json")
+
+    def both_are_there():
+        return "2 of 4 robots are connected" in command(start, folder, "readme_state", *state).err
+
+    wait_for(both_are_there, f"robots of the team; {team.out} {team.err}")
+    second = command(start, folder, "readme_second", *here(typed("docs/networking.md", "agent")), **root)
     assert second.status() == 2
-    assert second.err.startswith("touchline: cyan1: refused by the host: cyan1 has an agent already: process ")
-    assert first.popen.poll() is None
+    assert second.err.startswith("touchline: magenta1: refused by the host: magenta1 has an agent already: process ")
+    assert team.popen.poll() is None
 
 
 def test_a_match_whose_port_is_in_use_ends_before_any_robot_is_launched(start, folder, running):

@@ -175,9 +175,11 @@ def _part_of(field: FieldInfo) -> type[BaseModel] | None:
 
 
 def _without_none(annotation: Any) -> Any:
-    """The type of a field, without None and without annotations."""
+    """The type of a field, without None and without annotations, in a list neither."""
     if get_origin(annotation) in (Union, UnionType):
         (annotation,) = (one for one in get_args(annotation) if one is not NoneType)
+    if get_origin(annotation) is list:
+        return list[_without_none(get_args(annotation)[0])]  # type: ignore[misc]
     return get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
 
 

@@ -8,7 +8,7 @@ from schemas.config.match_parts import Patience
 from sim_host import run
 from sim_host.server.settings import HostSettings
 from touchline.cli import options
-from touchline.cli.option_groups import FieldsOf, with_option_groups
+from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
 
 _ALWAYS_S = 86_400.0
 """Wall time for which a host on its own waits for its robots, which people start on other machines, s."""
@@ -18,7 +18,10 @@ _ALWAYS_S = 86_400.0
 def host(
     match: options.MatchOptions,
     waiting: Annotated[dict[str, Any], FieldsOf(Patience, attendance="wait")],
-    more: Annotated[dict[str, Any], FieldsOf(HostSettings, "outcome", "launch_token", "announcement", "log_format")],
+    more: Annotated[
+        dict[str, Any],
+        FieldsOf(HostSettings, "outcome", "launch_token", "admit", "forgiving", "announcement", "log_format"),
+    ],
 ) -> None:
     """Run the simulation host of a match; robots join with `touchline agent` or `touchline team`.
 
@@ -31,5 +34,5 @@ def host(
     if "attendance" not in config.patience.model_fields_set:
         config = config.model_copy(update={"patience": config.patience.model_copy(update={"attendance": _ALWAYS_S})})
     match.endpoint()  # checked before the host is loaded
-    settings = HostSettings(config=config, **match.listening.model_dump(), **more)
+    settings = from_options(HostSettings, config=config, **match.listening.model_dump(), **more)
     raise typer.Exit(run(settings))

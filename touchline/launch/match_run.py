@@ -38,7 +38,7 @@ from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
 from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, NEVER_BEGUN, EndStep, Supervisor
 from touchline.watch.screen import Screen
 
 if TYPE_CHECKING:
@@ -120,6 +120,8 @@ class MatchRun:
             if follower is not None:  # without a host there is no match to record
                 is_over = self._supervisor.host_status is not None
                 steps, keep = (AFTER_THE_MATCH, _AFTER_THE_RESULT) if is_over else (ABANDONED, _NONE)
+                if follower.state is None and self._supervisor.host_status != 0:
+                    steps, keep = NEVER_BEGUN, _NONE
                 self._end(steps, should_abort=lambda: stop.received is not None, keep=keep)
             if follower is None or empty is not None or stop.received is not None:
                 self._end(AT_ONCE)  # the remaining processes

@@ -66,6 +66,13 @@ AFTER_THE_MATCH = (
 ABANDONED = (EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM), *AFTER_THE_MATCH)
 """The match cannot go on: the host ends after its tick, the others as after a match."""
 
+NEVER_BEGUN = (
+    *ABANDONED[:3],
+    EndStep(2.0, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
+    ABANDONED[-1],
+)
+"""The match has ended before its first tick: the recorder may still be waiting for a host, which will not return."""
+
 AT_ONCE = (
     EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
     EndStep(0.2, _RECONNECTING, signal.SIGTERM),
