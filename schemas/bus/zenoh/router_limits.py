@@ -16,7 +16,7 @@ from schemas.topics import COMMAND, TOPICS, key_prefix
 
 _ROBOT_RATE = 50_000.0
 """Most commands a second of one robot. Of two messages that are closer than this period, as two commands in one packet
-after a stall may be, the second is dropped. At 50,000 a flood costs the match nothing, and most such commands arrive."""
+after a stall may be, the second is dropped. At 50,000 most of them arrive, and a flood costs the match nothing."""
 _KEY_RATE = 1000.0
 """Most messages a second of one link on each other key."""
 _QUERY_RATE = 500.0
