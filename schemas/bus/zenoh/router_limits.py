@@ -14,9 +14,9 @@ from schemas.side import Side
 from schemas.topic import Delivery, Party, Topic
 from schemas.topics import COMMAND, TOPICS, key_prefix
 
-_ROBOT_RATE = 50_000.0
-"""Most commands a second of one robot. Of two messages that are closer than this period, as two commands in one packet
-after a stall may be, the second is dropped. At 50,000 most of them arrive, and a flood costs the match nothing."""
+_ROBOT_RATE = 200_000.0
+"""Most commands a second of one robot. Of two messages that are closer than this period the second is dropped: at a
+longer period commands are lost that arrive in one packet after a stall, and without a rule a flood stops the match."""
 _KEY_RATE = 1000.0
 """Most messages a second of one link on each other key."""
 _QUERY_RATE = 500.0

@@ -99,7 +99,7 @@ def test_of_a_flood_only_a_part_reaches_the_host_and_the_rest_of_the_link_works(
     assert last is not None
     took = time.monotonic() - began
     arrived = sum(1 for _ in iter(commands.receive, None))
-    assert 0 < arrived <= 50_000 * took + 1
+    assert 0 < arrived <= 200_000 * took + 1
 
 
 def test_a_large_scene_within_its_limit_is_received(ends: tuple[Bus, zenoh.Session]) -> None:
