@@ -13,25 +13,17 @@ from coach_gateway.refbox.framing import BoxProtocol
 from schemas.game import ActionName, Phase
 from schemas.messages.game import ActionReply
 from schemas.side import Side
-from support.gateway_bench import Bench, opened, until
+from support.box_client import connected
+from support.gateway_bench import Bench, until
 from support.referee_box import Box
 
 
 @asynccontextmanager
-async def connected(protocol: BoxProtocol = BoxProtocol.AUTO) -> AsyncIterator[tuple[Bench, Box, RefBoxClient]]:
-    """A box, and a base station of ours that is connected to it, beside a host."""
-    async with opened() as bench:
+async def stopped(protocol: BoxProtocol = BoxProtocol.AUTO) -> AsyncIterator[tuple[Bench, Box, RefBoxClient]]:
+    """A box and a base station that is connected to it, beside a host whose game is stopped."""
+    async with connected(protocol) as (bench, box, client):
         bench.stage.say(phase=Phase.STOPPED)
-        box = Box()
-        port = await box.open()
-        client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port, protocol), bench.logged.append)
-        bench.start(client)
-        try:
-            await until(lambda: box.links and client.connected, "the connection, on both sides")
-            yield bench, box, client
-        finally:
-            bench.stop.set()
-            await box.close()
+        yield bench, box, client
 
 
 GARBAGE = [
@@ -56,7 +48,7 @@ GARBAGE = [
 @pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
 def test_garbage_of_a_box_is_counted_and_its_next_command_is_forwarded(protocol: BoxProtocol) -> None:
     async def play() -> None:
-        async with connected(protocol) as (bench, box, client):
+        async with stopped(protocol) as (bench, box, client):
             for garbage in GARBAGE:
                 box.send(garbage)
                 forwarded = sum(action.action is ActionName.STOP for action in bench.stage.asked)
@@ -76,7 +68,7 @@ def test_garbage_of_a_box_is_counted_and_its_next_command_is_forwarded(protocol:
 
 def test_a_box_that_floods_start_and_stop_is_forwarded_in_turn_and_neither_fills_memory_nor_the_log() -> None:
     async def play() -> None:
-        async with connected() as (bench, box, client):
+        async with stopped() as (bench, box, client):
             bench.stage.answer = lambda _: ActionReply(accepted=False, reason="not now")
             flood = b'{"command": "START"}\x00{"command": "STOP"}\x00' * 20_000
             box.send(flood)
@@ -92,7 +84,7 @@ def test_a_box_that_floods_start_and_stop_is_forwarded_in_turn_and_neither_fills
 
 def test_a_line_without_end_fills_no_memory_and_the_base_station_goes_on() -> None:
     async def play() -> None:
-        async with connected(BoxProtocol.JSON) as (bench, box, client):
+        async with stopped(BoxProtocol.JSON) as (bench, box, client):
             box.send(b'{"command": "')
             for _ in range(50):
                 box.send(b"x" * 1_000_000)
@@ -108,7 +100,7 @@ def test_a_line_without_end_fills_no_memory_and_the_base_station_goes_on() -> No
 @pytest.mark.parametrize("flood", [b"S", b"sS" * 10, b"?" * 100, b"Kk1\x00\r\n "])
 def test_characters_in_a_flood_leave_the_last_one_in_force(flood: bytes) -> None:
     async def play() -> None:
-        async with connected(BoxProtocol.CHARACTERS) as (bench, box, client):
+        async with stopped(BoxProtocol.CHARACTERS) as (bench, box, client):
             box.send(flood * 5000 + b"N")  # a drop ball
             await until(
                 lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.DROP_BALL, "the last character"
@@ -122,7 +114,7 @@ def test_a_second_box_takes_nothing_from_the_first() -> None:
     """Both claim the seat by name; the host refuses the second's actions, which is logged in few lines."""
 
     async def play() -> None:
-        async with connected() as (bench, first, client):
+        async with stopped() as (bench, first, client):
             second_box = Box()
             port = await second_box.open()
             second = RefBoxClient(bench.live, BoxAddress(Side.MAGENTA, "127.0.0.1", port), bench.logged.append)

@@ -6,7 +6,6 @@ import itertools
 import json
 import socket
 from collections.abc import Callable
-from contextlib import asynccontextmanager
 from typing import Any
 
 import pytest
@@ -18,6 +17,7 @@ from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachMode
 from schemas.messages.game import ActionReply, RefereeAction
 from schemas.side import Side
+from support.box_client import connected
 from support.referee_box import CYAN_AT, MAGENTA_AT, Box
 
 RESTARTS = {"KICKOFF": "kick_off", "FREEKICK": "free_kick", "GOALKICK": "goal_kick", "THROWIN": "throw_in"}
@@ -25,24 +25,8 @@ RESTARTS |= {"CORNER": "corner", "PENALTY": "penalty"}
 
 
 @pytest.fixture
-def met(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
-    """A box, and a base station of ours that is connected to it, beside a host."""
-
-    @asynccontextmanager
-    async def make(protocol: BoxProtocol = BoxProtocol.AUTO, team: Side = Side.CYAN, **box_is: Any) -> Any:
-        async with opened() as bench:
-            box = Box(**box_is)
-            port = await box.open()
-            client = RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port, protocol), bench.logged.append)
-            bench.start(client)
-            try:
-                await until(lambda: box.links and client.connected, "the connection, on both sides")
-                yield bench, box, client
-            finally:
-                bench.stop.set()
-                await box.close()
-
-    return make
+def met() -> Callable[..., Any]:
+    return connected
 
 
 def asked(bench: Any) -> list[str]:
