@@ -75,7 +75,7 @@ class Story:
 
     def host_paused(self):
         """As on a machine that is busy with something else: the host gets no core for a while."""
-        self.before_pause = self.heard.healths[-1]
+        self.before_pause = self.heard.until(lambda heard: heard.healths and heard.healths[-1], "a first health report")
         host = self.program.process("host")
         os.kill(host, signal.SIGSTOP)
         time.sleep(PAUSE_S)
