@@ -97,9 +97,7 @@ def test_a_silent_program_is_named_and_gets_the_newest_sight_after_a_while(bench
     one.pass_time(0.2)
     found = one.until(lambda: found if (found := one.ask(sight_of(55))).answer is not None else None)
     assert found.tick == 55
-    assert (
-        "has not answered the sight of tick 0 for 1 s; does it write one line for each sight, and flush" in one.log[0]
-    )
+    assert "has not answered the sight of tick 0 for 1 s; does it write one line" in one.log[0]
     assert one.program.faults.counts[AnswerFault.SILENT] == 1
     assert one.program.faults.counts[AnswerFault.LATE] == 1
 
@@ -166,7 +164,7 @@ def test_in_one_process_it_is_a_brain_that_waits_for_its_program(bench, sight_of
     assert one.program.act(sight_of(4)) == Command(answers_tick=4, drive=Drive(vx=0.5))
     assert one.program.act(sight_of(4)) == Command(answers_tick=4, drive=Drive(vx=0.5))
     gone = bench("sys.exit(3)")
-    with pytest.raises(TouchlineError, match="cyan2: the program .* ended with status 3 at tick 0"):
+    with pytest.raises(TouchlineError, match=r"cyan2: the program .* ended with status 3 at tick 0"):
         gone.program.act(sight_of(0))
 
 
