@@ -23,6 +23,7 @@ from touchline.commands import (
     info,
     match,
     merge,
+    new,
     parameters,
     player,
     record,
@@ -67,6 +68,7 @@ def options(
 
 
 PLAY = "Play"
+TEAMS = "Build a team"
 WATCH = "Watch"
 OPERATE = "Operate a running match"
 PROCESSES = "Processes on several machines"
@@ -75,6 +77,8 @@ PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
+
+app.command("new", rich_help_panel=TEAMS)(new.new)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
 app.command("health", rich_help_panel=WATCH)(health.health)
