@@ -32,6 +32,7 @@ from touchline.commands import (
     scene,
     scenes,
     schema,
+    series,
     stats,
     team,
     topics,
@@ -74,6 +75,7 @@ RECORDINGS = "Recordings"
 PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
+app.command("series", rich_help_panel=PLAY)(series.series)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
