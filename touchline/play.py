@@ -70,8 +70,9 @@ class InProcessMatch:
         """The commands with which the brains answer the newest sights."""
         sights, commands = self.simulation.now.sights, {}
         try:
-            for self.acting, brain in self.brains.items():
-                commands[self.acting] = Command.decode(_command(brain, Sight.decode(sights[self.acting])).encode())
+            for name, brain in self.brains.items():
+                self.acting = name
+                commands[name] = Command.decode(_command(brain, Sight.decode(sights[name])).encode())
         except BaseException as error:
             error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
             raise
