@@ -33,6 +33,7 @@ from touchline.commands import (
     scene,
     scenes,
     schema,
+    series,
     stats,
     team,
     topics,
@@ -76,6 +77,7 @@ RECORDINGS = "Recordings"
 PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
+app.command("series", rich_help_panel=PLAY)(series.series)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
 
 app.command("new", rich_help_panel=TEAMS)(new.new)

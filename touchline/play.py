@@ -10,6 +10,7 @@ from pathlib import Path
 
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
+from robot_agent.user_code import definition_of
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.game import Score
@@ -44,6 +45,8 @@ class InProcessMatch:
         Raises:
             TouchlineError: a brain cannot be loaded.
         """
+        self.acting: str | None = None
+        """The robot whose brain acts; after an exception, the robot whose brain raised it."""
         self.simulation = Simulation(config)
         setup = self.simulation.setup()
         given = brains or {}
@@ -57,12 +60,35 @@ class InProcessMatch:
         }
 
     def step(self, actions: tuple[RefereeAction, ...] = ()) -> TickResult:
-        """Let every brain answer, then one tick."""
-        sights = self.simulation.now.sights
-        commands = {
-            name: Command.decode(brain.act(Sight.decode(sights[name])).encode()) for name, brain in self.brains.items()
-        }
-        return self.simulation.step(commands, actions)
+        """Let every brain answer, then one tick.
+
+        An exception of a brain is raised as it is, with a note that names robot and tick.
+        """
+        return self.simulation.step(self.answers(), actions)
+
+    def answers(self) -> dict[str, Command]:
+        """The commands with which the brains answer the newest sights."""
+        sights, commands = self.simulation.now.sights, {}
+        try:
+            for name, brain in self.brains.items():
+                self.acting = name
+                commands[name] = Command.decode(_command(brain, Sight.decode(sights[name])).encode())
+        except BaseException as error:
+            error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
+            raise
+        self.acting = None
+        return commands
+
+    def close(self) -> None:
+        """Free the engine."""
+        self.simulation.close()
+
+
+def _command(brain: Brain, sight: Sight) -> Command:
+    command = brain.act(sight)
+    if not isinstance(command, Command):
+        raise TypeError(f"act returned {command!r}{definition_of(brain.act)}; return a Command")
+    return command
 
 
 def play_match(
@@ -88,5 +114,5 @@ def play_match(
         if watch is not None:
             watch(tick)
     now, state = simulation.now, simulation.state
-    simulation.close()
+    match.close()
     return MatchOutcome(state.score, now.tick, now.time, now.applied["chain"], events)
