@@ -3,7 +3,7 @@
 import gc
 from collections.abc import Callable
 
-from robot_agent.brain_error import BrainError
+from robot_agent.brain_error import BrainError, RobotError
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain
 from robot_agent.settings import FIRST_SIGHT_FAILED
@@ -122,11 +122,16 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
 
 
 def serve(
-    bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float, membership: Membership | None = None
+    bus: Bus,
+    build: Callable[[Setup], Brain],
+    robot: str,
+    patience: float,
+    membership: Membership | None = None,
+    runner_class: type[Runner] = Runner,
 ) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
 
-    `membership` is the agent's, by default that of one without a launch.
+    `membership` is the agent's, by default that of one without a launch; `runner_class` runs what `build` returns.
 
     The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
 
@@ -139,7 +144,7 @@ def serve(
     setup = ask_setup(bus, patience)
     if not membership.fits(setup):
         membership.join(setup, patience)  # the host refuses it, and reports that on its side, too
-    runner = Runner(bus, build(setup), robot)
+    runner = runner_class(bus, build(setup), robot)
     host = HostWatch(bus)
     membership.join(setup, patience)
     gc.collect()
@@ -151,7 +156,7 @@ def serve(
         if sight is not None and not is_new_match:
             try:
                 runner.answer(sight)
-            except BrainError as error:
+            except RobotError as error:
                 log_line(error.report(), Level.ERROR, tick=sight.tick)
                 return 1 if runner.answered else FIRST_SIGHT_FAILED
         elif host.is_reachable():
