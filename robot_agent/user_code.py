@@ -5,6 +5,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
+from types import TracebackType
 from typing import Any
 
 OWN_PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
@@ -29,6 +30,14 @@ def place_of(error: BaseException) -> str:
     frames = list(traceback.extract_tb(error.__traceback__))
     own = [frame for frame in frames if is_users(frame.filename)] or frames
     return f" ({_shown(own[-1].filename)}, line {own[-1].lineno})" if own else ""
+
+
+def users_traceback(error: BaseException) -> TracebackType | None:
+    """The traceback of an exception from the first frame of a brain's code on; the whole one if there is none."""
+    below = error.__traceback__
+    while below is not None and not is_users(below.tb_frame.f_code.co_filename):
+        below = below.tb_next
+    return below or error.__traceback__
 
 
 def definition_of(what: Callable[..., Any]) -> str:
