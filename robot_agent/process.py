@@ -4,6 +4,7 @@ import signal
 from types import FrameType
 
 from robot_agent.brain_loader import load_brain
+from robot_agent.breakpoints import skip_breakpoints
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import serve
@@ -26,6 +27,7 @@ def run(settings: AgentSettings) -> int:
     configure_log("agent", settings.log_format, settings.robot)
     signal.signal(signal.SIGTERM, _end)
     clock = WallClock()
+    skipped = skip_breakpoints(settings, clock)
 
     def connect(patience: float) -> ZenohBus:
         return open_client(settings.match, clock, settings.connect, patience, settings.credentials, any_match=True)
@@ -37,6 +39,8 @@ def run(settings: AgentSettings) -> int:
 
             def build(setup: Setup) -> Brain:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
+                if skipped is not None:
+                    skipped.tick_s = setup.time.tick
                 briefing = Briefing.of(settings.robot, setup)
                 return load_brain(settings.brain, briefing, settings.brain_folder, settings.launch_folder)
 

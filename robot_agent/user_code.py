@@ -29,7 +29,7 @@ def place_of(error: BaseException) -> str:
     """Where the brain's own code raised, or called what raised: ` (my_team.py, line 17)`."""
     frames = list(traceback.extract_tb(error.__traceback__))
     own = [frame for frame in frames if is_users(frame.filename)] or frames
-    return f" ({_shown(own[-1].filename)}, line {own[-1].lineno})" if own else ""
+    return f" ({shown_path(own[-1].filename)}, line {own[-1].lineno})" if own else ""
 
 
 def users_traceback(error: BaseException) -> TracebackType | None:
@@ -47,10 +47,10 @@ def definition_of(what: Callable[..., Any]) -> str:
         line = inspect.getsourcelines(what)[1]
     except (OSError, TypeError):
         return ""
-    return f" ({_shown(file)}, line {line})" if file is not None else ""
+    return f" ({shown_path(file)}, line {line})" if file is not None else ""
 
 
-def _shown(file: str) -> str:
+def shown_path(file: str) -> str:
     """The path of a file, relative to the current directory or else to the folder that it was imported from."""
     path = Path(file).resolve()
     folders = (Path.cwd(), *(Path(entry).resolve() for entry in reversed(sys.path)))

@@ -66,6 +66,9 @@ def replay(
             help="Give a robot's sights to a brain here, and compare its commands: cyan2=module:Class; no bus."
         ),
     ] = None,
+    brain_folder: Annotated[
+        Path | None, typer.Option(help="With --agent: look for the brain's module here first; by default only in ./.")
+    ] = None,
     every_difference: Annotated[
         bool, typer.Option("--every-difference", help="With --agent: go on after the first difference.")
     ] = False,
@@ -103,7 +106,9 @@ def replay(
         from touchline.debugger.agent_replay import AgentReplay, parse_agent
 
         robot, brain = parse_agent(agent)
-        raise typer.Exit(AgentReplay(file, robot, brain, start, end, every_difference, pdb, live, json).run())
+        raise typer.Exit(
+            AgentReplay(file, robot, brain, start, end, every_difference, pdb, brain_folder, live, json).run()
+        )
     if every_difference or pdb or live:
         raise TouchlineError("--every-difference, --pdb and --live need --agent, such as --agent cyan2=module:Class")
     from recordings.container.key_selection import KeySelection

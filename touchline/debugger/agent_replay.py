@@ -37,6 +37,8 @@ class AgentReplay:
     """Go on after the first difference."""
     pdb: bool = False
     """Stop in Python's debugger: before `start`, or else before the first difference."""
+    brain_folder: Path | None = None
+    """Folder in which the brain's module is looked for before the current directory."""
     live: bool = False
     """Play on from `start` with this brain, in place of the comparison."""
     json: bool = False
@@ -67,7 +69,9 @@ class AgentReplay:
 
     def _compare(self, recording: Recording, start: float, end: float, report: AgentReport) -> int:
         act = StepDebugger(start).act if self.pdb and self.start is not None else plainly
-        settings = ComparisonSettings(start, end, not self.every_difference, act, report.show_difference)
+        settings = ComparisonSettings(
+            start, end, not self.every_difference, act, report.show_difference, self.brain_folder
+        )
         with self._brain_output():
             verdict = compare_brain(recording, self.robot, self.brain, settings)
         if not verdict.compared:
@@ -105,7 +109,8 @@ class AgentReplay:
         if end == math.inf:
             end = max((channel.end for channel in recording.channels if channel.key == APPLIED.key), default=0.0)
         with self._brain_output():
-            match = LiveMatch(recording, self.robot, self.brain, StepDebugger(start).act if self.pdb else plainly)
+            act = StepDebugger(start).act if self.pdb else plainly
+            match = LiveMatch(recording, self.robot, self.brain, act, self.brain_folder)
             try:
                 result = match.play(start, end, report.show_tick)
             finally:

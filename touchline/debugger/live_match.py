@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from recordings.reading.recording import Recording
 from robot_agent.brain_loader import load_brain
@@ -71,8 +72,12 @@ class LiveResult:
 class LiveMatch:
     """A recorded match up to one tick, and from there on with live brains."""
 
-    def __init__(self, recording: Recording, robot: str, spec: str, act: Act = plainly) -> None:
+    def __init__(
+        self, recording: Recording, robot: str, spec: str, act: Act = plainly, brain_folder: Path | None = None
+    ) -> None:
         """`act` calls the brain of `robot` once the match is live.
+
+        `brain_folder` is where brains are looked for before the current directory.
 
         The other robots are played by the brains of the match file, or else by their recorded commands.
 
@@ -87,7 +92,9 @@ class LiveMatch:
         self._robot = robot
         self._differing: set[str] = set()
         self._commands = commands_of(recording)
-        brains: dict[str, Brain] = {robot: CheckedBrain(spec, load_brain(spec, Briefing.of(robot, setup)), act)}
+        self._brain_folder = brain_folder
+        examined = load_brain(spec, Briefing.of(robot, setup), brain_folder)
+        brains: dict[str, Brain] = {robot: CheckedBrain(spec, examined, act)}
         for side in Side:
             names = [name for name in config.robots(side) if name != robot]
             brains |= self._others(config, side, names, setup)
@@ -124,10 +131,11 @@ class LiveMatch:
         try:
             if spec is None:
                 raise TouchlineError("their program is not a brain of this machine")
-            return {name: CheckedBrain(spec, load_brain(spec, Briefing.of(name, setup)), quietly) for name in names}
+            built = {name: load_brain(spec, Briefing.of(name, setup), self._brain_folder) for name in names}
         except TouchlineError as error:
             self.notes += [f"{', '.join(names)}: recorded commands; {error}"] if names else []
             return {name: self._recorded(name) for name in names}
+        return {name: CheckedBrain(spec, brain, quietly) for name, brain in built.items()}
 
     def _recorded(self, robot: str) -> RecordedRobot:
         return RecordedRobot(self._commands.get(robot, {}))

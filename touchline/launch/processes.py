@@ -267,6 +267,7 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
         brain=team.brain or "",
         brain_folder=plan.brain_folder,
         launch_folder=Path.cwd(),
+        recording=plan.recording,
         launch_token=plan.launch_token,
     )
     command = program_command(team.command) if team.command else None

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import asdict, dataclass, field
 from io import TextIOBase
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from recordings.reading.recording import Recording
@@ -98,6 +99,8 @@ class ComparisonSettings:
     """Calls the brain with a sight that is compared."""
     show: Callable[[Sight, list[FieldDifference]], None] = lambda _sight, _found: None
     """Receives each command that differs."""
+    brain_folder: Path | None = None
+    """Folder in which the brain's module is looked for before the current directory."""
 
 
 @dataclass(slots=True)
@@ -128,7 +131,8 @@ def compare_brain(
     setup = recording.manifest.setup
     if setup is None:
         raise TouchlineError(f"{recording.path}: the recording lacks the setup of its match")
-    brain = load_brain(spec, Briefing.of(robot, setup))
+    settings = settings or ComparisonSettings()
+    brain = load_brain(spec, Briefing.of(robot, setup), settings.brain_folder)
     commands = commands_of(recording)
     if not commands.get(robot):
         raise TouchlineError(f"{recording.path}: no commands of {robot} are recorded; name a robot that played")
@@ -139,7 +143,7 @@ def compare_brain(
         sights = (sight for _, sight in recording.decoded(key))
     else:
         sights = regenerated = _regenerated(recording, robot, commands)
-    counts = _compared(brain, spec, sights, commands[robot], settings or ComparisonSettings())
+    counts = _compared(brain, spec, sights, commands[robot], settings)
     return BrainComparison(
         robot,
         spec,
