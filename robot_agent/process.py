@@ -4,6 +4,7 @@ import signal
 from types import FrameType
 
 from robot_agent.brain_loader import load_brain
+from robot_agent.brain_reload import BrainReload
 from robot_agent.breakpoints import skip_breakpoints
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain, Briefing
@@ -45,7 +46,8 @@ def run(settings: AgentSettings) -> int:
                 return load_brain(settings.brain, briefing, settings.brain_folder, settings.launch_folder)
 
             membership = Membership(bus, settings.robot, settings.launch_token, settings.match, settings.side)
-            return serve(bus, build, settings.robot, settings.patience, membership)
+            reload = BrainReload(settings.robot, build) if settings.reload else None
+            return serve(bus, build, settings.robot, settings.patience, membership, reload)
     except KeyboardInterrupt:
         return 0
 

@@ -139,6 +139,8 @@ class MatchPlan:
     """Secret by which the host knows the agents of this launch; None admits every agent."""
     confinements: Mapping[Side, Confinement] | None = None
     """How the robots of each side are confined; None to find out when they are launched."""
+    reload: bool = False
+    """Robots whose code has changed get new brains between two episodes."""
     isolation_note: str = ""
     """What the teams are not isolated from; empty for nothing to be printed."""
     credentials: Path | None = None
@@ -268,6 +270,7 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
         brain_folder=plan.brain_folder,
         launch_folder=Path.cwd(),
         recording=plan.recording,
+        reload=plan.reload,
         launch_token=plan.launch_token,
     )
     command = program_command(team.command) if team.command else None
