@@ -3,6 +3,8 @@
 import signal
 from types import FrameType
 
+from robot_agent.brain_reload import BrainReload
+from robot_agent.breakpoints import skip_breakpoints
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain, Briefing
 from robot_agent.robot_code import end_robot, start_robot
@@ -27,6 +29,7 @@ def run(settings: AgentSettings) -> int:
     configure_log("agent", settings.log_format, settings.robot)
     signal.signal(signal.SIGTERM, _end)
     clock = WallClock()
+    skipped = skip_breakpoints(settings, clock)
 
     def connect(patience: float) -> ZenohBus:
         return open_client(settings.match, clock, settings.connect, patience, settings.credentials, any_match=True)
@@ -41,6 +44,8 @@ def run(settings: AgentSettings) -> int:
                 nonlocal brain
                 end_robot(brain)
                 use_batch_scheduling(setup.pace == LOCKSTEP)
+                if skipped is not None:
+                    skipped.tick_s = setup.time.tick
                 briefing = Briefing.of(settings.robot, setup)
                 folders = settings.brain_folder, settings.launch_folder
                 brain = start_robot(settings.brain, settings.stdio, briefing, *folders)
@@ -48,7 +53,8 @@ def run(settings: AgentSettings) -> int:
 
             membership = Membership(bus, settings.robot, settings.launch_token, settings.match, settings.side)
             runner_class = ProgramRunner if settings.stdio else Runner
-            return serve(bus, build, settings.robot, settings.patience, membership, runner_class)
+            reload = BrainReload(settings.robot, build) if settings.reload else None
+            return serve(bus, build, settings.robot, settings.patience, membership, runner_class, reload)
     except KeyboardInterrupt:
         return 0
     finally:

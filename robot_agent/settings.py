@@ -27,6 +27,10 @@ class AgentSettings(ClientSettings, LogSettings):
     """Folder in which the module is looked for before the current directory; a match uses that of its file."""
     launch_folder: Path | None = None
     """Folder in which the module is looked for after that; by default the current directory."""
+    reload: bool = False
+    """Build the brain anew between two episodes if its code has changed."""
+    recording: Path | None = None
+    """The recording of the match, which messages on breakpoints name."""
     side: Annotated[Side | None, CommandLine(environment="TOUCHLINE_SIDE")] = None
     """The robot's side; the host refuses a robot of the other one. By default it is not checked."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None

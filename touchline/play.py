@@ -10,6 +10,7 @@ from pathlib import Path
 
 from robot_agent.contract import Brain, Briefing
 from robot_agent.robot_code import end_robot, start_robot
+from robot_agent.user_code import definition_of
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig
 from schemas.errors import TouchlineError
@@ -45,6 +46,8 @@ class InProcessMatch:
         Raises:
             TouchlineError: a brain cannot be loaded.
         """
+        self.acting: str | None = None
+        """The robot whose brain acts; after an exception, the robot whose brain raised it."""
         self.simulation = Simulation(config)
         setup = self.simulation.setup()
         self._given = given = brains or {}
@@ -65,12 +68,31 @@ class InProcessMatch:
                 end_robot(brain)
 
     def step(self, actions: tuple[RefereeAction, ...] = ()) -> TickResult:
-        """Let every brain answer, then one tick."""
-        sights = self.simulation.now.sights
-        commands = {
-            name: Command.decode(brain.act(Sight.decode(sights[name])).encode()) for name, brain in self.brains.items()
-        }
-        return self.simulation.step(commands, actions)
+        """Let every brain answer, then one tick.
+
+        An exception of a brain is raised as it is, with a note that names robot and tick.
+        """
+        return self.simulation.step(self.answers(), actions)
+
+    def answers(self) -> dict[str, Command]:
+        """The commands with which the brains answer the newest sights."""
+        sights, commands = self.simulation.now.sights, {}
+        try:
+            for name, brain in self.brains.items():
+                self.acting = name
+                commands[name] = Command.decode(_command(brain, Sight.decode(sights[name])).encode())
+        except BaseException as error:
+            error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
+            raise
+        self.acting = None
+        return commands
+
+
+def _command(brain: Brain, sight: Sight) -> Command:
+    command = brain.act(sight)
+    if not isinstance(command, Command):
+        raise TypeError(f"act returned {command!r}{definition_of(brain.act)}; return a Command")
+    return command
 
 
 def play_match(
@@ -90,13 +112,15 @@ def play_match(
     match = InProcessMatch(config, brains, brain_folder)
     simulation = match.simulation
     events: list[GameEvent] = []
-    while not simulation.over and (until is None or simulation.now.time < until):
-        tick = match.step()
-        events.extend(tick.events)
-        if watch is not None:
-            watch(tick)
-    now, state = simulation.now, simulation.state
-    match.close()
+    try:
+        while not simulation.over and (until is None or simulation.now.time < until):
+            tick = match.step()
+            events.extend(tick.events)
+            if watch is not None:
+                watch(tick)
+        now, state = simulation.now, simulation.state
+    finally:
+        match.close()
     return MatchOutcome(state.score, now.tick, now.time, now.applied["chain"], events)
 
 

@@ -16,6 +16,7 @@ from typing import BinaryIO
 
 from robot_agent.build_check import BuildCheckSettings
 from robot_agent.stdio.command_line import check_command_line
+from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process import leash
@@ -65,6 +66,18 @@ def check_teams(
             running.callback(checks[-1].end)
         for check in checks:
             check.wait(report)
+
+
+def check_reload(config: MatchConfig) -> None:
+    """Check that changed code can be loaded while this match runs.
+
+    Raises:
+        TouchlineError: no robot of this machine has a brain, or brains do not see changed files.
+    """
+    if all(config.team(side).brain is None or side in config.remote_sides for side in Side):
+        raise TouchlineError("--reload is for brains, and no team of this match has one on this machine; leave it out")
+    if config.isolate is Isolation.BUBBLEWRAP:
+        raise TouchlineError("--reload: robots in bubblewrap do not see changed files; leave one of them out")
 
 
 class _BuildCheck:

@@ -140,6 +140,8 @@ class MatchPlan:
     """Secret by which the host knows the agents of this launch; None admits every agent."""
     confinements: Mapping[Side, Confinement] | None = None
     """How the robots of each side are confined; None to find out when they are launched."""
+    reload: bool = False
+    """Robots whose code has changed get new brains between two episodes."""
     isolation_note: str = ""
     """What the teams are not isolated from; empty for nothing to be printed."""
     credentials: Path | None = None
@@ -270,6 +272,8 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
         stdio=list(program) if team.stdio else [],
         brain_folder=plan.brain_folder,
         launch_folder=Path.cwd(),
+        recording=plan.recording,
+        reload=plan.reload,
         launch_token=plan.launch_token,
     )
     command = program if team.command else None
