@@ -131,7 +131,7 @@ def test_a_brain_that_keeps_the_contract_passes(examine: Callable[[str, str], Ch
 
 BROKEN = [
     ("build", "Unbuildable", "Unbuildable(briefing) raised KeyError: 'model.bin'"),
-    ("time", "Slow", "one decision in a hundred takes 3"),
+    ("time", "Slow", " ms or more, and a tick lasts 20 ms"),
     ("repeatable", "Counts", "decides differently at tick 0 of two equal runs: {"),
     ("limits", "Speeds", "cyan1 at tick 0: drive is 15.00 m/s, the limit is 4"),
     ("limits", "Kicks", "kick"),
