@@ -374,7 +374,7 @@ CONTROLS: dict[str, Attack] = {"burn": burn}
 """What an attacker's process costs the others by its CPU time alone."""
 
 
-def _user(path: str) -> dict[str, str]:
+def user_of(path: str | Path) -> dict[str, str]:
     """The settings with which an account connects, by its file."""
     account = json.loads(Path(path).read_text())
     return {
@@ -386,7 +386,7 @@ def _user(path: str) -> dict[str, str]:
 def main() -> None:
     """Carry out one attack."""
     name, endpoint, match, seconds, *credentials = sys.argv[1:]
-    user = _user(credentials[0]) if credentials else {}
+    user = user_of(credentials[0]) if credentials else {}
     if name in RAW_ATTACKS:
         RAW_ATTACKS[name](endpoint, match, time.monotonic() + float(seconds), **user)
         return
