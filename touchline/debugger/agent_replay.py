@@ -6,7 +6,7 @@ import traceback
 from bdb import BdbQuit
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext, redirect_stdout
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import typer
@@ -80,12 +80,12 @@ class AgentReplay:
         if verdict.first is None:
             return 0
         if self.pdb and self.start is None:
-            self._stop_before(recording, verdict, settings)
+            self._stop_before(recording, verdict)
         elif not self.json:
             report.print_next_steps(verdict, is_first_only=settings.first_only)
         return 1
 
-    def _stop_before(self, recording: Recording, verdict: BrainComparison, settings: ComparisonSettings) -> None:
+    def _stop_before(self, recording: Recording, verdict: BrainComparison) -> None:
         """Give the same sights to a new brain, and stop before its first different command."""
         assert verdict.first is not None
         tick, moment = verdict.first.tick, verdict.first.time
@@ -95,7 +95,7 @@ class AgentReplay:
                 recording,
                 self.robot,
                 self.brain,
-                replace(settings, start=moment, end=moment, act=StepDebugger(moment).act),
+                ComparisonSettings(moment, moment, act=StepDebugger(moment).act, brain_folder=self.brain_folder),
             )
         if again.first is None:
             typer.echo(
