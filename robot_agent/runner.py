@@ -3,7 +3,7 @@
 import gc
 from collections.abc import Callable
 
-from robot_agent.brain_error import BrainError
+from robot_agent.brain_error import BrainError, RobotError
 from robot_agent.brain_reload import BrainReload
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain
@@ -128,12 +128,13 @@ def serve(
     robot: str,
     patience: float,
     membership: Membership | None = None,
+    runner_class: type[Runner] = Runner,
     reload: BrainReload | None = None,
 ) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
 
-    `membership` is the agent's, by default that of one without a launch. `reload` builds the brain in place of `build`,
-    and again when its code has changed between two episodes; None keeps the brain.
+    `membership` is the agent's, by default that of one without a launch; `runner_class` runs what `build` returns.
+    `reload` builds the brain in place of `build`, and again when its code has changed between two episodes.
 
     The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
 
@@ -147,7 +148,7 @@ def serve(
     setup = ask_setup(bus, patience)
     if not membership.fits(setup):
         membership.join(setup, patience)  # the host refuses it, and reports that on its side, too
-    runner = Runner(bus, build(setup), robot)
+    runner = runner_class(bus, build(setup), robot)
     host = HostWatch(bus)
     membership.join(setup, patience)
     gc.collect()
@@ -162,7 +163,7 @@ def serve(
                 runner.restart(changed)
             try:
                 runner.answer(sight)
-            except BrainError as error:
+            except RobotError as error:
                 log_line(error.report(), Level.ERROR, tick=sight.tick)
                 return 1 if runner.answered else FIRST_SIGHT_FAILED
         elif host.is_reachable():

@@ -19,8 +19,10 @@ class AgentSettings(ClientSettings, LogSettings):
 
     robot: Annotated[Name, CommandLine(environment="TOUCHLINE_ROBOT")]
     """Name of the robot: cyan1, magenta3, …"""
-    brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")]
+    brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")] = ""
     """module:Class, or module:function of a plain act(sight)."""
+    stdio: list[str] = Field(default_factory=list)
+    """Command line of a program that reads sights and writes commands as lines of JSON, in place of a brain."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory; a match uses that of its file."""
     launch_folder: Path | None = None

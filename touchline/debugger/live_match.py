@@ -7,7 +7,9 @@ from pathlib import Path
 from recordings.reading.recording import Recording
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
+from robot_agent.robot_code import end_robot, start_robot
 from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import TeamConfig
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import Score
 from schemas.messages.command import Command
@@ -91,6 +93,7 @@ class LiveMatch:
         """What does not go on as in the recorded match, for the user."""
         self._robot = robot
         self._differing: set[str] = set()
+        self._programs: list[Brain] = []
         self._commands = commands_of(recording)
         self._brain_folder = brain_folder
         examined = load_brain(spec, Briefing.of(robot, setup), brain_folder)
@@ -102,8 +105,10 @@ class LiveMatch:
         self._repeated = RepeatedMatch(recording, self._match.simulation, self._commands)
 
     def close(self) -> None:
-        """Free the engine."""
-        self._match.simulation.close()
+        """Free the engine, and end the programs that play."""
+        self._match.close()
+        for program in self._programs:
+            end_robot(program)
 
     def play(self, start: float, end: float, watch: Callable[[TickResult], None]) -> LiveResult:
         """Repeat the recorded match up to `start`, then play on to `end` or full time; times are simulated, in s.
@@ -127,15 +132,22 @@ class LiveMatch:
 
     def _others(self, config: MatchConfig, side: Side, names: list[str], setup: Setup) -> dict[str, Brain]:
         """The other robots of a side: with the brains of the match file, or with their recorded commands."""
-        spec = config.team(side).brain
+        team = config.team(side)
+        spec = team.brain or " ".join(team.stdio or [])
         try:
-            if spec is None:
-                raise TouchlineError("their program is not a brain of this machine")
-            built = {name: load_brain(spec, Briefing.of(name, setup), self._brain_folder) for name in names}
+            if not spec:
+                raise TouchlineError("their program needs a match on the bus")
+            built = {name: self._started(team, Briefing.of(name, setup)) for name in names}
         except TouchlineError as error:
             self.notes += [f"{', '.join(names)}: recorded commands; {error}"] if names else []
             return {name: self._recorded(name) for name in names}
         return {name: CheckedBrain(spec, brain, quietly) for name, brain in built.items()}
+
+    def _started(self, team: TeamConfig, briefing: Briefing) -> Brain:
+        robot = start_robot(team.brain or "", team.stdio, briefing, self._brain_folder)
+        if team.stdio:
+            self._programs.append(robot)
+        return robot
 
     def _recorded(self, robot: str) -> RecordedRobot:
         return RecordedRobot(self._commands.get(robot, {}))

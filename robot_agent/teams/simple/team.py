@@ -1,6 +1,7 @@
 """One robot of the team: finds its role, and acts by role and phase."""
 
 import math
+from collections.abc import Sequence
 
 from robot_agent.bodies import Ball
 from robot_agent.contract import Briefing
@@ -12,7 +13,7 @@ from robot_agent.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
-from robot_agent.teams.set_piece import stand, step_in, wait_behind
+from robot_agent.teams.set_piece import legal_place, stand, step_in, wait_behind
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
 from robot_agent.teams.simple.striker import SHOT_ERROR, StrikerSituation, is_pressed, play_ball
@@ -87,7 +88,7 @@ class Simple(Player):
         if takers and belief.game.running and belief.game.phase is TeamPhase.OUR_PENALTY:
             striker = min(takers)  # a teammate that takes its place leaves its own before the kick, which is a foul
         else:
-            striker = striker_of(candidates, ball, self._rolling, self._gap, self.limits)
+            striker = striker_of(candidates, ball, self.rolling, self._gap, self.limits)
         if striker == me:
             return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]
@@ -123,7 +124,7 @@ class Simple(Player):
         return Action(Role.STRIKER, "get the ball", self._get(belief, ball), dribble=True)
 
     def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
-        way = way_of(ball, self._rolling)
+        way = way_of(ball, self.rolling)
         meeting = meet(belief.me, way, self._gap, self.limits)
         foes, mates = belief.opponents, places_of(belief.mates).values()
         return take_ball(belief.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
@@ -132,7 +133,10 @@ class Simple(Player):
         """Hold the role's place; the defender leaves it for an opponent with the ball."""
         if self._role is Role.DEFENDER and self._is_threat(belief, spot):
             return Action(self._role, "block", self._stand(belief, self._before_own_goal(spot), spot))
-        return Action(self._role, "hold", self._stand(belief, place, spot))
+        taken = []
+        if self._role is not Role.STRIKER and belief.game.phase.theirs:
+            taken = [legal_place(*self._before_own_goal(spot), belief.game, spot, self.setup)]
+        return Action(self._role, "hold", self._stand(belief, place, spot, taken))
 
     def _is_threat(self, belief: WorldBelief, ball: Point) -> bool:
         """Whether an opponent has the ball near our goal."""
@@ -148,8 +152,8 @@ class Simple(Player):
         away = max(math.hypot(dx, dy), 1e-6)
         return spot[0] + dx / away, spot[1] + dy / away
 
-    def _stand(self, belief: WorldBelief, place: Point, spot: Point) -> Drive:
-        return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits)
+    def _stand(self, belief: WorldBelief, place: Point, spot: Point, taken: Sequence[Point] = ()) -> Drive:
+        return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits, taken)
 
     def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Line up behind the ball, and after START kick it at once: to a teammate, or a penalty at the goal."""
