@@ -79,6 +79,7 @@ def replay(
     live: Annotated[
         bool, typer.Option("--live", help="With --agent: simulate on from --from with this brain; no bus.")
     ] = False,
+    out: Annotated[Path | None, typer.Option(help="With --live: the recording to write of the match.")] = None,
     web: options.Web = False,
     foxglove: Annotated[
         bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick and print its address.")
@@ -106,11 +107,14 @@ def replay(
         from touchline.debugger.agent_replay import AgentReplay, parse_agent
 
         robot, brain = parse_agent(agent)
-        raise typer.Exit(
-            AgentReplay(file, robot, brain, start, end, every_difference, pdb, brain_folder, live, json).run()
+        debugged = AgentReplay(
+            file, robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
         )
-    if every_difference or pdb or live:
-        raise TouchlineError("--every-difference, --pdb and --live need --agent, such as --agent cyan2=module:Class")
+        raise typer.Exit(debugged.run())
+    if every_difference or pdb or live or out or brain_folder:
+        raise TouchlineError(
+            "--every-difference, --pdb, --live, --out and --brain-folder need --agent, such as --agent cyan2=my:Brain"
+        )
     from recordings.container.key_selection import KeySelection
     from recordings.replay.replay import Replay, ReplaySettings
     from schemas.process.clock import WallClock

@@ -41,6 +41,8 @@ class AgentReplay:
     """Folder in which the brain's module is looked for before the current directory."""
     live: bool = False
     """Play on from `start` with this brain, in place of the comparison."""
+    out: Path | None = None
+    """With `live`: the recording to write of the whole match, its repeated part included."""
     json: bool = False
     """Print one JSON object; the brain's own output goes to stderr."""
 
@@ -55,6 +57,8 @@ class AgentReplay:
             raise TouchlineError("--pdb is a dialogue, --json is for programs; leave one of them out")
         if self.live and self.every_difference:
             raise TouchlineError("--live compares no commands; leave --every-difference out")
+        if self.out is not None and not self.live:
+            raise TouchlineError("--out is the recording of a live match; give --live, too")
         recording = open_recording(self.file)
         start = time_in(self.start, recording) if self.start is not None else 0.0
         end = time_in(self.end, recording) if self.end is not None else math.inf
@@ -110,12 +114,12 @@ class AgentReplay:
             end = max((channel.end for channel in recording.channels if channel.key == APPLIED.key), default=0.0)
         with self._brain_output():
             act = StepDebugger(start).act if self.pdb else plainly
-            match = LiveMatch(recording, self.robot, self.brain, act, self.brain_folder)
+            match = LiveMatch(recording, self.robot, self.brain, act, self.brain_folder, self.out)
             try:
                 result = match.play(start, end, report.show_tick)
             finally:
                 match.close()
-        report.print_result(result, match.notes)
+        report.print_result(result, match.notes, self.out)
         return 0
 
     @contextmanager

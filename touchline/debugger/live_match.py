@@ -18,11 +18,12 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from sim_host.match.simulation import TickResult
+from touchline.match_recording import MatchRecording
 from touchline.play import InProcessMatch
 from touchline.verify.command_difference import differences
 from touchline.verify.compare_brain import EPSILON_S, Act, checked_answer, plainly, without_output
 from touchline.verify.regenerate_sights import playable_config
-from touchline.verify.repeated_match import RepeatedMatch, commands_of
+from touchline.verify.repeated_match import Observe, RepeatedMatch, commands_of
 
 
 class RecordedRobot:
@@ -75,11 +76,17 @@ class LiveMatch:
     """A recorded match up to one tick, and from there on with live brains."""
 
     def __init__(
-        self, recording: Recording, robot: str, spec: str, act: Act = plainly, brain_folder: Path | None = None
+        self,
+        recording: Recording,
+        robot: str,
+        spec: str,
+        act: Act = plainly,
+        brain_folder: Path | None = None,
+        out: Path | None = None,
     ) -> None:
         """`act` calls the brain of `robot` once the match is live.
 
-        `brain_folder` is where brains are looked for before the current directory.
+        `brain_folder` is where brains are looked for before the current directory. `out` gets a recording of all.
 
         The other robots are played by the brains of the match file, or else by their recorded commands.
 
@@ -102,10 +109,15 @@ class LiveMatch:
             names = [name for name in config.robots(side) if name != robot]
             brains |= self._others(config, side, names, setup)
         self._match = InProcessMatch(config, brains)
-        self._repeated = RepeatedMatch(recording, self._match.simulation, self._commands)
+        simulation = self._match.simulation
+        self._recording = MatchRecording(out, config, simulation) if out is not None else None
+        self._observe: Observe = self._recording.add if self._recording is not None else lambda _tick, _commands: None
+        self._repeated = RepeatedMatch(recording, simulation, self._commands, self._observe)
 
     def close(self) -> None:
-        """Free the engine, and end the programs that play."""
+        """Finish the recording, free the engine, and end the programs that play."""
+        if self._recording is not None:
+            self._recording.close()
         self._match.close()
         for program in self._programs:
             end_robot(program)
@@ -124,7 +136,9 @@ class LiveMatch:
         began = simulation.now.time
         result = LiveResult(began, began, simulation.state.score)
         while not simulation.over and simulation.now.time < end - EPSILON_S:
-            tick = self._match.step()
+            commands = self._match.answers()
+            tick = simulation.step(commands)
+            self._observe(tick, commands)
             result.events.extend(tick.events)
             watch(tick)
         result.end, result.score = simulation.now.time, simulation.state.score

@@ -1,6 +1,7 @@
 """A changed brain against a recording: a table of what differs, up to the first command that does."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -73,6 +74,7 @@ def test_the_result_is_one_json_object_whatever_the_brain_prints(brain, replay, 
     [
         ({"pdb": True, "json": True}, "leave one of them out"),
         ({"live": True, "every_difference": True}, "leave --every-difference out"),
+        ({"out": Path("live.mcap")}, "give --live, too"),
         ({"start": "3", "end": "2"}, "end later"),
         ({"start": "900"}, "begin earlier"),
         ({"start": "gaol:1"}, "did you mean"),
@@ -90,12 +92,12 @@ def test_an_agent_without_robot_or_brain_is_reported(text):
         parse_agent(text)
 
 
-@pytest.mark.parametrize("option", ["--every-difference", "--pdb", "--live"])
+@pytest.mark.parametrize("option", ["--every-difference", "--pdb", "--live", "--out=a", "--brain-folder=."])
 def test_the_debuggers_options_need_an_agent(played, option, capsys, monkeypatch):
     monkeypatch.setattr("sys.argv", ["touchline", "replay", str(played.path), option])
     with pytest.raises(SystemExit):
         app()
-    assert "need --agent, such as --agent cyan2=module:Class" in capsys.readouterr().err
+    assert "need --agent, such as --agent cyan2=my:Brain" in capsys.readouterr().err
 
 
 def test_a_brain_that_raises_is_shown_with_its_own_frames(brain, replay, capsys):

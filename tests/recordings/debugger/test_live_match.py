@@ -9,9 +9,12 @@ import pytest
 
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
+from schemas.errors import MatchFailedError
 from schemas.topics import APPLIED
 from support.process_story import descendants, is_running
 from touchline.debugger.live_match import LiveMatch
+from touchline.verify.compare_brain import compare_brain
+from touchline.verify.resimulate import verify
 
 SIMPLE = "robot_agent.teams.simple:Simple"
 
@@ -47,6 +50,28 @@ def test_the_match_can_go_on_beyond_the_end_of_the_recording(played):
     match = LiveMatch(played, "cyan2", SIMPLE)
     assert match.play(3.0, 5.0, lambda _: None).end == pytest.approx(5.0)
     match.close()
+
+
+def test_a_live_match_is_recorded_from_its_first_tick(played, brain, replay, tmp_path, capsys):
+    out = tmp_path / "live.mcap"
+    spec = brain("if sight.tick >= 150:\n    command = replace(command, drive=Drive())")
+    assert replay(spec, live=True, start="2", out=out) == 0
+    assert f"recording {out}" in capsys.readouterr().out
+    recording = open_recording(out, whole=True)
+    chains = [applied.chain for _, applied in recording.decoded(APPLIED.key)]
+    recorded = [applied.chain for _, applied in played.decoded(APPLIED.key)]
+    assert len(chains) == len(recorded)
+    assert chains[:151] == recorded[:151] and chains[151] != recorded[151]
+    verdict = verify(out)
+    assert (verdict.difference, verdict.contradictions) == (None, [])
+    assert compare_brain(recording, "cyan2", spec).different == 0
+
+
+def test_a_live_match_whose_brain_fails_is_recorded_up_to_there(brain, replay, tmp_path):
+    out = tmp_path / "live.mcap"
+    with pytest.raises(MatchFailedError, match="raised at tick 120"):
+        replay(brain("if sight.tick == 120:\n    1 / 0"), live=True, start="2", out=out)
+    assert open_recording(out, whole=True).result.tick == 120
 
 
 def test_the_score_and_the_events_are_printed_beside_the_recorded_ones(brain, replay, capsys):
