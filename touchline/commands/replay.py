@@ -106,7 +106,16 @@ def replay(
     if agent is not None:
         from touchline.debugger.agent_replay import AgentReplay, parse_agent
 
-        robot, brain = parse_agent(agent)
+        on_the_bus: dict[str, object] = {"--fast": fast, "--loop": loop, "--paused": paused, "--stay": stay}
+        on_the_bus |= {"--include": include, "--exclude": exclude, "--follow": follow, "--connect": connect}
+        on_the_bus |= {
+            "--match": match,
+            "--prefix": prefix,
+            "--web": web,
+            "--foxglove": foxglove,
+            "--rate": rate != 1.0,
+        }
+        robot, brain = parse_agent(agent, on_the_bus)
         debugged = AgentReplay(
             file, robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
         )

@@ -4,7 +4,7 @@ import math
 import sys
 import traceback
 from bdb import BdbQuit
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -138,13 +138,16 @@ class AgentReplay:
                 raise
 
 
-def parse_agent(text: str) -> tuple[str, str]:
-    """Robot and brain of `cyan2=module:Class`.
+def parse_agent(text: str, on_the_bus: Mapping[str, object]) -> tuple[str, str]:
+    """Robot and brain of `cyan2=module:Class`; the options in `on_the_bus` are not for a brain in this process.
 
     Raises:
-        TouchlineError: it is written otherwise.
+        TouchlineError: it is written otherwise, or such an option is given.
     """
     robot, _, brain = text.partition("=")
     if not robot or not brain:
         raise TouchlineError(f'--agent is "{text}"; write it as cyan2=module:Class')
+    given = [option for option, value in on_the_bus.items() if value]
+    if given:
+        raise TouchlineError(f"--agent replays in this process, without a bus; leave {' and '.join(given)} out")
     return robot, brain

@@ -89,7 +89,16 @@ def test_options_that_make_no_sense_are_one_line(replay, options, words):
 @pytest.mark.parametrize("text", ["cyan2", "=my:Brain", "cyan2="])
 def test_an_agent_without_robot_or_brain_is_reported(text):
     with pytest.raises(TouchlineError, match="write it as cyan2=module:Class"):
-        parse_agent(text)
+        parse_agent(text, {})
+
+
+@pytest.mark.parametrize("option", ["--web", "--rate=2", "--include=world", "--paused"])
+def test_options_of_a_replay_on_the_bus_are_refused_with_an_agent(played, option, capsys, monkeypatch):
+    words = ["touchline", "replay", str(played.path), "--agent", f"cyan2={SIMPLE}", option]
+    monkeypatch.setattr("sys.argv", words)
+    with pytest.raises(SystemExit):
+        app()
+    assert f"without a bus; leave {option.partition('=')[0]} out" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("option", ["--every-difference", "--pdb", "--live", "--out=a", "--brain-folder=."])
