@@ -134,7 +134,8 @@ def serve(
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
 
     `membership` is the agent's, by default that of one without a launch; `runner_class` runs what `build` returns.
-    `reload` builds the brain in place of `build`, and again when its code has changed between two episodes.
+    `reload` builds the brain in place of `build`, and again when its code has changed between two episodes; None keeps
+    the brain.
 
     The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
 
