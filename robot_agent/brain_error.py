@@ -9,7 +9,15 @@ from robot_agent.user_code import definition_of, place_of
 from schemas.wire.faults import FaultError
 
 
-class BrainError(Exception):
+class RobotError(Exception):
+    """What moves a robot has failed: its brain, or its program."""
+
+    def report(self) -> str:
+        """The failure as text, whose last line names the tick and the fault."""
+        return f"{self}\n"
+
+
+class BrainError(RobotError):
     """The brain raised, or returned something that is not a command; the cause is what it raised."""
 
     def __init__(self, tick: int, act: Callable[..., Any], returned: object = None) -> None:

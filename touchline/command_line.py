@@ -23,6 +23,7 @@ from touchline.commands import (
     info,
     match,
     merge,
+    new,
     parameters,
     player,
     record,
@@ -32,6 +33,7 @@ from touchline.commands import (
     scene,
     scenes,
     schema,
+    series,
     stats,
     team,
     topics,
@@ -67,6 +69,7 @@ def options(
 
 
 PLAY = "Play"
+TEAMS = "Build a team"
 WATCH = "Watch"
 OPERATE = "Operate a running match"
 PROCESSES = "Processes on several machines"
@@ -74,7 +77,10 @@ RECORDINGS = "Recordings"
 PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
+app.command("series", rich_help_panel=PLAY)(series.series)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
+
+app.command("new", rich_help_panel=TEAMS)(new.new)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
 app.command("health", rich_help_panel=WATCH)(health.health)

@@ -82,7 +82,7 @@ class Player(ABC):
         self._world = WorldModel(briefing)
         self._rule_limits = RuleLimits.of(briefing.setup)
         self._counts_ways = self._rule_limits.counts_ways
-        self._rolling = Rolling.of(self.setup.ball)
+        self.rolling = Rolling.of(self.setup.ball)
         self._goal_area = Area.goal(self.setup.pitch)
         self._penalty_area = Area.penalty(self.setup.pitch)
         self._area_turn = AreaTurn(self._rule_limits, self._penalty_area)

@@ -180,7 +180,7 @@ class NuBot(Player):
 
     def _meet(self, belief: WorldBelief, ball: SeenBall) -> Drive:
         """CHASE_BALL in a match: the paper's ball lies still, this one rolls, or an opponent has it."""
-        way = way_of(ball.now, self._rolling)
+        way = way_of(ball.now, self.rolling)
         gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.reach + 0.05
         meeting = meet(belief.me, way, gap, self.limits)
         foes, mates = belief.opponents, places_of(belief.mates).values()

@@ -87,7 +87,7 @@ class Simple(Player):
         if takers and belief.game.running and belief.game.phase is TeamPhase.OUR_PENALTY:
             striker = min(takers)  # a teammate that takes its place leaves its own before the kick, which is a foul
         else:
-            striker = striker_of(candidates, ball, self._rolling, self._gap, self.limits)
+            striker = striker_of(candidates, ball, self.rolling, self._gap, self.limits)
         if striker == me:
             return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]
@@ -123,7 +123,7 @@ class Simple(Player):
         return Action(Role.STRIKER, "get the ball", self._get(belief, ball), dribble=True)
 
     def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
-        way = way_of(ball, self._rolling)
+        way = way_of(ball, self.rolling)
         meeting = meet(belief.me, way, self._gap, self.limits)
         foes, mates = belief.opponents, places_of(belief.mates).values()
         return take_ball(belief.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)

@@ -10,6 +10,7 @@ from robot_agent.skills.intercept import meet, meeting_time, way_of
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.line_up import behind, line_up
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_speed
+from robot_agent.skills.receive import receive
 from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.skills.take_ball import front_of_holder, take_ball
 from schemas.config.kicked import Kicked
@@ -163,3 +164,9 @@ def test_a_meeting_is_timed_exactly_unless_it_is_later_than_asked_for(limits, me
     for by in (0.0, 0.3, 0.9, 2.0):
         told = meeting_time(me, way, GAP, limits, by)
         assert told == exact or by < told <= exact
+
+
+def test_a_ball_at_rest_that_was_expected_is_faced(limits):
+    demand = receive(Body(0.0, 0.0, 0.0), Ball(0.0, 2.0), limits)
+    assert (demand.vx, demand.vy) == (0.0, 0.0)
+    assert demand.omega > 0.0
