@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from robot_agent.contract import Brain, Briefing
     from schemas.config.match_config import MatchConfig, load_match
     from schemas.messages.command import Command, Drive, Kick, KickMode
+    from schemas.messages.debug import Debug
+    from schemas.messages.drawing import Drawing
     from schemas.messages.radio import BallBelief, Motion, Radio
     from schemas.messages.sight import Sight
     from touchline import skills
@@ -23,6 +25,8 @@ _HOMES = {
     "Brain": "robot_agent.contract",
     "Briefing": "robot_agent.contract",
     "Command": "schemas.messages.command",
+    "Debug": "schemas.messages.debug",
+    "Drawing": "schemas.messages.drawing",
     "Drive": "schemas.messages.command",
     "Kick": "schemas.messages.command",
     "KickMode": "schemas.messages.command",
@@ -41,6 +45,8 @@ __all__ = [
     "Brain",
     "Briefing",
     "Command",
+    "Debug",
+    "Drawing",
     "Drive",
     "Kick",
     "KickMode",
