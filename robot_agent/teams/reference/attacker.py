@@ -1,4 +1,4 @@
-"""The robot that holds the ball: shoot, pass, or dribble, whichever is worth most. Pure but for what was chosen before."""
+"""The robot that holds the ball: shoot, pass, or dribble, whichever is worth most. Pure."""
 
 import math
 from collections.abc import Mapping, Sequence

@@ -36,8 +36,9 @@ def places(
     """
     front = pitch.goal_line - pitch.penalty_area_depth - inset - 0.2
     found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))]
-    if not attacks and ball[0] < 0.3 * pitch.goal_line:
+    if not attacks and ball[0] < parameters.blocks_before:
         found.insert(0, Place(Role.BLOCKER, _before_goal(ball, parameters.block_distance, pitch, front)))
+    if not attacks and ball[0] < parameters.marks_before:
         found += [Place(Role.MARKER, place) for place in _marks(ball, opponents, pitch, front, parameters)]
     found = found[: len(robots)]
     while len(found) < len(robots):

@@ -34,12 +34,14 @@ class Parameters:
     """m from the ball to a far supporter: a pass of 1.2 s."""
     support_apart: float = 3.0
     """m between two supporters, so that one opponent cannot cover both."""
-    support_sticks: float = 0.12
+    support_sticks: float = 0.15
     """Value of a place a metre that a robot does not have to drive: keeps the way of a match short."""
-    support_speed: float = 2.2
+    support_speed: float = 2.0
     """m/s; supporters walk: full speed would double their way and win nothing."""
-    settles: float = 0.5
-    """m; a robot this close to its place stays where it is."""
+    settles: float = 1.3
+    """m by which a place has to move before a robot follows it: the ball moves to and fro, robots need not."""
+    settles_close: float = 0.4
+    """m of the same for a robot that blocks or marks."""
     guard_share: float = 0.42
     """Where the guard stands between the own goal and the ball, as a share."""
     guard_farthest: float = 7.0
@@ -48,6 +50,11 @@ class Parameters:
     """m from an opponent's ball to the robot that blocks its way to the goal."""
     mark_distance: float = 0.9
     """m from a marked opponent, toward the ball: as near as no contact allows."""
+
+    blocks_before: float = 2.0
+    """m; an opponent with the ball is blocked once the ball is behind this x."""
+    marks_before: float = -1.0
+    """m; opponents without the ball are marked once the ball is behind this x."""
 
     # Passes
     pass_least: float = 1.6
@@ -74,7 +81,7 @@ class Parameters:
     """Value a radian of turning: an opponent comes nearer meanwhile."""
     chosen_bonus: float = 0.06
     """Value in favour of what was decided before: two equal choices would alternate with the noise."""
-    loss: float = 0.25
+    loss: float = 0.2
     """Value of the ball in the opponents' hold, at the middle of the pitch; twice as much before the own goal."""
 
     # Shots
@@ -114,7 +121,7 @@ class Parameters:
     """s that it has to be there before any opponent."""
 
     # Set pieces
-    restart_wait: float = 3.5
+    restart_wait: float = 2.0
     """s after START for a free receiver; then the ball is played anyway: the rules give 7 s."""
     restart_sure: float = 0.6
     """Chance of arrival for which a set piece is played at once."""

@@ -49,7 +49,7 @@ def worth(place: Point, opponents: Sequence[Point], pitch: Pitch) -> float:
     """The ball's worth in our hold at a place, 0 to 1: near their goal, central, with room around."""
     to_goal = math.hypot(pitch.goal_line - place[0], place[1])
     room = min((math.dist(place, opponent) for opponent in opponents), default=3.0)
-    return 0.75 * math.exp(-to_goal / 7.0) + 0.05 * min(room, 3.0)
+    return math.exp(-to_goal / 6.0) + 0.04 * min(room, 3.0)
 
 
 def cost_of_loss(place: Point, pitch: Pitch, parameters: Parameters) -> float:

@@ -1,4 +1,4 @@
-"""Set pieces of our own: whom the taker plays to, and when. Those against us are places of the formation, kept legal."""
+"""Set pieces of our own: whom the taker plays to, and when. Against us, the formation's places are made legal."""
 
 import math
 from collections.abc import Mapping, Sequence

@@ -33,6 +33,8 @@ Point = tuple[float, float]
 
 CLEAR = "clear"
 """Intention of a keeper that leaves its line for the ball."""
+_STEPPED_IN = 0.55
+"""m from the ball of a restart, from where the target stays: to turn with the ball would drag it."""
 _HAS_IT = 0.6
 """m; a robot this close to the ball has it."""
 
@@ -212,9 +214,9 @@ class Reference(Player):
 
     def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
         """Hold the place; walk to it unless it defends."""
-        defends = self._role in (Role.BLOCKER, Role.MARKER, Role.GUARD)
-        settled = self._place is not None and math.dist(self._place, place) < self.parameters.settles
-        if not settled:
+        defends = self._role in (Role.BLOCKER, Role.MARKER)
+        near = self.parameters.settles_close if defends else self.parameters.settles
+        if self._place is None or math.dist(self._place, place) > near:
             self._place = place
         limits = self.limits if defends else self.limits.capped(self.parameters.support_speed)
         goal = self._place or place
@@ -237,7 +239,9 @@ class Reference(Player):
             chosen = (self._chosen.receiver, self._chosen.target) if self._chosen is not None else None
             mates = self._field_mates(belief)
             waited = self._waited if belief.game.running else math.inf
-            best = best_restart(spot, mates, belief.opponents, chosen, waited, pitch, self.parameters)
+            steps_in = belief.game.running and math.dist(belief.me[:2], spot) < _STEPPED_IN
+            best = self._chosen if steps_in else None
+            best = best or best_restart(spot, mates, belief.opponents, chosen, waited, pitch, self.parameters)
             self._chosen = best or self._chosen
             target = best.target if best is not None else KICK_OFF_TO
             receiver = best.receiver if best is not None else None
