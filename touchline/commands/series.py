@@ -55,8 +55,9 @@ def series(
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
     options.need_pybullet()
-    from touchline.series.match_processes import cores, play_in_processes
     from touchline.series.plan import plan_series
+    from touchline.series.play_planned import play_all
+    from touchline.series.processes import cores
     from touchline.series.progress import progress_of
     from touchline.series.seeds import seeds_of
     from touchline.series.table import sentence_of
@@ -73,7 +74,7 @@ def series(
     interrupted = False
     try:
         with (
-            closing(play_in_processes(plan.matches, jobs or cores())) as played,
+            closing(play_all(plan.matches, jobs or cores())) as played,
             progress_of(len(plan.matches), " – ".join(plan.teams)) as report,
         ):
             for outcome in played:
