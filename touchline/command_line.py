@@ -14,6 +14,7 @@ from touchline.commands import (
     credentials,
     diff,
     doctor,
+    drill,
     drive,
     export,
     filter,
@@ -78,6 +79,7 @@ PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
 app.command("series", rich_help_panel=PLAY)(series.series)
+app.command("drill", rich_help_panel=PLAY)(drill.drill)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
 
 app.command("new", rich_help_panel=TEAMS)(new.new)
