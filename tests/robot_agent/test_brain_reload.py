@@ -10,8 +10,11 @@ from msgspec.structs import replace
 from robot_agent.brain_loader import load_brain
 from robot_agent.brain_reload import BrainReload
 from robot_agent.contract import Briefing
+from robot_agent.process import run
 from robot_agent.runner import serve
+from robot_agent.settings import AgentSettings
 from schemas.bus.in_process_bus import SharedState
+from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP
 
@@ -160,3 +163,8 @@ def test_an_agent_answers_the_first_sight_of_an_episode_with_its_new_brain(
     drives = [received.message().drive for received in iter(commands.receive, None)]
     assert [drive.vx for drive in drives] == [1.0, 1.0, 2.0, 2.0]
     assert [round(10 * drive.vy) for drive in drives] == [1, 2, 1, 2]
+
+
+def test_a_program_is_not_reloaded():
+    with pytest.raises(TouchlineError, match="--reload is for brains in Python"):
+        run(AgentSettings(robot="cyan2", stdio=["./robot"], reload=True))
