@@ -51,6 +51,8 @@ class InProcessMatch:
         """
         self.acting: str | None = None
         """The robot whose brain acts; after an exception, the robot whose brain raised it."""
+        self.commands: dict[str, Command] = {}
+        """Robot → its newest command; empty before the first."""
         self.simulation = Simulation(config)
         setup = self.simulation.setup()
         self._given = given = brains or {}
@@ -80,7 +82,8 @@ class InProcessMatch:
 
     def answers(self) -> dict[str, Command]:
         """The commands with which the brains answer the newest sights."""
-        sights, commands = self.simulation.now.sights, {}
+        sights = self.simulation.now.sights
+        commands: dict[str, Command] = {}
         try:
             for name, brain in self.brains.items():
                 self.acting = name
@@ -88,7 +91,7 @@ class InProcessMatch:
         except BaseException as error:
             error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
             raise
-        self.acting = None
+        self.acting, self.commands = None, commands
         return commands
 
 
