@@ -13,6 +13,7 @@ from sim_host.server.account_limits import AccountLimits
 from sim_host.server.account_supervision import AccountSupervision
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
 from sim_host.server.admission import Admission
+from sim_host.server.debug_publisher import DebugPublisher
 from sim_host.server.eligibility import Eligibility
 from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.host_reports import HostReports
@@ -90,6 +91,7 @@ class Host:
         self._supervision = AccountSupervision(bus, self.accounts, self._links, admission, self.inbox.agent_stats)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
+        self._debug = DebugPublisher(self._batches, tick_s)
         self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self._supervision)
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
@@ -146,6 +148,7 @@ class Host:
     def tick(self) -> TickResult:
         """One tick: collect commands, step the simulation, publish the result."""
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
+        self._debug.publish(commands, self._roster, self.simulation.state)
         self.presence.update()
         self._process_requests()
         self._look_for_sight_recorders()
