@@ -10,6 +10,7 @@ from touchline.cli.errors import CommandGroup
 from touchline.cli.version import version_text
 from touchline.commands import (
     agent,
+    check,
     coach,
     credentials,
     diff,
@@ -23,6 +24,7 @@ from touchline.commands import (
     info,
     match,
     merge,
+    new,
     parameters,
     player,
     record,
@@ -32,6 +34,7 @@ from touchline.commands import (
     scene,
     scenes,
     schema,
+    series,
     stats,
     team,
     topics,
@@ -67,6 +70,7 @@ def options(
 
 
 PLAY = "Play"
+TEAMS = "Build a team"
 WATCH = "Watch"
 OPERATE = "Operate a running match"
 PROCESSES = "Processes on several machines"
@@ -74,7 +78,11 @@ RECORDINGS = "Recordings"
 PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
+app.command("series", rich_help_panel=PLAY)(series.series)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
+app.command("check", rich_help_panel=PLAY)(check.check)
+
+app.command("new", rich_help_panel=TEAMS)(new.new)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
 app.command("health", rich_help_panel=WATCH)(health.health)

@@ -8,9 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
+from robot_agent.robot_code import end_robot, start_robot
+from robot_agent.user_code import definition_of
 from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import TeamConfig
 from schemas.errors import TouchlineError
 from schemas.game import Score
 from schemas.messages.command import Command
@@ -44,25 +46,53 @@ class InProcessMatch:
         Raises:
             TouchlineError: a brain cannot be loaded.
         """
+        self.acting: str | None = None
+        """The robot whose brain acts; after an exception, the robot whose brain raised it."""
         self.simulation = Simulation(config)
         setup = self.simulation.setup()
-        given = brains or {}
+        self._given = given = brains or {}
         for robot in (robot for side in config.remote_sides for robot in config.robots(side)):
             if robot not in given:
                 raise TouchlineError(f"{robot} is of a remote team, which a match in one process lacks; give its brain")
         self.brains = {
-            name: given.get(name) or load_brain(config.team(side).brain or "", Briefing.of(name, setup), brain_folder)
+            name: given.get(name) or _start(config.team(side), Briefing.of(name, setup), brain_folder)
             for side in Side
             for name in config.robots(side)
         }
 
+    def close(self) -> None:
+        """Free the engine, and end the programs that were started for the match."""
+        self.simulation.close()
+        for robot, brain in self.brains.items():
+            if robot not in self._given:
+                end_robot(brain)
+
     def step(self, actions: tuple[RefereeAction, ...] = ()) -> TickResult:
-        """Let every brain answer, then one tick."""
-        sights = self.simulation.now.sights
-        commands = {
-            name: Command.decode(brain.act(Sight.decode(sights[name])).encode()) for name, brain in self.brains.items()
-        }
-        return self.simulation.step(commands, actions)
+        """Let every brain answer, then one tick.
+
+        An exception of a brain is raised as it is, with a note that names robot and tick.
+        """
+        return self.simulation.step(self.answers(), actions)
+
+    def answers(self) -> dict[str, Command]:
+        """The commands with which the brains answer the newest sights."""
+        sights, commands = self.simulation.now.sights, {}
+        try:
+            for name, brain in self.brains.items():
+                self.acting = name
+                commands[name] = Command.decode(_command(brain, Sight.decode(sights[name])).encode())
+        except BaseException as error:
+            error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
+            raise
+        self.acting = None
+        return commands
+
+
+def _command(brain: Brain, sight: Sight) -> Command:
+    command = brain.act(sight)
+    if not isinstance(command, Command):
+        raise TypeError(f"act returned {command!r}{definition_of(brain.act)}; return a Command")
+    return command
 
 
 def play_match(
@@ -82,11 +112,18 @@ def play_match(
     match = InProcessMatch(config, brains, brain_folder)
     simulation = match.simulation
     events: list[GameEvent] = []
-    while not simulation.over and (until is None or simulation.now.time < until):
-        tick = match.step()
-        events.extend(tick.events)
-        if watch is not None:
-            watch(tick)
-    now, state = simulation.now, simulation.state
-    simulation.close()
+    try:
+        while not simulation.over and (until is None or simulation.now.time < until):
+            tick = match.step()
+            events.extend(tick.events)
+            if watch is not None:
+                watch(tick)
+        now, state = simulation.now, simulation.state
+    finally:
+        match.close()
     return MatchOutcome(state.score, now.tick, now.time, now.applied["chain"], events)
+
+
+def _start(team: TeamConfig, briefing: Briefing, brain_folder: Path | None) -> Brain:
+    """The brain of a robot, or its running program."""
+    return start_robot(team.brain or "", team.stdio, briefing, brain_folder)

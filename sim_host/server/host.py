@@ -19,6 +19,7 @@ from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.host_reports import HostReports
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.link_limits import LinkLimits
 from sim_host.server.manual_control import ManualControl
 from sim_host.server.outbox import Outbox
 from sim_host.server.pace import Lockstep, Pace, Realtime
@@ -57,6 +58,7 @@ class Host:
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
         self.accounts = AccountLimits(self._sides(), has_accounts=has_accounts, forgiving=forgiving or config.forgiving)
+        self._links = LinkLimits(forgiving=forgiving or config.forgiving)
         admission = Admission([*config.record.admit, *recorders], self.accounts, any_recorder=has_accounts)
         self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches, self.accounts)
@@ -86,7 +88,7 @@ class Host:
             self.presence.add_refusal,
         )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
-        self._supervision = AccountSupervision(bus, self.accounts, admission, self.inbox.agent_stats)
+        self._supervision = AccountSupervision(bus, self.accounts, self._links, admission, self.inbox.agent_stats)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
         self._debug = DebugPublisher(self._batches, tick_s)
@@ -261,7 +263,15 @@ class Host:
         simulation, late = self.simulation, self.pace.late_ticks
         budget = simulation.profile.radio.budget
         report = self._health.report(
-            tick.tick, tick.time, late, self.inbox, self.presence, self.accounts, simulation.radio_use, budget
+            tick.tick,
+            tick.time,
+            late,
+            self.inbox,
+            self.presence,
+            self.accounts,
+            self._links,
+            simulation.radio_use,
+            budget,
         )
         self._outbox.publish_health(report)
 

@@ -20,7 +20,7 @@ def test_the_example_plays_and_draws() -> None:
     found = re.search(r"```python\n(.*?)```", SECTION, re.DOTALL)
     assert found is not None
     names: dict[str, type] = {}
-    exec(found[1], names)  # noqa: S102 - the code of our own page
+    exec(found[1], names)
     match = InProcessMatch(load_match(None, {"seed": 1, "duration": 5.0}))
     brain = names["Chaser"](Briefing.of("cyan2", match.simulation.setup()))
     drawn = []

@@ -1,6 +1,7 @@
 """Options shared by several commands, and groups of them."""
 
 import importlib.util
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -8,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.web.settings import WebSettings
+from robot_agent.stdio.command_line import check_command_line, command_line
 from schemas.bus.settings import ListenSettings, check_protected
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import OfficiatingConfig
@@ -41,7 +43,26 @@ To = Annotated[float | None, typer.Option("--to", help="End, simulated s, exclus
 Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and print its address.")]
 PageOptions = Annotated[dict[str, Any], FieldsOf(WebSettings, "listen_web", port="web_port")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
+StdioProgram = Annotated[
+    str | None,
+    typer.Option(
+        metavar="COMMAND", help='Program that reads sights and writes commands as lines: "node robot.js"; no brain.'
+    ),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
+
+
+def program_of(stdio: str | None) -> list[str]:
+    """The command line of the option `--stdio`, with absolute paths; empty without one.
+
+    Raises:
+        TouchlineError: there is no such program.
+    """
+    if stdio is None:
+        return []
+    command = shlex.split(stdio)
+    check_command_line("--stdio", command)
+    return list(command_line(command))
 
 
 @dataclass(frozen=True)

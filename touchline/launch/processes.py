@@ -20,8 +20,9 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
-from touchline.launch.confinement import Confinement, program_command, team_confinements
+from touchline.launch.confinement import Confinement, team_confinements
 from touchline.launch.python_process import PYTHON, module_path_environment
+from touchline.launch.team_code import team_program
 
 
 class ProcessKind(StrEnum):
@@ -139,6 +140,8 @@ class MatchPlan:
     """Secret by which the host knows the agents of this launch; None admits every agent."""
     confinements: Mapping[Side, Confinement] | None = None
     """How the robots of each side are confined; None to find out when they are launched."""
+    reload: bool = False
+    """Robots whose code has changed get new brains between two episodes."""
     isolation_note: str = ""
     """What the teams are not isolated from; empty for nothing to be printed."""
     credentials: Path | None = None
@@ -256,6 +259,7 @@ def page_process(settings: GatewaySettings, listener: socket.socket, folder: Pat
 def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
     """The process of one robot of a match."""
     team = plan.config.team(side)
+    program = team_program(plan.config, side, plan.brain_folder)
     credentials = plan.credentials_of(Account.of_team(side))
     if credentials is not None:
         confinement = replace(confinement, credentials=credentials.absolute())
@@ -265,11 +269,14 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
         credentials=confinement.readable_credentials,
         robot=robot,
         brain=team.brain or "",
+        stdio=list(program) if team.stdio else [],
         brain_folder=plan.brain_folder,
         launch_folder=Path.cwd(),
+        recording=plan.recording,
+        reload=plan.reload and not team.stdio,
         launch_token=plan.launch_token,
     )
-    command = program_command(team.command) if team.command else None
+    command = program if team.command else None
     return replace(robot_process(settings, side, command, plan.folder), confinement=confinement)
 
 

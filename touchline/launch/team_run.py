@@ -15,6 +15,7 @@ from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
+from touchline.launch.log_notes import LogNotes
 from touchline.launch.processes import ROBOT_ENVIRONMENT, Process, robot_process
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import AT_ONCE, Supervisor
@@ -56,7 +57,7 @@ class TeamRun:
         member = Membership(bus, self._robots[0], plan.agent.launch_token, plan.agent.match, plan.side)
         if not member.fits(setup):
             member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
-        self._fork_server, self._log_limit = ForkServer(), LogLimit()
+        self._fork_server, self._log_limit, self._log_notes = ForkServer(), LogLimit(), LogNotes()
         self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
 
     def play(self) -> None:
@@ -86,8 +87,8 @@ class TeamRun:
 
     def _show(self, follower: MatchFollower) -> None:
         for robot in self._robots:
-            sentence = self._log_limit.check(self._log_of(robot))
-            if sentence:
+            log = self._log_of(robot)
+            for sentence in filter(None, (self._log_limit.check(log), *self._log_notes.update(log))):
                 self._screen.warn(sentence)
         for notice in self._supervisor.check():
             if self._supervisor.ended.get(notice.name) == 0 and follower.gone:
