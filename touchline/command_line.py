@@ -10,6 +10,7 @@ from touchline.cli.errors import CommandGroup
 from touchline.cli.version import version_text
 from touchline.commands import (
     agent,
+    check,
     coach,
     credentials,
     diff,
@@ -79,6 +80,7 @@ PROTOCOL = "Protocol"
 app.command("match", rich_help_panel=PLAY)(match.match)
 app.command("series", rich_help_panel=PLAY)(series.series)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
+app.command("check", rich_help_panel=PLAY)(check.check)
 
 app.command("new", rich_help_panel=TEAMS)(new.new)
 

@@ -54,13 +54,15 @@ def plan_series(
     """One match for each seed; with `both_sides` two, the second with the teams on each other's side.
 
     Raises:
-        TouchlineError: a team is no brain in Python, which a match in one process requires.
+        TouchlineError: a team is neither a brain in Python nor a program of lines, as a match in one process requires.
     """
     for side in Side:
-        if config.team(side).brain is None:
-            kind = "remote" if config.team(side).remote else "a program of its own"
+        team = config.team(side)
+        if team.brain is None and not team.stdio:
+            kind = "remote" if team.remote else "a program of its own"
             raise TouchlineError(
-                f"teams.{side} is {kind}, and a series plays brains in Python; give --{side} module:Class"
+                f"teams.{side} is {kind}, and a series plays brains in Python and stdio programs; "
+                f"give --{side} module:Class"
             )
     pairs = [(config, (Side.CYAN, Side.MAGENTA))]
     if both_sides:

@@ -60,3 +60,8 @@ def test_each_shipped_team_is_known_by_its_name() -> None:
     assert brain_of("my_team:Striker") == "my_team:Striker"
     with pytest.raises(TouchlineError, match="did you mean"):
         brain_of("simpel")
+
+
+def test_a_team_of_lines_plays_a_series() -> None:
+    config = load_match(None, {"teams.cyan.stdio": ["node", "robot.js"]})
+    assert [match.config.seed for match in plan_series(config, [1, 2]).matches] == [1, 2]
