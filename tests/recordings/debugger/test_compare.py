@@ -150,3 +150,9 @@ def test_a_match_with_a_reset_is_compared_to_its_end(match_recorder, tmp_path):
     verdict = compare_brain(open_recording(tmp_path / "reset.mcap"), "cyan2", SIMPLE)
     assert (verdict.until, verdict.different) == ("", 0)
     assert verdict.compared >= 99
+
+
+def test_what_a_brain_draws_and_plots_is_no_difference(brain, replay):
+    """It is added to a brain to find out why it does what it does."""
+    drawing = "command = replace(command, debug=Debug(values={'tick': float(sight.tick)}))"
+    assert replay(brain(drawing, "from schemas.messages.debug import Debug")) == 0
