@@ -86,10 +86,11 @@ class StdioProgram:
         self._next_report = 0.0
         self._answered: int | None = None
 
-    def exchange(self, sight: Sight, wait: float = SLICE_S) -> Exchange:
+    def exchange(self, sight: Sight, wait: float = SLICE_S, patience: float = SILENCE_S) -> Exchange:
         """Give the program a sight unless it still owes an answer; wait up to `wait` s for its answer.
 
-        An invalid answer to the awaited sight is replaced by a command to rest.
+        After `patience` s without an answer it counts as silent. An invalid answer to the awaited sight is replaced by
+        a command to rest.
 
         Raises:
             ProgramEndedError: it has ended.
@@ -99,8 +100,8 @@ class StdioProgram:
         if self._awaited is None:
             self._read(0.0, others)  # lines since the last answer
             self._give(sight)
-        elif sight.tick != self._awaited and self._is_silent():
-            self._report_silence()
+        elif sight.tick != self._awaited and self._clock.now() - self._sent_at >= patience:
+            self._report_silence(patience)
             self._give_newer(sight)
         while True:
             answer = self._read(deadline - self._clock.now(), others)
@@ -110,7 +111,7 @@ class StdioProgram:
                 how = self._child.ending()
                 raise ProgramEndedError(f"the program `{self._name}` {how} at tick {sight.tick}")
             if self._clock.now() >= deadline:
-                self._report_silence()
+                self._report_silence(patience)
                 return Exchange(tuple(others))
 
     def act(self, sight: Sight) -> Command:
@@ -122,7 +123,7 @@ class StdioProgram:
         deadline = self._clock.now() + ACT_PATIENCE_S
         while self._clock.now() < deadline:
             try:
-                found = self.exchange(sight)
+                found = self.exchange(sight, patience=ACT_PATIENCE_S)
             except ProgramEndedError as error:
                 raise TouchlineError(f"{self._robot}: {error}") from None
             if found.answer is not None and found.tick == sight.tick:
@@ -153,17 +154,15 @@ class StdioProgram:
         self._given_up = [*self._given_up[1 - _MOST_GIVEN_UP :], self._awaited]
         self._give(sight)
 
-    def _is_silent(self) -> bool:
-        return self._clock.now() - self._sent_at >= SILENCE_S
-
-    def _report_silence(self) -> None:
+    def _report_silence(self, patience: float) -> None:
         """Count a sight without an answer once."""
-        if self._is_silent() and not self._is_reported_silent:
-            self._is_reported_silent = True
-            remedy = "does it write one line for each sight, and flush it?"
-            self._count(
-                AnswerFault.SILENT, f"has not answered the sight of tick {self._awaited} for {SILENCE_S:g} s; {remedy}"
-            )
+        if self._clock.now() - self._sent_at < patience or self._is_reported_silent:
+            return
+        self._is_reported_silent = True
+        remedy = "does it write one line for each sight, and flush it?"
+        self._count(
+            AnswerFault.SILENT, f"has not answered the sight of tick {self._awaited} for {patience:g} s; {remedy}"
+        )
 
     def _read(self, timeout: float, others: list[bytes]) -> bytes | None:
         """The awaited answer if it is in the next lines of the program; other lines for the host are added."""

@@ -53,7 +53,7 @@ def test_it_is_short_enough_to_read(text: str) -> None:
     ("title", "named"),
     [
         ("The sight", names_of(Sight, Motion, BallSight, Obstacle, Outcome)),
-        ("The command", names_of(Command, Drive, Kick) - {"debug"} | {mode.value for mode in KickMode}),
+        ("The command", names_of(Command, Drive, Kick) | {mode.value for mode in KickMode}),
         ("The game", names_of(GameView) | {phase.value for phase in TeamPhase}),
         ("The radio", names_of(Radio)),
     ],

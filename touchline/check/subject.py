@@ -16,6 +16,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
+from touchline.check.bus_program import BusProgram
 
 SIDE = Side.CYAN
 """The side that the checked team plays for."""
@@ -35,6 +36,8 @@ class Subject:
     """`module:Class`; empty for a program."""
     stdio: Sequence[str] = ()
     """Command line of a program of lines; empty for a brain."""
+    command: Sequence[str] = ()
+    """Command line of a program that speaks the protocol; empty for others."""
     folder: Path | None = None
     """Folder in which its module or its files are looked for before the current directory."""
 
@@ -56,14 +59,17 @@ class Subject:
         briefing = Briefing.of(robot, setup)
         log: list[str] = []
         try:
-            brain: Brain = (
-                StdioProgram(command_line(self.stdio, self.folder), briefing, log=log.append)
-                if self.stdio
-                else load_brain(self.brain, briefing, self.folder)
-            )
+            brain = self._brain_of(briefing, log)
         except TouchlineError as error:
             raise BreachError(str(error)) from None
         return CheckedRobot(robot, brain, log)
+
+    def _brain_of(self, briefing: Briefing, log: list[str]) -> Brain:
+        if self.stdio:
+            return StdioProgram(command_line(self.stdio, self.folder), briefing, log=log.append)
+        if self.command:
+            return BusProgram(command_line(self.command), briefing, log)
+        return load_brain(self.brain, briefing, self.folder)
 
 
 @dataclass(slots=True)
@@ -105,5 +111,5 @@ class CheckedRobot:
 
     def close(self) -> None:
         """End the program, if it is one."""
-        if isinstance(self.brain, StdioProgram):
+        if isinstance(self.brain, StdioProgram | BusProgram):
             self.brain.close()

@@ -1,6 +1,7 @@
 """`touchline check`: whether a brain or a program keeps the contract of a robot."""
 
 import json as json_text
+import shlex
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
@@ -14,6 +15,9 @@ from touchline.cli import options
 def check(
     brain: Annotated[str | None, typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots.")] = None,
     stdio: options.StdioProgram = None,
+    command: Annotated[
+        str | None, typer.Option(help="Program that speaks the protocol over Zenoh, in place of a brain.")
+    ] = None,
     match: Annotated[
         Path | None, typer.Option(help="Match file with robots, profile and rules; by default five a side.")
     ] = None,
@@ -27,6 +31,7 @@ def check(
 
     Example: touchline check my_team:Striker
     """
+    from robot_agent.stdio.command_line import check_command_line
     from schemas.config.match_config import load_match
     from touchline.check.checks import CHECKS, run_checks
     from touchline.check.examination import Examination
@@ -36,13 +41,16 @@ def check(
         for row in CHECKS:
             typer.echo(f"{row.name:<12} {row.does}")
         return
-    if (brain is None) == (stdio is None):
-        raise TouchlineError('name the brain, module:Class, or give --stdio "program argument"')
+    if [brain, stdio, command].count(None) != 2:
+        raise TouchlineError('name the brain, module:Class, or give --stdio "program argument" or --command')
+    if command is not None:
+        check_command_line("--command", shlex.split(command))
     overrides = {"teams.cyan.remote": True}  # the team of the file is not that which is checked
     subject = Subject(
         config=load_match(match, overrides),
         brain=brain or "",
         stdio=options.program_of(stdio),
+        command=shlex.split(command or ""),
         folder=match.parent if match is not None else None,
     )
     if not subject.robots:

@@ -62,6 +62,11 @@ def test_each_shipped_team_is_known_by_its_name() -> None:
         brain_of("simpel")
 
 
+def test_a_team_of_lines_plays_a_series() -> None:
+    config = load_match(None, {"teams.cyan.stdio": ["node", "robot.js"]})
+    assert [match.config.seed for match in plan_series(config, [1, 2]).matches] == [1, 2]
+
+
 def test_a_brain_replaces_the_program_of_the_file_and_its_robots_stay() -> None:
     config = load_match(None, {"teams.cyan": {"command": ["./robot"], "size": 3}, "teams.magenta": "remote"})
     changed = with_brains(config, {Side.CYAN: "a:B", Side.MAGENTA: "c:D"})
