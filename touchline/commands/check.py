@@ -14,7 +14,8 @@ from touchline.cli import options
 
 def check(
     brain: Annotated[
-        str | None, typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots, or a shipped team by name.")
+        str | None,
+        typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots, or a shipped team by name."),
     ] = None,
     stdio: options.StdioProgram = None,
     command: Annotated[
