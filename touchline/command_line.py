@@ -15,6 +15,7 @@ from touchline.commands import (
     credentials,
     diff,
     doctor,
+    drill,
     drive,
     export,
     filter,
@@ -79,6 +80,7 @@ PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
 app.command("series", rich_help_panel=PLAY)(series.series)
+app.command("drill", rich_help_panel=PLAY)(drill.drill)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
 app.command("check", rich_help_panel=PLAY)(check.check)
 

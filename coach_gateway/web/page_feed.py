@@ -88,7 +88,7 @@ class PageFeed:
         return self._world is not None
 
     def frame(self, beliefs: Iterable[Side], debug: Iterable[Side]) -> str | None:
-        """The newest tick with the beliefs and the drawings of robots of these sides; None before the setup is known."""
+        """The newest tick with beliefs and drawings of robots of these sides; None before the setup is known."""
         if self._world is None or self.setup is None:
             return None
         tick, time = self._world.tick, round(self._world.time, 3)

@@ -44,8 +44,8 @@ DebugColour = Annotated[
         description=f"#rrggbb, or one of {', '.join(COLOURS)}",
     ),
 ]
-Coordinate = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "m"})]
-Radius = Annotated[float, Meta(gt=0, le=1000, extra={"unit": "m"})]
+Coordinate = Annotated[float, Meta(ge=-100, le=100, extra={"unit": "m"})]
+Radius = Annotated[float, Meta(gt=0, le=100, extra={"unit": "m"})]
 ValueName = Annotated[str, Meta(min_length=1, max_length=40)]
 
 

@@ -236,6 +236,14 @@ def flood_of_orders(session: zenoh.Session, prefix: str, until: float) -> None:
             session.put(f"{prefix}record/recorder/progress", PROGRESS)
 
 
+def flood_of_drives(session: zenoh.Session, prefix: str, until: float) -> None:
+    """Small messages on the keys of manual control, as fast as they can be sent."""
+    while time.monotonic() < until:
+        for _ in range(500):
+            session.put(f"{prefix}robot/cyan1/manual", b"{}")
+            session.put(f"{prefix}robot/magenta1/manual", b"{}")
+
+
 def huge_message(session: zenoh.Session, prefix: str, until: float) -> None:
     """One message of 500 MB."""
     payload = b"\0" * 500_000_000
@@ -349,12 +357,14 @@ ATTACKS: dict[str, Attack] = {
     "setup_queries": _queries("host/setup", b'{"version":"2.0"}'),
     "parameter_queries": _queries("host/parameters", b'{"version":"2.0","operation":"list"}'),
     "scene_queries": _queries("host/scene", b'{"version":"2.0","operation":"list"}'),
+    "action_queries": _queries("game/action", b"{}"),
     "histories": histories,
     "subscriptions": subscriptions,
     "fake_batches": fake_batches,
     "flood": flood,
     "flood_of_names": flood_of_names,
     "flood_of_orders": flood_of_orders,
+    "flood_of_drives": flood_of_drives,
     "huge_message": huge_message,
     "false_times": false_times,
     "malformed": malformed,

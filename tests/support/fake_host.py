@@ -150,7 +150,7 @@ class FakeHost:
         self.put(BELIEF, belief, side=side.value, robot=robot)
 
     def play(self, tick: int) -> None:
-        """Publish game, health, beliefs, drawings and the world of one tick; a reader of this world has the others already."""
+        """Publish game, health, beliefs, drawings and the world of one tick; a reader of this world has the rest."""
         at: dict[str, Any] = {"tick": tick, "time": tick * 0.02}
         self.put(STATE, GameState(**at, phase=Phase.PLAY))
         self.put(HEALTH, Health(**at, pace="realtime", real_time_factor=1.0))

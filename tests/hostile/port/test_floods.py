@@ -5,9 +5,29 @@ import pytest
 from schemas.access.accounts import Account
 from schemas.game import EventKind
 from schemas.messages.health import ConnectionHealth
+from support.process_story import SHORT_LIMIT
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(180)]
 
+MEMORY_MB = 100
+FLOODS = [
+    (Account.CYAN_COACH, "flood_of_orders"),
+    (Account.CYAN_COACH, "flood_of_drives"),
+    (Account.OPERATOR, "flood_of_orders"),
+    (Account.OPERATOR, "flood_of_drives"),
+    (Account.OPERATOR, "scene_queries"),
+    (Account.OPERATOR, "parameter_queries"),
+    (Account.REFEREE, "action_queries"),
+    (Account.RECORDER, "flood_of_orders"),
+    (Account.RECORDER, "fake_batches"),
+    (Account.RECORDER, "histories"),
+    (Account.VIEWER, "setup_queries"),
+    (Account.VIEWER, "subscriptions"),
+    (Account.VIEWER, "deaf_readers"),
+    (Account.MAGENTA, "huge_message"),
+    (Account.MAGENTA, "malformed"),
+]
+"""Accounts, and floods on keys that they may write or read."""
 NONE = ConnectionHealth()
 ALL = ("cyan1", "cyan2", "magenta1")
 
@@ -38,6 +58,19 @@ def test_the_connection_that_floods_is_closed_and_its_team_and_the_other_play_on
     assert "magenta1 left" not in target.host.err
     assert "cyan2 left" not in target.host.err
     attacker.end()
+
+
+@pytest.mark.parametrize(("account", "name"), FLOODS)
+def test_a_flood_of_any_account_on_keys_that_it_may_use_leaves_the_match_to_the_others(guarded_target, account, name):
+    target = guarded_target
+    memory = target.memory_mb()
+    attacker = target.attack(name, 1.0, account)
+    attacker.popen.wait(SHORT_LIMIT)
+    assert attacker.popen.returncode == 0, attacker.err
+    play_on(target, ["cyan1", "cyan2", *(["magenta1"] if account is not Account.MAGENTA else [])])
+    assert target.host.popen.poll() is None, target.host.err
+    assert "Traceback" not in target.host.err
+    assert target.memory_mb() - memory < MEMORY_MB
 
 
 def test_a_flood_that_comes_back_as_a_new_client_each_time_is_refused_most_of_the_time(guarded_target):

@@ -9,10 +9,10 @@ SHAPES = [(2.0, 5.0), (6.0, -3.0), (7.5, 2.0), (2.0, -6.0)]
 
 RED = """([x, y]) => {
     const { projection } = window.touchline.pitchCanvas, canvas = document.getElementById("moving");
-    const left = Math.round(projection.x(x) * projection.density), top = Math.round(projection.y(y) * projection.density);
+    const [left, top] = [projection.x(x), projection.y(y)].map((at) => Math.round(at * projection.density));
     const { data } = canvas.getContext("2d").getImageData(left - 4, top - 4, 9, 9);
-    for (let at = 0; at < data.length; at += 4) if (data[at] > 240 && data[at + 1] < 30 && data[at + 3] > 200) return true;
-    return false;
+    const isRed = (at) => data[at] > 240 && data[at + 1] < 30 && data[at + 3] > 200;
+    return [...Array(81).keys()].some((pixel) => isRed(4 * pixel));
 }"""
 
 
