@@ -233,7 +233,7 @@ def client_processes(plan: MatchPlan) -> list[Process]:
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
     confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
-    for side in (side for side in Side if side not in config.remote_sides):
+    for side in config.local_sides:
         processes += [
             _robot_of(robot, side, plan, confinements[side].in_folder(folder / robot)) for robot in config.robots(side)
         ]
@@ -256,25 +256,35 @@ def page_process(settings: GatewaySettings, listener: socket.socket, folder: Pat
 def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
     """The process of one robot of a match."""
     team = plan.config.team(side)
-    credentials = plan.credentials_of(Account.of_team(side))
-    if credentials is not None:
-        confinement = replace(confinement, credentials=credentials.absolute())
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
-        credentials=confinement.readable_credentials,
+        credentials=plan.credentials_of(Account.of_team(side)),
         robot=robot,
         brain=team.brain or "",
         brain_folder=plan.brain_folder,
-        launch_folder=Path.cwd(),
         launch_token=plan.launch_token,
     )
-    command = program_command(team.command) if team.command else None
-    return replace(robot_process(settings, side, command, plan.folder), confinement=confinement)
+    return robot_process(settings, side, team.command, plan.folder, confinement)
 
 
-def robot_process(settings: AgentSettings, side: Side, command: Sequence[str] | None, folder: Path) -> Process:
-    """A robot's brain, or its team's own program, which reads what the settings say from its environment."""
+def robot_process(
+    settings: AgentSettings, side: Side, command: list[str] | None, folder: Path, confinement: Confinement
+) -> Process:
+    """A robot's brain, or its team's own program, which reads what the settings say from its environment.
+
+    Paths of the settings are valid from the working folder of the confinement.
+    """
+    if settings.credentials is not None:
+        confinement = replace(confinement, credentials=settings.credentials.absolute())
+    found = {"credentials": confinement.readable_credentials, "launch_folder": settings.launch_folder or Path.cwd()}
+    process = _robot_process(
+        settings.model_copy(update=found), side, program_command(command) if command else None, folder
+    )
+    return replace(process, confinement=confinement)
+
+
+def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str] | None, folder: Path) -> Process:
     credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
     environment = {
         **ROBOT_ENVIRONMENT,
