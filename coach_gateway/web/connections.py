@@ -18,6 +18,8 @@ MOST_WAITING = 400
 """Connections that wait at the same time; a browser opens six to load the page."""
 NEW_PER_S, NEW_AT_ONCE = 100.0, 1000.0
 """New connections of one network per s of wall time, and at once: a hundred browsers load the page at the same time."""
+FLOOD_COSTS = 50.0
+"""Connections that one of its network counts for that was closed because it sent too much."""
 REQUESTS_PER_S, REQUESTS_AT_ONCE = 200.0, 6000.0
 """Files for one network per s of wall time, and at once; a page has about fifty."""
 
@@ -78,6 +80,15 @@ class Connections:
         self.refusals.note(kind, connection.network, self.clock.now())
         self.remove(connection)
         connection.cut()
+
+    def note_flood(self, connection: Connection, kind: str, reason: str = "") -> None:
+        """Count a client that is being closed because it sends too much, or breaks the protocol."""
+        self.refusals.note(kind, connection.network, self.clock.now(), reason)
+        self.penalize(connection)
+
+    def penalize(self, connection: Connection) -> None:
+        """Let a network that has flooded open fewer connections: else it would be back at once."""
+        self._new.count(connection.network, self.clock.now(), FLOOD_COSTS)
 
     def is_within_limit(self, connection: Connection) -> bool:
         """Whether a network may have one more file."""
