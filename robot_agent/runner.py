@@ -3,7 +3,8 @@
 import gc
 from collections.abc import Callable
 
-from robot_agent.brain_error import BrainError
+from robot_agent.brain_error import BrainError, RobotError
+from robot_agent.brain_reload import BrainReload
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain
 from robot_agent.settings import FIRST_SIGHT_FAILED
@@ -78,7 +79,7 @@ class Runner:
         self._commands.put_payload(self._last_answer)
 
     def restart(self, brain: Brain) -> None:
-        """Start over with a new brain: the next sight is of another match, whose ticks begin at 0 again."""
+        """Start over with a new brain: the next sight is of another match or episode."""
         self.brain = brain
         self._last_tick = None
 
@@ -122,11 +123,19 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
 
 
 def serve(
-    bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float, membership: Membership | None = None
+    bus: Bus,
+    build: Callable[[Setup], Brain],
+    robot: str,
+    patience: float,
+    membership: Membership | None = None,
+    runner_class: type[Runner] = Runner,
+    reload: BrainReload | None = None,
 ) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
 
-    `membership` is the agent's, by default that of one without a launch.
+    `membership` is the agent's, by default that of one without a launch; `runner_class` runs what `build` returns.
+    `reload` builds the brain in place of `build`, and again when its code has changed between two episodes; None keeps
+    the brain.
 
     The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
 
@@ -136,10 +145,11 @@ def serve(
         TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
     """
     membership = membership or Membership(bus, robot, None)
+    build = reload.build if reload is not None else build
     setup = ask_setup(bus, patience)
     if not membership.fits(setup):
         membership.join(setup, patience)  # the host refuses it, and reports that on its side, too
-    runner = Runner(bus, build(setup), robot)
+    runner = runner_class(bus, build(setup), robot)
     host = HostWatch(bus)
     membership.join(setup, patience)
     gc.collect()
@@ -149,9 +159,12 @@ def serve(
         sight = runner.next_sight(_IDLE)
         is_new_match = host.update() or is_new_match
         if sight is not None and not is_new_match:
+            changed = reload.before(sight, setup) if reload is not None else None
+            if changed is not None:
+                runner.restart(changed)
             try:
                 runner.answer(sight)
-            except BrainError as error:
+            except RobotError as error:
                 log_line(error.report(), Level.ERROR, tick=sight.tick)
                 return 1 if runner.answered else FIRST_SIGHT_FAILED
         elif host.is_reachable():

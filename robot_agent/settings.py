@@ -19,12 +19,18 @@ class AgentSettings(ClientSettings, LogSettings):
 
     robot: Annotated[Name, CommandLine(environment="TOUCHLINE_ROBOT")]
     """Name of the robot: cyan1, magenta3, …"""
-    brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")]
+    brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")] = ""
     """module:Class, or module:function of a plain act(sight)."""
+    stdio: list[str] = Field(default_factory=list)
+    """Command line of a program that reads sights and writes commands as lines of JSON, in place of a brain."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory; a match uses that of its file."""
     launch_folder: Path | None = None
     """Folder in which the module is looked for after that; by default the current directory."""
+    reload: bool = False
+    """Build the brain anew between two episodes if its code has changed."""
+    recording: Path | None = None
+    """The recording of the match, which messages on breakpoints name."""
     side: Annotated[Side | None, CommandLine(environment="TOUCHLINE_SIDE")] = None
     """The robot's side; the host refuses a robot of the other one. By default it is not checked."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None

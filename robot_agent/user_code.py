@@ -5,6 +5,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
+from types import TracebackType
 from typing import Any
 
 OWN_PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
@@ -28,7 +29,15 @@ def place_of(error: BaseException) -> str:
     """Where the brain's own code raised, or called what raised: ` (my_team.py, line 17)`."""
     frames = list(traceback.extract_tb(error.__traceback__))
     own = [frame for frame in frames if is_users(frame.filename)] or frames
-    return f" ({_shown(own[-1].filename)}, line {own[-1].lineno})" if own else ""
+    return f" ({shown_path(own[-1].filename)}, line {own[-1].lineno})" if own else ""
+
+
+def users_traceback(error: BaseException) -> TracebackType | None:
+    """The traceback of an exception from the first frame of a brain's code on; the whole one if there is none."""
+    below = error.__traceback__
+    while below is not None and not is_users(below.tb_frame.f_code.co_filename):
+        below = below.tb_next
+    return below or error.__traceback__
 
 
 def definition_of(what: Callable[..., Any]) -> str:
@@ -38,10 +47,10 @@ def definition_of(what: Callable[..., Any]) -> str:
         line = inspect.getsourcelines(what)[1]
     except (OSError, TypeError):
         return ""
-    return f" ({_shown(file)}, line {line})" if file is not None else ""
+    return f" ({shown_path(file)}, line {line})" if file is not None else ""
 
 
-def _shown(file: str) -> str:
+def shown_path(file: str) -> str:
     """The path of a file, relative to the current directory or else to the folder that it was imported from."""
     path = Path(file).resolve()
     folders = (Path.cwd(), *(Path(entry).resolve() for entry in reversed(sys.path)))

@@ -4,20 +4,25 @@ Sights and commands cross as the same bytes as on the bus; a match played here a
 lockstep from the same seed are the same, tick for tick.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
+from robot_agent.robot_code import end_robot, start_robot
+from robot_agent.user_code import definition_of
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
+from schemas.config.match_parts import TeamConfig
+from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import Score
 from schemas.messages.command import Command
 from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
+
+BrainSource = Brain | type[Brain] | str
+"""A brain, a class to be built with the robot's briefing, or `module:Class`."""
 
 
 @dataclass(slots=True)
@@ -37,37 +42,69 @@ class InProcessMatch:
     """One match laid out in one process: brains around a simulation, stepped by hand."""
 
     def __init__(
-        self, config: MatchConfig, brains: dict[str, Brain] | None = None, brain_folder: Path | None = None
+        self, config: MatchConfig, brains: Mapping[str, BrainSource] | None = None, brain_folder: Path | None = None
     ) -> None:
         """Brains by robot; the others are those of the match file, looked for in `brain_folder` first.
 
         Raises:
-            TouchlineError: a brain cannot be loaded.
+            TouchlineError: a brain cannot be loaded, or is for a robot that is not in the match.
         """
+        self.acting: str | None = None
+        """The robot whose brain acts; after an exception, the robot whose brain raised it."""
+        self.commands: dict[str, Command] = {}
+        """Robot → its newest command; empty before the first."""
         self.simulation = Simulation(config)
         setup = self.simulation.setup()
-        given = brains or {}
+        self._given = given = brains or {}
         for robot in (robot for side in config.remote_sides for robot in config.robots(side)):
             if robot not in given:
                 raise TouchlineError(f"{robot} is of a remote team, which a match in one process lacks; give its brain")
+        teams = {name: config.team(side) for side in Side for name in config.robots(side)}
+        if unknown := next((name for name in given if name not in teams), None):
+            raise TouchlineError(f"{unknown} is no robot with a brain in this match; {did_you_mean(unknown, teams)}")
         self.brains = {
-            name: given.get(name) or load_brain(config.team(side).brain or "", Briefing.of(name, setup), brain_folder)
-            for side in Side
-            for name in config.robots(side)
+            name: _start(given.get(name, team), Briefing.of(name, setup), brain_folder) for name, team in teams.items()
         }
 
+    def close(self) -> None:
+        """Free the engine, and end the programs that were started for the match."""
+        self.simulation.close()
+        for robot, brain in self.brains.items():
+            if robot not in self._given:
+                end_robot(brain)
+
     def step(self, actions: tuple[RefereeAction, ...] = ()) -> TickResult:
-        """Let every brain answer, then one tick."""
+        """Let every brain answer, then one tick.
+
+        An exception of a brain is raised as it is, with a note that names robot and tick.
+        """
+        return self.simulation.step(self.answers(), actions)
+
+    def answers(self) -> dict[str, Command]:
+        """The commands with which the brains answer the newest sights."""
         sights = self.simulation.now.sights
-        commands = {
-            name: Command.decode(brain.act(Sight.decode(sights[name])).encode()) for name, brain in self.brains.items()
-        }
-        return self.simulation.step(commands, actions)
+        commands: dict[str, Command] = {}
+        try:
+            for name, brain in self.brains.items():
+                self.acting = name
+                commands[name] = Command.decode(_command(brain, Sight.decode(sights[name])).encode())
+        except BaseException as error:
+            error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
+            raise
+        self.acting, self.commands = None, commands
+        return commands
+
+
+def _command(brain: Brain, sight: Sight) -> Command:
+    command = brain.act(sight)
+    if not isinstance(command, Command):
+        raise TypeError(f"act returned {command!r}{definition_of(brain.act)}; return a Command")
+    return command
 
 
 def play_match(
     config: MatchConfig,
-    brains: dict[str, Brain] | None = None,
+    brains: Mapping[str, BrainSource] | None = None,
     watch: Callable[[TickResult], None] | None = None,
     until: float | None = None,
     brain_folder: Path | None = None,
@@ -82,11 +119,25 @@ def play_match(
     match = InProcessMatch(config, brains, brain_folder)
     simulation = match.simulation
     events: list[GameEvent] = []
-    while not simulation.over and (until is None or simulation.now.time < until):
-        tick = match.step()
-        events.extend(tick.events)
-        if watch is not None:
-            watch(tick)
-    now, state = simulation.now, simulation.state
-    simulation.close()
+    try:
+        while not simulation.over and (until is None or simulation.now.time < until):
+            tick = match.step()
+            events.extend(tick.events)
+            if watch is not None:
+                watch(tick)
+        now, state = simulation.now, simulation.state
+    finally:
+        match.close()
     return MatchOutcome(state.score, now.tick, now.time, now.applied["chain"], events)
+
+
+def _start(source: BrainSource | TeamConfig, briefing: Briefing, brain_folder: Path | None) -> Brain:
+    """The brain of a robot, or its running program."""
+    if isinstance(source, TeamConfig):
+        return start_robot(source.brain or "", source.stdio, briefing, brain_folder)
+    if isinstance(source, str):
+        return start_robot(source, None, briefing, brain_folder)
+    if not isinstance(source, type):
+        return source
+    build: Callable[[Briefing], Brain] = source
+    return build(briefing)

@@ -22,6 +22,7 @@ from robot_agent.skills.search import search_place
 from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.skills.take_ball import take_ball
 from robot_agent.skills.turn_to import turn_to
+from robot_agent.teams.set_piece import legal_place, stand, step_in, wait_behind
 
 __all__ = [
     "Ball",
@@ -48,6 +49,7 @@ __all__ = [
     "keep_out",
     "kick_at",
     "lane_width",
+    "legal_place",
     "let_go",
     "line_up",
     "meet",
@@ -55,7 +57,10 @@ __all__ = [
     "pass_to",
     "receive",
     "search_place",
+    "stand",
+    "step_in",
     "take_ball",
     "turn_to",
+    "wait_behind",
     "way_of",
 ]

@@ -9,7 +9,7 @@ from recordings.reading.recording import Recording
 from recordings.reading.split_cursor import SplitCursor
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
 from recordings.replay.player import PlaybackRange, Player
-from recordings.replay.seek_targets import SeekTarget, seek_targets_of, time_of
+from recordings.replay.seek_targets import SeekTarget, seek_targets_of, time_in
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.game import GameEvent
 from schemas.process.clock import Clock
@@ -22,7 +22,7 @@ class ReplaySettings:
 
     file: Path
     start: str | None = None
-    """Seconds or an event; None for the beginning."""
+    """Seconds, a tick or an event; None for the beginning."""
     end: str | None = None
     rate: float | None = 1.0
     """Simulated seconds per wall second; None for as fast as possible."""
@@ -56,12 +56,12 @@ class Replay:
         self.span = self._span()
 
     def time_of(self, target: str) -> float:
-        """The simulated time in s of a seek target, `12.5` or `goal:2`.
+        """The simulated time in s of a seek target, `12.5`, `tick:625` or `goal:2`.
 
         Raises:
             TouchlineError: the recording does not have this target.
         """
-        return time_of(target, self.seek_targets() if not _is_number(target) else [])
+        return time_in(target, *self.cursor.recordings)
 
     def seek_targets(self) -> list[SeekTarget]:
         """All events and phases to seek to, as far as they have been written.
@@ -116,14 +116,6 @@ class Replay:
 def extent_text(start_ns: int, end_ns: int) -> str:
     """An extent as text."""
     return f"the recording, {start_ns / 1e9:.2f} to {end_ns / 1e9:.2f} s"
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _check(selection: KeySelection, keys: Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""Targets that a replay can seek to: seconds of simulated time, or an event, `goal:2`, `kick_off:1-5`."""
+"""Targets that a replay can seek to: seconds of simulated time, a tick, `tick:812`, or an event, `kick_off:1-5`."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -10,6 +10,7 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import EventKind, Phase
 from schemas.topics import EVENT, STATE
 
+_TICK = re.compile(r"tick:(\d+)")
 _EVENT = re.compile(r"([a-z][a-z_]*)(?::(-?\d+))?([+-]\d+(?:\.\d+)?)?")
 
 
@@ -46,22 +47,40 @@ def _phases(recordings: Sequence[Recording]) -> Iterator[SeekTarget]:
         phase = state.phase
 
 
-def time_of(text: str, targets: list[SeekTarget]) -> float:
-    """The simulated time in s of a target: a number, or `NAME[:COUNT][±SECONDS]`.
+def time_in(text: str, *recordings: Recording) -> float:
+    """The simulated time in s of a target in the files of one recording; see `time_of`.
 
-    `goal:2` is the second goal, `goal:-1` the last, `goal:2-5` five seconds before the second.
+    Raises:
+        TouchlineError: the recording does not have this target.
+    """
+    setup = recordings[0].manifest.setup
+    tick_s = setup.time.tick if setup is not None else None
+    needs_events = not _TICK.fullmatch(text.strip()) and not _is_number(text)
+    return time_of(text, seek_targets_of(*recordings) if needs_events else [], tick_s)
+
+
+def time_of(text: str, targets: list[SeekTarget], tick_s: float | None = None) -> float:
+    """The simulated time in s of a target: a number, `tick:812`, or `NAME[:COUNT][±SECONDS]`.
+
+    `goal:2` is the second goal, `goal:-1` the last, `goal:2-5` five seconds before the second. `tick_s` is the length
+    of a tick in s; None where the recording does not have it.
 
     Raises:
         TouchlineError: neither a number nor an event, or an event that did not happen that often.
     """
-    try:
+    if _is_number(text):
         return float(text)
-    except ValueError:
-        found = _EVENT.fullmatch(text.strip())
+    tick = _TICK.fullmatch(text.strip())
+    if tick is not None:
+        if tick_s is None:
+            raise TouchlineError(f'"{text}": the recording lacks the setup with the length of a tick; give seconds')
+        return int(tick[1]) * tick_s
+    found = _EVENT.fullmatch(text.strip())
     names = [*EventKind, *Phase]
     if found is None:
         raise TouchlineError(
-            f'"{text}" is no time and no event; give seconds, or an event as in goal:2 or kick_off:1-5'
+            f'"{text}" is no time and no event; give seconds, a tick as in tick:500, or an event as in goal:2 or '
+            "kick_off:1-5"
         )
     name, number, shift = found[1], int(found[2] or 1), float(found[3] or 0.0)
     if name not in names:
@@ -72,3 +91,11 @@ def time_of(text: str, targets: list[SeekTarget]) -> float:
         count = f"{name} happened {len(times)} times" if times else f"there is no {name}"
         raise TouchlineError(f'"{text}" is not in this recording: {count}; it has {", ".join(happened) or "no events"}')
     return times[number - 1 if number > 0 else number] + shift
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

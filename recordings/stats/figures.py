@@ -7,6 +7,7 @@ from typing import Any
 
 from recordings.container.lineup import Lineup
 from recordings.stats.ball_control import BallControl
+from recordings.stats.crowding import Crowding
 from recordings.stats.dribbles import DribbleStats, DribbleTracker
 from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickRecord
 from recordings.stats.momentum import Momentum
@@ -97,10 +98,14 @@ class RobotFigures:
     side: str | None
     keeper: bool
     distance: float
+    clock_distance: float
+    """The part of it while the game clock ran."""
     in_play_distance: float
     top_speed: float
     mean_speed: float | None
     """While the ball was in play."""
+    longest_stuck_s: float
+    """Longest time for which it moved much slower than commanded, beyond the time after which the host reports that."""
     with_ball_s: float | None
     kicks: KickCounts | None
     saves: int | None
@@ -125,6 +130,10 @@ class MatchFigures:
     """Fraction of the duration."""
     free_s: float | None
     """Time for which the ball was in play and neither side was in control."""
+    crowded_s: float | None
+    """Time for which three or more robots were within 1 m of the ball in play."""
+    longest_crowd_s: float | None
+    """The longest such time without an interruption."""
     drop_balls: int
     sides: dict[Side, SideFigures]
     robots: list[RobotFigures]
@@ -154,6 +163,7 @@ def figures_of(
     last: float,
     coverage: Coverage,
     control: BallControl,
+    crowding: Crowding,
     motions: MotionTracker,
     dribbles: DribbleTracker,
     kicks: list[KickRecord],
@@ -171,6 +181,8 @@ def figures_of(
         in_play_s=in_play,
         in_play=in_play / duration if in_play is not None and duration > 0 else None,
         free_s=max(0.0, in_play - controlled) if in_play is not None and builder.knows_ball else None,
+        crowded_s=crowding.seconds if coverage.states else None,
+        longest_crowd_s=crowding.longest if coverage.states else None,
         drop_balls=sum(count for (side, _), count in calls.restarts.items() if side is None),
         sides={
             side: builder.side(side, setup.teams[side].name if side in setup.teams else side.value) for side in Side
@@ -246,9 +258,11 @@ class _FigureBuilder:
             side=side.value if side is not None else None,
             keeper=self.lineup.is_keeper(name),
             distance=motion.distance,
+            clock_distance=motion.clock_distance,
             in_play_distance=motion.in_play_distance,
             top_speed=motion.top_speed,
             mean_speed=motion.mean_speed if motion.in_play > 0 else None,
+            longest_stuck_s=motion.longest_stuck,
             with_ball_s=self.control.with_ball.get(name, 0.0) if held else None,
             kicks=self._kicks([kick_record for kick_record in self.kicks if kick_record.robot == name]),
             saves=self._saves([name]),

@@ -5,6 +5,7 @@ from typing import Any, Protocol
 
 from recordings.reading.recording import Recording
 from recordings.stats.ball_control import BallControl
+from recordings.stats.crowding import Crowding
 from recordings.stats.dribbles import DribbleTracker
 from recordings.stats.figures import Coverage, MatchFigures, figures_of
 from recordings.stats.kicks import KickTracker
@@ -80,12 +81,14 @@ class MatchStatistics:
         """`start` and `end` are in s of simulated time."""
         self._setup = setup
         self._control = BallControl()
+        self._crowding = Crowding()
         self._motions = MotionTracker()
         self._dribbles = DribbleTracker()
         self._kicks = KickTracker(setup)
         self._calls = RefereeCalls()
         self._observers: tuple[TickObserver, ...] = (
             self._control,
+            self._crowding,
             self._motions,
             self._dribbles,
             self._kicks,
@@ -139,6 +142,7 @@ class MatchStatistics:
             last=self._last.world.time,
             coverage=coverage,
             control=self._control,
+            crowding=self._crowding,
             motions=self._motions,
             dribbles=self._dribbles,
             kicks=self._kicks.kicks,

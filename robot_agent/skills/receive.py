@@ -4,7 +4,7 @@ import math
 
 from robot_agent.bodies import Ball, DriveLimits, Moving
 from robot_agent.skills.go_to import drive, velocity_to
-from robot_agent.skills.turn_to import turn_rate
+from robot_agent.skills.turn_to import turn_rate, turn_to
 from schemas.messages.command import Drive
 
 COMES = 0.5
@@ -18,8 +18,10 @@ def comes(me: Moving, ball: Ball) -> bool:
 
 
 def receive(me: Moving, ball: Ball, limits: DriveLimits) -> Drive:
-    """Go to the nearest point of a coming ball's path, and face the ball."""
+    """Go to the nearest point of a coming ball's path, and face the ball; a ball at rest is only faced."""
     speed = math.hypot(ball.vx, ball.vy)
+    if speed == 0.0:
+        return turn_to(me, math.atan2(ball.y - me.y, ball.x - me.x), limits)
     ux, uy = ball.vx / speed, ball.vy / speed
     along = (me.x - ball.x) * ux + (me.y - ball.y) * uy
     vx, vy = velocity_to(me, ball.x + along * ux, ball.y + along * uy, limits)

@@ -5,6 +5,7 @@ import math
 from robot_agent.fair_play import RuleLimits
 from robot_agent.skills.keep_out import Area
 from robot_agent.world_model import WorldBelief
+from schemas.game import TeamPhase
 
 LEAVES_BEFORE = 2.0
 """s before its time is up, when a robot leaves."""
@@ -54,6 +55,13 @@ class AreaTurn:
 
     def _has(self, belief: WorldBelief, x: float, y: float) -> bool:
         return self._area.has(_end(belief), x, y)
+
+
+def leaves(belief: WorldBelief, areas: Area) -> bool:
+    """Whether a robot is in an area on its way to a place of a restart, which is outside: its own way leads out."""
+    game, me = belief.game, belief.me
+    takes_place = game.phase.ours or game.phase.theirs or game.phase is TeamPhase.DROP_BALL
+    return takes_place and not game.running and areas.has(_end(belief), me.x, me.y)
 
 
 def _end(belief: WorldBelief) -> float:

@@ -15,7 +15,8 @@ from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
 from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
-from robot_agent.teams.area_turn import AreaTurn
+from robot_agent.teams.area_turn import AreaTurn, leaves
+from robot_agent.teams.parking import park
 from robot_agent.teams.reports import radio_message, why_refused
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
@@ -49,10 +50,6 @@ TURN_RATE = 2.5
 """rad/s of that turn."""
 PLAYS_BALL = 0.3
 """m of air between its hull and the ball up to which a robot plays the ball."""
-_PARKING_SPEED = 1.5
-"""m/s."""
-_PARKED_APART, _PARKED_ROWS = 1.5, 1.0
-"""m between two parked robots, and between two rows of them."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
 """Stands in for a ball whose place is unknown."""
 _AIR = 0.1
@@ -85,7 +82,7 @@ class Player(ABC):
         self._world = WorldModel(briefing)
         self._rule_limits = RuleLimits.of(briefing.setup)
         self._counts_ways = self._rule_limits.counts_ways
-        self._rolling = Rolling.of(self.setup.ball)
+        self.rolling = Rolling.of(self.setup.ball)
         self._goal_area = Area.goal(self.setup.pitch)
         self._penalty_area = Area.penalty(self.setup.pitch)
         self._area_turn = AreaTurn(self._rule_limits, self._penalty_area)
@@ -199,12 +196,12 @@ class Player(ABC):
         if self.is_keeper:
             return action
         drive = action.drive
-        if self._rule_limits.keeps_out:
+        if self._rule_limits.keeps_out and not leaves(belief, self._goal_area):
             drive = keep_out(belief.me, drive, self._goal_area, self.limits)
         if math.isfinite(self._rule_limits.area_robots):
             must_be_out = self._area_turn.has_to_be_out(belief, self.keeper)
             outside = keep_out(belief.me, drive, self._penalty_area, self.limits)
-            if must_be_out and outside is not drive:
+            if must_be_out and outside is not drive and not leaves(belief, self._penalty_area):
                 drive = outside
         in_test = order is not None and order.mode is CoachMode.TEST
         if self._rule_limits.spares_opponents and not in_test and not self._plays_ball(belief):
@@ -239,7 +236,8 @@ class Player(ABC):
         if phase in STILL:
             return Action("", "wait", Drive())
         if phase is TeamPhase.PARKING or (order and order.mode is CoachMode.PARK):
-            return Action("", "park", self._park(belief))
+            motion = park(belief.me, self.briefing.number, belief.others, self.setup, self.limits)
+            return Action("", "park", motion)
         if order and order.mode is CoachMode.HOLD:
             return Action("", "hold", Drive())
         return None
@@ -276,15 +274,6 @@ class Player(ABC):
         x, y = search_place(self.briefing.number, belief.game.clock, pitch)
         blocked = circles(belief.others, 2.0 * reach + _AIR)
         return Action("", "look for the ball", go_around(me, x, y, me.heading, blocked, self.limits))
-
-    def _park(self, belief: WorldBelief) -> Drive:
-        """Park at the right touch line of the own half, 1.5 m apart as in simatch, in as many rows as necessary."""
-        pitch, radius = self.setup.pitch, self.setup.robot.reach
-        row, place = divmod(self.briefing.number - 1, max(1, int((pitch.goal_line - radius) / _PARKED_APART)))
-        x = -pitch.goal_line + _PARKED_APART * (place + 1)
-        y = -pitch.touch_line + radius + 0.1 + _PARKED_ROWS * row
-        blocked = circles(belief.others, 2.0 * self.setup.robot.reach + _AIR)
-        return go_around(belief.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
 
 
 def _away(game: GameView) -> list[str]:

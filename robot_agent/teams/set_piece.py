@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.avoid import Circle, bend_speed, circles_near, go_around
 from robot_agent.skills.go_to import drive
-from robot_agent.skills.keep_off import inside, keep_off
+from robot_agent.skills.keep_off import inside, keep_off, way_around
+from robot_agent.skills.keep_out import Area
 from robot_agent.skills.line_up import line_up
 from robot_agent.skills.turn_to import turn_rate
 from schemas.config.rule_book import Restarts
@@ -36,8 +37,19 @@ def required_distance(phase: TeamPhase, restarts: Restarts) -> float:
     return restarts.teammate_distance if phase.ours else 0.0
 
 
-def legal_place(x: float, y: float, game: GameView, spot: tuple[float, float], setup: Setup) -> tuple[float, float]:
-    """The nearest place to the wanted one where a robot that does not take the restart may stand."""
+def legal_place(
+    x: float,
+    y: float,
+    game: GameView,
+    spot: tuple[float, float],
+    setup: Setup,
+    taken: Sequence[tuple[float, float]] = (),
+) -> tuple[float, float]:
+    """The nearest place to the wanted one where a robot that does not take the restart may stand.
+
+    The distance from the ball moves no place into a penalty area, where few robots of a side may be, and none to a
+    place that is taken.
+    """
     pitch, radius, phase = setup.pitch, setup.robot.reach, game.phase
     if phase in KICK_OFFS:
         x = min(x, -radius - MARGIN)
@@ -46,7 +58,9 @@ def legal_place(x: float, y: float, game: GameView, spot: tuple[float, float], s
     distance = required_distance(phase, setup.restarts)
     if distance == 0.0:
         return inside(x, y, pitch, radius)
-    return keep_off(x, y, spot, distance + radius + MARGIN, pitch, radius)
+    areas = Area.penalty(pitch)
+    outside = None if areas.has(math.copysign(1.0, x), x, y) else areas
+    return keep_off(x, y, spot, distance + radius + MARGIN, pitch, radius, outside, taken)
 
 
 def stand(
@@ -57,6 +71,7 @@ def stand(
     others: Sequence[tuple[float, float]],
     setup: Setup,
     limits: DriveLimits,
+    taken: Sequence[tuple[float, float]] = (),
 ) -> Drive:
     """Go to a place and face the spot, around all other robots and around the circle that the rules require.
 
@@ -64,7 +79,7 @@ def stand(
     does. Before a kick-off, START waits for robots in the other half: they return past the ball, through the circle.
     """
     radius = setup.robot.reach
-    x, y = legal_place(*place, game, spot, setup)
+    x, y = legal_place(*place, game, spot, setup, taken)
     facing = math.atan2(spot[1] - me.y, spot[0] - me.x)
     blocked = circles_near(me, others, 2.0 * radius + 0.1)
     required = required_distance(game.phase, setup.restarts)
@@ -75,13 +90,11 @@ def stand(
     forbidden = required + radius + 0.5 * MARGIN
     away = max(0.01, math.hypot(me.x - spot[0], me.y - spot[1]))
     if away > forbidden:
+        x, y = way_around(me, (x, y), spot, forbidden, setup.pitch, radius, Area.penalty(setup.pitch))
         blocked.append(Circle(*spot, forbidden))
         limits = limits.capped(bend_speed(away, forbidden, limits))
     else:
-        out = (forbidden + MARGIN) / away
-        straight = inside(spot[0] + (me.x - spot[0]) * out, spot[1] + (me.y - spot[1]) * out, setup.pitch, radius)
-        if math.dist(straight, spot) > forbidden:  # otherwise the way out leads beyond the lines
-            x, y = straight
+        x, y = keep_off(me.x, me.y, spot, forbidden + MARGIN, setup.pitch, radius, Area.penalty(setup.pitch))
     return go_around(me, x, y, facing, blocked, limits)
 
 

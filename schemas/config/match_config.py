@@ -13,6 +13,7 @@ from pydantic import Field, field_validator, model_validator
 
 from schemas.config.confinement import IsolateUsers, Isolation, Limits
 from schemas.config.match_parts import (
+    PROGRAM_KINDS,
     NoiseConfig,
     OfficiatingConfig,
     Patience,
@@ -62,6 +63,8 @@ REMEDIES = {
     "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
     "teams.cyan.brain": 'write "module:Class"',
     "teams.magenta.brain": 'write "module:Class"',
+    "teams.cyan.stdio": 'write ["program", "argument"]',
+    "teams.magenta.stdio": 'write ["program", "argument"]',
     "teams.cyan.types": 'write robot = "type", for example { cyan1 = "keeper" }',
     "teams.magenta.types": 'write robot = "type", for example { magenta1 = "keeper" }',
     "obstacles": "write [[obstacles]] above each obstacle",
@@ -285,8 +288,8 @@ def _drop_program(teams: Any, side: Side) -> None:
     """Leave the team's program out: a team that an option makes remote keeps the name and the robots of the file."""
     team = teams.get(side.value) if isinstance(teams, dict) else None
     if isinstance(team, dict):
-        team.pop("brain", None)
-        team.pop("command", None)
+        for kind in PROGRAM_KINDS:
+            team.pop(kind, None)
 
 
 def _validate(content: dict[str, Any], where: str) -> MatchConfig:
@@ -295,7 +298,7 @@ def _validate(content: dict[str, Any], where: str) -> MatchConfig:
         team = teams.get(side) if isinstance(teams, dict) else None
         if isinstance(teams, dict) and team == REMOTE:
             team = teams[side] = {"remote": True}
-        if isinstance(team, dict) and not {"brain", "command"} & set(team) and team.get("remote") is not True:
+        if isinstance(team, dict) and not set(PROGRAM_KINDS) & set(team) and team.get("remote") is not True:
             team["brain"] = default.brain
             team.setdefault("name", default.name)
     return validate_tables(MatchConfig, content, where, REMEDIES)

@@ -17,6 +17,10 @@ DEFAULT_SIZE = 5
 """Robots of a team that gives neither a size nor names."""
 
 
+PROGRAM_KINDS = ("brain", "command", "stdio")
+"""The keys of a team that give what moves its robots; a team has one of them."""
+
+
 class TeamConfig(Part):
     """One team of the match file: its robots and their program."""
 
@@ -26,6 +30,8 @@ class TeamConfig(Part):
     """`module:Class` of a brain in Python; each robot's process constructs one instance."""
     command: list[str] | None = None
     """Command line of a program in any language, in place of a brain; environment variables name its robot."""
+    stdio: list[str] | None = None
+    """Command line of a program that reads sights and writes commands as lines of JSON, in place of a brain."""
     remote: bool = False
     """The robots' programs are started on other machines, with `touchline team` or `touchline agent`."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
@@ -39,12 +45,18 @@ class TeamConfig(Part):
     pass_environment: list[Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$")]] = Field(default_factory=list)
     """Names of environment variables that its programs get beside the usual ones, such as CUDA_VISIBLE_DEVICES."""
 
+    @property
+    def program(self) -> list[str] | None:
+        """The command line of the team's own program, of either kind; None for a brain."""
+        return self.command if self.command is not None else self.stdio
+
     @model_validator(mode="after")
-    def _check_brain_or_command(self) -> "TeamConfig":
-        if self.brain is not None and self.command is not None:
-            raise ValueError("brain and command are both given; a team has one or the other")
-        if self.remote and (self.brain or self.command) is not None:
-            raise ValueError("the team is remote, and is started elsewhere; leave brain and command out")
+    def _check_one_program(self) -> "TeamConfig":
+        given = [kind for kind in PROGRAM_KINDS if getattr(self, kind) is not None]
+        if len(given) > 1:
+            raise ValueError(f"{' and '.join(given)} are both given; a team has one or the other")
+        if self.remote and given:
+            raise ValueError(f"the team is remote, and is started elsewhere; leave {given[0]} out")
         return self
 
 

@@ -16,6 +16,9 @@ from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.log_format import VARIABLE, LogFormat
 
+NOTE = "note: "
+"""Begins a line that the launcher of the process shows to its user."""
+
 
 class Level(StrEnum):
     """How much a line matters."""
@@ -81,6 +84,11 @@ def log_line(
     )
     out.write(line.rstrip("\n") + "\n")
     out.flush()
+
+
+def log_note(subject: str, text: str, **fields: Any) -> None:
+    """Write a line that the launcher of this process shows to its user; of equal subjects it shows the first one."""
+    log_line(f"{NOTE}{subject}: {text}", Level.WARNING, **fields)
 
 
 def message_of(line: str) -> str:

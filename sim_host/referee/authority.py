@@ -62,18 +62,8 @@ def propose(draft: RulingDraft, rule: str, decision: Decision) -> None:
     """Report a decision that people may overrule; meanwhile the game goes on, and nothing else is judged."""
     proposal = Proposal(rule, decision, draft.match.proposal)
     draft.state = draft.state._replace(proposal=proposal)
-    draft.add_event(
-        EventKind.PROPOSAL,
-        rule,
-        f"proposed, decided in {proposal.left:g} s: {decision.text}",
-        side=decision.side,
-        robot=decision.robot,
-        robots=decision.robots,
-        place=decision.place,
-        measured=decision.measured,
-        limit=decision.limit,
-        unit=decision.unit,
-        card=decision.card,
+    draft.add_decision_event(
+        EventKind.PROPOSAL, rule, decision, f"proposed, decided in {proposal.left:g} s: {decision.text}"
     )
 
 

@@ -8,6 +8,7 @@ from schemas.frames import Pose
 from schemas.game import Card, EventKind, Score
 from schemas.messages.game import GameEvent
 from schemas.side import Side
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.referee_state import RefereeState, point
 from sim_host.referee.game.restart import Spot
 from sim_host.referee.match_constants import MatchConstants
@@ -63,6 +64,25 @@ class RulingDraft:
             text=text,
         )
         self.events.append(event)
+
+    def add_decision_event(
+        self, kind: EventKind, rule: str, decision: Decision, text: str, score: Score | None = None
+    ) -> None:
+        """Add an event with all facts of a decision, which was made, proposed or noted."""
+        self.add_event(
+            kind,
+            rule,
+            text,
+            side=decision.side,
+            robot=decision.robot,
+            robots=decision.robots,
+            place=decision.place,
+            score=score,
+            measured=decision.measured,
+            limit=decision.limit,
+            unit=decision.unit,
+            card=decision.card,
+        )
 
     def place_ball(self, spot: Spot) -> None:
         """Place the ball at rest before the next tick."""

@@ -16,7 +16,7 @@ from touchline.launch.check_brains import check_teams
 from touchline.play import play_match
 
 HERE = Path(__file__).parents[2]
-FILES = sorted([*HERE.glob("matches/*.toml"), *HERE.glob("examples/*.toml")])
+FILES = sorted([*HERE.glob("matches/*.toml"), *HERE.glob("examples/**/*.toml")])
 
 
 @pytest.fixture(autouse=True)
@@ -31,7 +31,7 @@ def test_every_match_file_loads_with_all_it_names(file: Path) -> None:
     config = load_match(file)
     config.load_profile()
     load_rule_book(config.rules)
-    if config.teams.cyan.command is None:
+    if config.teams.cyan.program is None:
         check_teams(config)
     assert config.name == file.stem
 
@@ -60,7 +60,7 @@ def test_every_line_of_the_friendly_that_is_left_out_may_be_put_in(root: Path, t
     assert len(optional) >= 6
     for number in optional:
         put_in = lines[number].removeprefix("# ")
-        kept = [line for line in lines if not (put_in.startswith("command") and line.startswith("brain"))]
+        kept = [line for line in lines if not (put_in.startswith(("command", "stdio")) and line.startswith("brain"))]
         kept[kept.index(lines[number])] = put_in
         if put_in.startswith("keep"):  # of several files
             kept = [line.removeprefix("# ") if line.startswith("# split_duration") else line for line in kept]

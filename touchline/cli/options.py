@@ -1,6 +1,8 @@
 """Options shared by several commands, and groups of them."""
 
 import importlib.util
+import shlex
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -8,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.web.settings import WebSettings
+from robot_agent.stdio.command_line import check_command_line, command_line
 from schemas.bus.settings import ListenSettings, check_protected
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import OfficiatingConfig
@@ -41,7 +44,26 @@ To = Annotated[float | None, typer.Option("--to", help="End, simulated s, exclus
 Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and print its address.")]
 PageOptions = Annotated[dict[str, Any], FieldsOf(WebSettings, "listen_web", port="web_port")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
+StdioProgram = Annotated[
+    str | None,
+    typer.Option(
+        metavar="COMMAND", help='Program that reads sights and writes commands as lines: "node robot.js"; no brain.'
+    ),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
+
+
+def program_of(stdio: str | None) -> list[str]:
+    """The command line of the option `--stdio`, with absolute paths; empty without one.
+
+    Raises:
+        TouchlineError: there is no such program.
+    """
+    if stdio is None:
+        return []
+    command = shlex.split(stdio)
+    check_command_line("--stdio", command)
+    return list(command_line(command))
 
 
 @dataclass(frozen=True)
@@ -96,6 +118,24 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
 
     opening_layout(config, LiveParameters.of(config), book)
     return config
+
+
+def settings_of(changes: list[str]) -> dict[str, Any]:
+    """Key of a match file → value, from texts as `radio.loss=0.2`; a value that is no TOML is text.
+
+    Raises:
+        TouchlineError: a text has no key or no value.
+    """
+    found: dict[str, Any] = {}
+    for change in changes:
+        key, sign, value = (part.strip() for part in change.partition("="))
+        if not sign or not key:
+            raise TouchlineError(f'--set is "{change}"; write a key of the match file and its value: radio.loss=0.2')
+        try:
+            found[key] = tomllib.loads(f"value = {value}")["value"]
+        except tomllib.TOMLDecodeError:
+            found[key] = value
+    return found
 
 
 def pitch_note(config: MatchConfig) -> str | None:

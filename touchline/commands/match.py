@@ -44,6 +44,9 @@ def match(
     tls: Annotated[
         bool, typer.Option("--tls", help="Encrypt all connections, with a certificate made for this match.")
     ] = False,
+    reload: Annotated[
+        bool, typer.Option("--reload", help="Build brains anew between two episodes if their code has changed.")
+    ] = False,
     web: options.Web = False,
     json: options.Json = False,
     *,
@@ -60,12 +63,13 @@ def match(
     --web serves a page to watch and command the match in a browser. --udp, --refbox and --refbox-server connect coach
     programs, league boxes and team software. With any of these the default of --pace is realtime. With --refbox the
     default of --referee is manual, because the league's box decides.
+    With --reload, brains that were edited play on from the next `touchline scene reset`.
     With --remote, or a remote team in the match file, the match waits for that team and prints how it joins.
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
     from schemas.process.clock import WallClock
-    from touchline.launch.check_brains import check_teams
+    from touchline.launch.check_brains import check_reload, check_teams
     from touchline.launch.confinement import isolation_note, team_confinements
     from touchline.launch.processes import CREDENTIALS, check_robot_names
     from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run, with_credentials
@@ -87,6 +91,8 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
+    if reload:
+        check_reload(config)
     endpoint = _endpoint(played.listening, tls=tls)
     _check_tls(played.listening, tls=tls)
     brain_folder = played.file.parent if played.file is not None else None
@@ -96,6 +102,7 @@ def match(
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
+    plan = replace(plan, reload=reload)
     plan = replace(plan, isolation_note=isolation_note(config, brain_folder, confinements))
     if played.listening.credentials is not None:
         plan = with_credentials(plan, played.listening.credentials.resolve().parent)

@@ -35,10 +35,10 @@ def replay(
     rate: Annotated[float, typer.Option(min=0.001, help="Simulated seconds per second.")] = 1.0,
     fast: Annotated[bool, typer.Option("--fast", help="Replay as fast as possible; waits for recorders.")] = False,
     start: Annotated[
-        str | None, typer.Option("--from", help="Start: seconds, or an event such as goal:2 or goal:2-5.")
+        str | None, typer.Option("--from", help="Start: seconds, tick:812, or an event such as goal:2 or goal:2-5.")
     ] = None,
     end: Annotated[
-        str | None, typer.Option("--to", help="End, inclusive: seconds, or an event such as goal:2.")
+        str | None, typer.Option("--to", help="End, inclusive: seconds, tick:812, or an event such as goal:2.")
     ] = None,
     loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
     paused: Annotated[bool, typer.Option("--paused", help="Start paused.")] = False,
@@ -61,8 +61,25 @@ def replay(
     ] = None,
     prefix: Annotated[str, typer.Option(help="Prefix of the match name, such as replay_.")] = "",
     agent: Annotated[
-        str | None, typer.Option(help="Feed a robot's sights to a brain and compare: cyan2=module:Class; no bus.")
+        str | None,
+        typer.Option(
+            help="Give a robot's sights to a brain here, and compare its commands: cyan2=module:Class; no bus."
+        ),
     ] = None,
+    brain_folder: Annotated[
+        Path | None, typer.Option(help="With --agent: look for the brain's module here first; by default only in ./.")
+    ] = None,
+    every_difference: Annotated[
+        bool, typer.Option("--every-difference", help="With --agent: go on after the first difference.")
+    ] = False,
+    pdb: Annotated[
+        bool,
+        typer.Option("--pdb", help="With --agent: stop in Python's debugger before --from, or the first difference."),
+    ] = False,
+    live: Annotated[
+        bool, typer.Option("--live", help="With --agent: simulate on from --from with this brain; no bus.")
+    ] = False,
+    out: Annotated[Path | None, typer.Option(help="With --live: the recording to write of the match.")] = None,
     web: options.Web = False,
     foxglove: Annotated[
         bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick and print its address.")
@@ -79,11 +96,34 @@ def replay(
     event, q exits. `touchline player` controls the replay from another terminal, --web from a browser, --foxglove from
     these viewers. With --web or --foxglove the replay stays at its end.
 
+    With --agent, the sights of a robot are given to a brain in this process, where print and breakpoint() work. A table
+    shows each command that differs from the recorded one, up to the first: docs/debugging.md.
+
     Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
+
+    Example: touchline replay match.mcap --agent cyan2=my_team:Striker --from tick:812 --pdb
     """
     if agent is not None:
-        _compare(file, agent, json=json)
-        return
+        from touchline.debugger.agent_replay import AgentReplay, parse_agent
+
+        on_the_bus: dict[str, object] = {"--fast": fast, "--loop": loop, "--paused": paused, "--stay": stay}
+        on_the_bus |= {"--include": include, "--exclude": exclude, "--follow": follow, "--connect": connect}
+        on_the_bus |= {
+            "--match": match,
+            "--prefix": prefix,
+            "--web": web,
+            "--foxglove": foxglove,
+            "--rate": rate != 1.0,
+        }
+        robot, brain = parse_agent(agent, on_the_bus)
+        debugged = AgentReplay(
+            file, robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
+        )
+        raise typer.Exit(debugged.run())
+    if every_difference or pdb or live or out or brain_folder:
+        raise TouchlineError(
+            "--every-difference, --pdb, --live, --out and --brain-folder need --agent, such as --agent cyan2=my:Brain"
+        )
     from recordings.container.key_selection import KeySelection
     from recordings.replay.replay import Replay, ReplaySettings
     from schemas.process.clock import WallClock
@@ -132,20 +172,6 @@ def replay(
     if json:
         fields = {**status.model_dump(include={"time", "start", "end", "messages"}), "wall_s": round(wall, 3)}
         typer.echo(json_text.dumps(fields))
-
-
-def _compare(file: Path, agent: str, *, json: bool) -> None:
-    """Print how a brain's commands differ from the recorded ones; exit status 1 if they do."""
-    robot, _, brain = agent.partition("=")
-    if not brain:
-        raise TouchlineError(f'--agent is "{agent}"; write it as cyan2=module:Class')
-    from recordings.reading.recording import open_recording
-    from touchline.verify.compare_brain import compare_brain
-
-    verdict = compare_brain(open_recording(file), robot, brain)
-    typer.echo(json_text.dumps(verdict.to_json()) if json else verdict.sentence())
-    if verdict.first is not None:
-        raise typer.Exit(1)
 
 
 def _protection(opened: "Replay", match: str, credentials: Path | None) -> "Protection | None":

@@ -15,7 +15,7 @@ from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
 
-_OWN = ("robot", "brain", "side")
+_OWN = ("robot", "brain", "stdio", "side")
 """Fields that the command fills itself."""
 _SHARED = tuple(name for name in AgentSettings.model_fields if name not in _OWN)
 
@@ -25,6 +25,7 @@ def team(
     side: options.ForSide,
     brain: Annotated[str | None, typer.Option(help="module:Class of the robots' brain.")] = None,
     command: Annotated[str | None, typer.Option(help="The team's own program, in place of a brain.")] = None,
+    stdio: options.StdioProgram = None,
     robot: Annotated[
         list[str] | None, typer.Option(help="Start this robot only; repeatable. By default all of the side.")
     ] = None,
@@ -49,13 +50,14 @@ def team(
     from touchline.launch.team_run import TeamPlan, TeamRun
     from touchline.watch.screen import screen_for
 
-    if (brain is None) == (command is None):
-        raise TouchlineError("a team has a brain or a program; give --brain module:Class, or --command")
+    if [brain, command, stdio].count(None) != 2:
+        raise TouchlineError("a team has a brain or a program; give --brain module:Class, --command or --stdio")
     if brain is not None and ":" not in brain:
         raise TouchlineError(f'--brain is "{brain}"; write it as module:Class')
-    settings = from_options(AgentSettings, robot=f"{side}1", brain=brain or "", side=side, **agent)
-    program = shlex.split(command) if command is not None else None
-    own = from_options(TeamConfig, brain=brain, command=program, **passed)
+    program = options.program_of(stdio)
+    settings = from_options(AgentSettings, robot=f"{side}1", brain=brain or "", stdio=program, side=side, **agent)
+    own_program = shlex.split(command) if command is not None else None
+    own = from_options(TeamConfig, brain=brain, command=own_program, stdio=program or None, **passed)
     isolate = Isolation(isolation.get("isolate", Isolation.NONE))
     limited = from_options(Limits, **limits)
     clock = WallClock()

@@ -5,7 +5,6 @@ Brains are built in processes of their own, one for each team, as the robots of 
 
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -16,6 +15,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from robot_agent.build_check import BuildCheckSettings
+from robot_agent.stdio.command_line import check_command_line
+from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process import leash
@@ -50,13 +51,15 @@ def check_teams(
     for side in here:
         team = config.team(side)
         if team.command is not None:
-            _check_program(f"teams.{side.value}.command", team.command)
+            check_command_line(f"teams.{side.value}.command", team.command)
+        if team.stdio is not None:
+            check_command_line(f"teams.{side.value}.stdio", team.stdio, brain_folder)
     confinements = confinements or team_confinements(config, brain_folder, RUNS)
     adopt_orphans()
     with ExitStack() as running:
         running.callback(UsageWatch().end_left_behind)
         checks = []
-        for side in (side for side in here if config.team(side).command is None):
+        for side in (side for side in here if config.team(side).program is None):
             log = running.enter_context(tempfile.TemporaryFile())
             folder = Path(running.enter_context(tempfile.TemporaryDirectory(prefix="touchline-")))
             checks.append(_BuildCheck(config, side, brain_folder, log, confinements[side].in_folder(folder)))
@@ -65,11 +68,16 @@ def check_teams(
             check.wait(report)
 
 
-def _check_program(key: str, command: list[str]) -> None:
-    if not command:
-        raise TouchlineError(f'{key} is empty; write it as ["program", "argument"]')
-    if shutil.which(command[0]) is None:
-        raise TouchlineError(f'{key} begins with "{command[0]}", which is not a program here; give its path')
+def check_reload(config: MatchConfig) -> None:
+    """Check that changed code can be loaded while this match runs.
+
+    Raises:
+        TouchlineError: no robot of this machine has a brain, or brains do not see changed files.
+    """
+    if all(config.team(side).program is not None or side in config.remote_sides for side in Side):
+        raise TouchlineError("--reload is for brains, and no team of this match has one on this machine; leave it out")
+    if config.isolate is Isolation.BUBBLEWRAP:
+        raise TouchlineError("--reload: robots in bubblewrap do not see changed files; leave one of them out")
 
 
 class _BuildCheck:

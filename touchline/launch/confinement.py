@@ -167,14 +167,6 @@ def _view(
     return tuple(visible), (*hidden, runs.absolute())
 
 
-def program_command(command: list[str]) -> tuple[str, ...]:
-    """A team's command line for another working folder: the files that it names here have absolute paths."""
-    program, *arguments = command
-    if os.sep in program:
-        program = str(Path(program).absolute())
-    return program, *(str(Path(word).absolute()) if Path(word).exists() else word for word in arguments)
-
-
 def isolation_note(config: MatchConfig, beside_match: Path | None, confinements: Mapping[Side, Confinement]) -> str:
     """What the teams of a match are not isolated from, in one sentence; empty where there is nothing to tell a user.
 

@@ -22,6 +22,7 @@ from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
+from touchline.launch.log_notes import LogNotes
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.page_probe import AddressLines
@@ -89,7 +90,7 @@ class MatchRun:
         self._remote = RemoteTeams(plan.config)
         self._match_screen = MatchScreen(plan, screen, self._remote, clock)
         self._logs: dict[str, Path] = {}
-        self._log_limit = LogLimit()
+        self._log_limit, self._log_notes = LogLimit(), LogNotes()
         self._fork_server = ForkServer()
         self._limits = RobotLimits(plan.config, clock)
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
@@ -219,6 +220,8 @@ class MatchRun:
         if stop.received is not None:
             return False  # processes that end with the same signal are no crashes
         for sentence in filter(None, map(self._log_limit.check, self._logs.values())):
+            self._screen.warn(sentence)
+        for sentence in (note for log in self._logs.values() for note in self._log_notes.update(log)):
             self._screen.warn(sentence)
         for sentence in self._limits.check():
             self._screen.warn(sentence)

@@ -20,8 +20,9 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
-from touchline.launch.confinement import Confinement, program_command, team_confinements
+from touchline.launch.confinement import Confinement, team_confinements
 from touchline.launch.python_process import PYTHON, module_path_environment
+from touchline.launch.team_code import team_program
 
 
 class ProcessKind(StrEnum):
@@ -139,6 +140,8 @@ class MatchPlan:
     """Secret by which the host knows the agents of this launch; None admits every agent."""
     confinements: Mapping[Side, Confinement] | None = None
     """How the robots of each side are confined; None to find out when they are launched."""
+    reload: bool = False
+    """Robots whose code has changed get new brains between two episodes."""
     isolation_note: str = ""
     """What the teams are not isolated from; empty for nothing to be printed."""
     credentials: Path | None = None
@@ -256,35 +259,38 @@ def page_process(settings: GatewaySettings, listener: socket.socket, folder: Pat
 def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
     """The process of one robot of a match."""
     team = plan.config.team(side)
+    program = team_program(plan.config, side, plan.brain_folder)
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
         credentials=plan.credentials_of(Account.of_team(side)),
         robot=robot,
         brain=team.brain or "",
+        stdio=list(program) if team.stdio else [],
         brain_folder=plan.brain_folder,
+        recording=plan.recording,
+        reload=plan.reload and not team.stdio,
         launch_token=plan.launch_token,
     )
-    return robot_process(settings, side, team.command, plan.folder, confinement)
+    return robot_process(settings, side, program if team.command else (), plan.folder, confinement)
 
 
 def robot_process(
-    settings: AgentSettings, side: Side, command: list[str] | None, folder: Path, confinement: Confinement
+    settings: AgentSettings, side: Side, command: Sequence[str], folder: Path, confinement: Confinement
 ) -> Process:
     """A robot's brain, or its team's own program, which reads what the settings say from its environment.
 
-    Paths of the settings are valid from the working folder of the confinement.
+    Args:
+        settings: with paths that are valid in this process's folder; the robot works in that of its confinement.
+        command: the team's own program, with absolute paths; empty for a brain.
     """
     if settings.credentials is not None:
         confinement = replace(confinement, credentials=settings.credentials.absolute())
     found = {"credentials": confinement.readable_credentials, "launch_folder": settings.launch_folder or Path.cwd()}
-    process = _robot_process(
-        settings.model_copy(update=found), side, program_command(command) if command else None, folder
-    )
-    return replace(process, confinement=confinement)
+    return replace(_robot_process(settings.model_copy(update=found), side, command, folder), confinement=confinement)
 
 
-def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str] | None, folder: Path) -> Process:
+def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str], folder: Path) -> Process:
     credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
     environment = {
         **ROBOT_ENVIRONMENT,

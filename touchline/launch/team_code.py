@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from robot_agent.brain_folders import BrainFolders
+from robot_agent.stdio.command_line import command_line
 from robot_agent.user_code import OWN_PACKAGES
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
@@ -27,9 +28,10 @@ class TeamCode(NamedTuple):
 def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> TeamCode:
     """The code of a side; a program with arguments is taken for the files that its command line names."""
     team = config.team(side)
-    if team.command is not None:
-        files = [path for path in map(_file_of, team.command[:1]) if path is not None]
-        files += [Path(word).absolute() for word in team.command[1:] if Path(word).exists()]
+    program = team_program(config, side, beside_match)
+    if program:
+        files = [path for path in map(_file_of, program[:1]) if path is not None]
+        files += [Path(word).absolute() for word in program[1:] if Path(word).exists()]
         own = tuple(file for file in files if not any(file.is_relative_to(one) for one in system_folders()))
         return TeamCode(own[-1].parent if own else None, own)
     module = (team.brain or "").partition(":")[0].split(".")
@@ -42,9 +44,18 @@ def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> Tea
     return TeamCode(None, ())
 
 
+def team_program(config: MatchConfig, side: Side, beside_match: Path | None) -> tuple[str, ...]:
+    """The command line of a side's own program, for any working folder; empty for a brain.
+
+    The files of a `command` are looked for in the current directory, those of `stdio` beside the match file, too.
+    """
+    team = config.team(side)
+    return command_line(team.program, beside_match if team.command is None else None) if team.program else ()
+
+
 def interpreter_folders(config: MatchConfig, side: Side) -> list[Path]:
     """The virtual environment of a side's program, with the folder of its Python; none for other programs."""
-    program = _file_of((config.team(side).command or [""])[0])
+    program = _file_of((config.team(side).program or [""])[0])
     if program is None or not (program.parents[1] / "pyvenv.cfg").exists():
         return []
     return [program.parents[1], program.resolve().parents[1]]

@@ -19,10 +19,12 @@ from touchline.launch.child_process import ProcessHandle
 from touchline.launch.confinement import team_confinements, team_isolation_note
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
+from touchline.launch.log_notes import LogNotes
 from touchline.launch.processes import ROBOT_ENVIRONMENT, Process, robot_process
 from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import AT_ONCE, Supervisor
+from touchline.launch.team_code import team_program
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
@@ -69,7 +71,7 @@ class TeamRun:
         member = Membership(bus, self._robots[0], plan.agent.launch_token, plan.agent.match, plan.side)
         if not member.fits(setup):
             member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
-        self._fork_server, self._log_limit = ForkServer(), LogLimit()
+        self._fork_server, self._log_limit, self._log_notes = ForkServer(), LogLimit(), LogNotes()
         self._limits = RobotLimits(self._config, clock)
         self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
 
@@ -107,8 +109,8 @@ class TeamRun:
 
     def _show(self, follower: MatchFollower) -> None:
         for robot in self._robots:
-            sentence = self._log_limit.check(self._log_of(robot))
-            if sentence:
+            log = self._log_of(robot)
+            for sentence in filter(None, (self._log_limit.check(log), *self._log_notes.update(log))):
                 self._screen.warn(sentence)
         for sentence in self._limits.check():
             self._screen.warn(sentence)
@@ -137,7 +139,8 @@ class TeamRun:
     def _process(self, robot: str) -> Process:
         agent = self._plan.agent.model_copy(update={"robot": robot, "match": self._bus.match, "side": self._plan.side})
         confinement = self._confinement.in_folder(self._plan.folder / robot)
-        return robot_process(agent, self._plan.side, self._plan.team.command, self._plan.folder, confinement)
+        program = team_program(self._config, self._plan.side, None) if self._plan.team.command else ()
+        return robot_process(agent, self._plan.side, program, self._plan.folder, confinement)
 
     def _log_of(self, robot: str) -> Path:
         return self._plan.folder / f"{robot}.log"

@@ -1,19 +1,38 @@
 """Compares a brain with a recording: feeds it a robot's sights and compares its commands with the recorded ones."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+import math
+import sys
+from bdb import BdbQuit
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import asdict, dataclass, field
+from io import TextIOBase
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from recordings.reading.recording import Recording
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
+from robot_agent.user_code import place_of
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
-from schemas.topics import COMMAND, SIGHT
+from schemas.topics import SIGHT
+from touchline.verify.command_difference import FieldDifference, differences
+from touchline.verify.repeated_match import commands_of
 
 if TYPE_CHECKING:
     from touchline.verify.regenerate_sights import RegeneratedSights
+
+Act = Callable[[Brain, Sight], Command]
+"""A way to call a brain."""
+EPSILON_S = 1e-6
+"""Far below a tick: simulated times are products of ticks, and are typed with few decimals."""
+
+
+def plainly(brain: Brain, sight: Sight) -> Command:
+    """Call a brain as a robot's process does."""
+    return brain.act(sight)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +55,10 @@ class BrainComparison:
     brain: str
     sights: str
     """Source of the sights: `recorded`, or `simulated` if the match was simulated again."""
+    earlier: int
+    """Number of sights before the compared ones, which the brain received for its state."""
     compared: int
-    """Number of sights that the robot answered and the brain received."""
+    """Number of sights that the robot answered and the brain received, up to the end of the comparison."""
     different: int
     fields: dict[str, int]
     """Field of a command → number of differences."""
@@ -51,29 +72,57 @@ class BrainComparison:
 
     def sentence(self) -> str:
         """The verdict as one line."""
-        extent = f"{self.compared} {self.sights} sights of {self.robot}" + (
-            f", until {self.until}" if self.until else ""
+        extent = f"{self.compared} commands of {self.robot} ({self.sights} sights" + (
+            f", until {self.until})" if self.until else ")"
         )
         if self.first is None:
-            return f"identical: {self.brain} answers {extent} as recorded"
-        first = self.first
-        often = ", ".join(f"{name} {count}" for name, count in self.fields.items())
+            return f"identical: {self.brain} gives all {extent} as recorded"
+        first, equal = self.first, self.compared - self.different
+        often = ", ".join(f"{name} {count}" for name, count in self.fields.items()) if self.different > 1 else ""
         return (
-            f"{self.brain} differs in {self.different} of {extent}; first at tick {first.tick} ({first.time:.2f} s): "
-            f"{first.field} is {first.answered!r}, recorded {first.recorded!r}; {often}"
+            f"{self.brain}: {equal} of {extent} equal; first difference at tick {first.tick} ({first.time:.2f} s)"
+            f"{'; ' if often else ''}{often}"
         )
 
 
-def commands_of(recording: Recording) -> dict[str, dict[int, Command]]:
-    """Robot → tick of the sight → the robot's command; of two for one sight the first, which the host applied."""
-    commands: dict[str, dict[int, Command]] = {}
-    for recorded, command in recording.decoded(COMMAND.fill()):
-        commands.setdefault(recorded.key.split("/")[1], {}).setdefault(command.answers_tick, command)
-    return commands
+@dataclass(frozen=True, slots=True)
+class ComparisonSettings:
+    """What is compared, and how the brain is called."""
+
+    start: float = 0.0
+    """Simulated time of the first sight, in s; the brain receives earlier ones for its state, without its output."""
+    end: float = math.inf
+    """Simulated time of the last sight, in s."""
+    first_only: bool = False
+    """End with the first difference."""
+    act: Act = plainly
+    """Calls the brain with a sight that is compared."""
+    show: Callable[[Sight, list[FieldDifference]], None] = lambda _sight, _found: None
+    """Receives each command that differs."""
+    brain_folder: Path | None = None
+    """Folder in which the brain's module is looked for before the current directory."""
 
 
-def compare_brain(recording: Recording, robot: str, spec: str) -> BrainComparison:
-    """Feed a brain every sight that the robot answered, in order, and compare the commands.
+@dataclass(slots=True)
+class _Counts:
+    earlier: int = 0
+    compared: int = 0
+    different: int = 0
+    first: FirstDifference | None = None
+    fields: dict[str, int] = field(default_factory=dict)
+
+    def add(self, sight: Sight, found: list[FieldDifference]) -> None:
+        self.compared += 1
+        self.different += bool(found)
+        for name, before, now in found:
+            self.fields[name] = self.fields.get(name, 0) + 1
+            self.first = self.first or FirstDifference(sight.tick, sight.time, name, before, now)
+
+
+def compare_brain(
+    recording: Recording, robot: str, spec: str, settings: ComparisonSettings | None = None
+) -> BrainComparison:
+    """Feed a new brain the sights that the robot answered, in order, and compare the commands.
 
     Raises:
         TouchlineError: the robot or brain does not exist, or the recording cannot provide sights.
@@ -82,63 +131,103 @@ def compare_brain(recording: Recording, robot: str, spec: str) -> BrainCompariso
     setup = recording.manifest.setup
     if setup is None:
         raise TouchlineError(f"{recording.path}: the recording lacks the setup of its match")
-    brain = load_brain(spec, Briefing.of(robot, setup))
+    settings = settings or ComparisonSettings()
+    brain = load_brain(spec, Briefing.of(robot, setup), settings.brain_folder)
     commands = commands_of(recording)
     if not commands.get(robot):
         raise TouchlineError(f"{recording.path}: no commands of {robot} are recorded; name a robot that played")
     key = SIGHT.fill(robot=robot)
+    regenerated: RegeneratedSights | None = None
+    sights: Iterable[Sight]
     if any(channel.key == key and channel.messages for channel in recording.channels):
-        recorded = (sight for _, sight in recording.decoded(key))
-        return _compared(brain, spec, robot, recorded, "recorded", commands[robot], None)
-    from touchline.verify.regenerate_sights import RegeneratedSights  # needs PyBullet, which recorded sights do not
-
-    regenerated = RegeneratedSights(recording, robot, commands)
-    return _compared(brain, spec, robot, regenerated, "simulated", commands[robot], regenerated)
-
-
-def _compared(
-    brain: Brain,
-    spec: str,
-    robot: str,
-    sights: Iterable[Sight],
-    origin: str,
-    commands: Mapping[int, Command],
-    regenerated: "RegeneratedSights | None",
-) -> BrainComparison:
-    compared = different = 0
-    first: FirstDifference | None = None
-    fields: dict[str, int] = {}
-    shown = -1
-    for sight in sights:
-        recorded = commands.get(sight.tick)
-        if recorded is None or sight.tick <= shown:
-            continue  # the robot did not answer it, or it was sent twice
-        shown, compared = sight.tick, compared + 1
-        differences = list(_differences(recorded.plain(), _answer(brain, spec, sight).plain()))
-        different += bool(differences)
-        for name, before, now in differences:
-            fields[name] = fields.get(name, 0) + 1
-            first = first or FirstDifference(sight.tick, sight.time, name, before, now)
+        sights = (sight for _, sight in recording.decoded(key))
+    else:
+        sights = regenerated = _regenerated(recording, robot, commands)
+    counts = _compared(brain, spec, sights, commands[robot], settings)
     return BrainComparison(
-        robot, spec, origin, compared, different, fields, first, regenerated.until if regenerated is not None else ""
+        robot,
+        spec,
+        "recorded" if regenerated is None else "simulated",
+        counts.earlier,
+        counts.compared,
+        counts.different,
+        counts.fields,
+        counts.first,
+        regenerated.until if regenerated is not None else "",
     )
 
 
-def _answer(brain: Brain, spec: str, sight: Sight) -> Command:
+def _regenerated(
+    recording: Recording, robot: str, commands: Mapping[str, Mapping[int, Command]]
+) -> "RegeneratedSights":
+    from touchline.verify.regenerate_sights import RegeneratedSights  # needs PyBullet, unlike recorded sights
+
+    return RegeneratedSights(recording, robot, commands)
+
+
+def _compared(
+    brain: Brain, spec: str, sights: Iterable[Sight], commands: Mapping[int, Command], settings: ComparisonSettings
+) -> _Counts:
+    counts = _Counts()
+    answered = -1
+    for sight in sights:
+        recorded = commands.get(sight.tick)
+        if recorded is None or sight.tick <= answered:
+            continue  # the robot did not answer it, or it was sent twice
+        if sight.time > settings.end + EPSILON_S:
+            break
+        answered = sight.tick
+        if sight.time < settings.start - EPSILON_S:
+            with without_output():
+                checked_answer(spec, brain, sight)
+            counts.earlier += 1
+            continue
+        found = differences(recorded, checked_answer(spec, brain, sight, settings.act))
+        counts.add(sight, found)
+        if found:
+            settings.show(sight, found)
+            if settings.first_only:
+                break
+    return counts
+
+
+class _Nowhere(TextIOBase):
+    """A text stream that keeps nothing."""
+
+    def write(self, text: str) -> int:
+        """Discard a text."""
+        return len(text)
+
+
+_NOWHERE = _Nowhere()
+
+
+@contextmanager
+def without_output() -> Iterator[None]:
+    """Discard what a brain prints, and skip its breakpoints."""
+    hook = sys.breakpointhook
+    sys.breakpointhook = lambda *_, **__: None
     try:
-        command = brain.act(sight)
-    except Exception as error:
+        with redirect_stdout(_NOWHERE):
+            yield
+    finally:
+        sys.breakpointhook = hook
+
+
+def checked_answer(spec: str, brain: Brain, sight: Sight, act: Act = plainly) -> Command:
+    """The brain's command as the host would receive it.
+
+    Raises:
+        MatchFailedError: the brain raised, or returned no command.
+        BdbQuit: the user has quit a debugger in the brain.
+    """
+    try:
+        command = act(brain, sight)
+    except BdbQuit:
+        raise
+    except (Exception, SystemExit) as error:
         what = f"{type(error).__name__}: {' '.join(str(error).split())}"
-        raise MatchFailedError(f"{spec} raised at tick {sight.tick}: {what}") from error
+        raise MatchFailedError(f"{spec} raised at tick {sight.tick}: {what}{place_of(error)}") from error
     if not isinstance(command, Command):
         raise MatchFailedError(f"{spec} returned {command!r} at tick {sight.tick}; return a Command")
     return Command.decode(command.encode())
-
-
-def _differences(recorded: Any, answered: Any, path: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Every field that differs: its name, the recorded value, the value of the brain."""
-    if isinstance(recorded, dict) and isinstance(answered, dict):
-        for name in {**recorded, **answered}:
-            yield from _differences(recorded.get(name), answered.get(name), f"{path}.{name}".lstrip("."))
-    elif recorded != answered:
-        yield path, recorded, answered

@@ -4,7 +4,8 @@ import math
 from collections.abc import Sequence
 from itertools import product
 
-from robot_agent.skills.keep_off import inside, keep_off
+from robot_agent.skills.keep_off import APART, inside, keep_off
+from robot_agent.skills.keep_out import Area
 from robot_agent.teams.simple.roles import Role
 from schemas.config.sections import Pitch
 
@@ -30,8 +31,6 @@ FAR_AHEAD = 5.0
 """m that wings and forward are ahead of the ball."""
 FAR_WING = 0.4
 """Share of the pitch's width between its middle and a wing."""
-APART = 1.2
-"""m between two places, where the pitch has room."""
 _FAR_APART = frozenset({Role.DEFENDER, Role.LEFT, Role.RIGHT})
 """Roles whose places are apart by themselves."""
 _STEP = 0.6
@@ -42,7 +41,7 @@ _STEPS = range(-4, 5)
 
 def places(ball: Point, pitch: Pitch, inset: float, count: int) -> list[tuple[Role, Point]]:
     """The first `count` places of the formation, the most important first; all outside the penalty areas."""
-    front = pitch.goal_line - pitch.penalty_area_depth - inset
+    front, areas = pitch.goal_line - pitch.penalty_area_depth - inset, Area.penalty(pitch)
     guard = _guard(ball, pitch, front)
     wing, far_wing, half_wing = WING * pitch.width, FAR_WING * pitch.width, HALF_WING * pitch.width
     ahead, far_ahead, back = ball[0] + AHEAD, ball[0] + FAR_AHEAD, ball[0] - BACK
@@ -59,7 +58,7 @@ def places(ball: Point, pitch: Pitch, inset: float, count: int) -> list[tuple[Ro
     )
     found: list[tuple[Role, Point]] = []
     for role, (x, y) in wanted[:count]:
-        place = keep_off(max(-front, min(front, x)), y, ball, CLEAR, pitch, inset)
+        place = keep_off(max(-front, min(front, x)), y, ball, CLEAR, pitch, inset, areas)
         if role not in _FAR_APART:
             place = _apart(place, [taken for _, taken in found], ball, pitch, inset, front)
         found.append((role, place))

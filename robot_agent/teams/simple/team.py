@@ -1,6 +1,7 @@
 """One robot of the team: finds its role, and acts by role and phase."""
 
 import math
+from collections.abc import Sequence
 
 from robot_agent.bodies import Ball
 from robot_agent.contract import Briefing
@@ -10,9 +11,10 @@ from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_to
 from robot_agent.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
+from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
-from robot_agent.teams.set_piece import stand, step_in, wait_behind
+from robot_agent.teams.set_piece import legal_place, stand, step_in, wait_behind
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
 from robot_agent.teams.simple.striker import SHOT_ERROR, StrikerSituation, is_pressed, play_ball
@@ -23,8 +25,6 @@ from schemas.messages.command import Drive, Kick
 
 Point = tuple[float, float]
 
-CLEAR = "clear"
-"""Intention of a keeper that leaves its line for the ball."""
 THREAT = 0.75
 """Share of the own half, from the middle, beyond which an opponent with the ball is met by the defender, too."""
 KICK_OFF_TO = (0.8, 3.0)
@@ -87,7 +87,7 @@ class Simple(Player):
         if takers and belief.game.running and belief.game.phase is TeamPhase.OUR_PENALTY:
             striker = min(takers)  # a teammate that takes its place leaves its own before the kick, which is a foul
         else:
-            striker = striker_of(candidates, ball, self._rolling, self._gap, self.limits)
+            striker = striker_of(candidates, ball, self.rolling, self._gap, self.limits)
         if striker == me:
             return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]
@@ -123,7 +123,7 @@ class Simple(Player):
         return Action(Role.STRIKER, "get the ball", self._get(belief, ball), dribble=True)
 
     def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
-        way = way_of(ball, self._rolling)
+        way = way_of(ball, self.rolling)
         meeting = meet(belief.me, way, self._gap, self.limits)
         foes, mates = belief.opponents, places_of(belief.mates).values()
         return take_ball(belief.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
@@ -132,7 +132,10 @@ class Simple(Player):
         """Hold the role's place; the defender leaves it for an opponent with the ball."""
         if self._role is Role.DEFENDER and self._is_threat(belief, spot):
             return Action(self._role, "block", self._stand(belief, self._before_own_goal(spot), spot))
-        return Action(self._role, "hold", self._stand(belief, place, spot))
+        taken = []
+        if self._role is not Role.STRIKER and belief.game.phase.theirs:
+            taken = [legal_place(*self._before_own_goal(spot), belief.game, spot, self.setup)]
+        return Action(self._role, "hold", self._stand(belief, place, spot, taken))
 
     def _is_threat(self, belief: WorldBelief, ball: Point) -> bool:
         """Whether an opponent has the ball near our goal."""
@@ -148,8 +151,8 @@ class Simple(Player):
         away = max(math.hypot(dx, dy), 1e-6)
         return spot[0] + dx / away, spot[1] + dy / away
 
-    def _stand(self, belief: WorldBelief, place: Point, spot: Point) -> Drive:
-        return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits)
+    def _stand(self, belief: WorldBelief, place: Point, spot: Point, taken: Sequence[Point] = ()) -> Drive:
+        return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits, taken)
 
     def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Line up behind the ball, and after START kick it at once: to a teammate, or a penalty at the goal."""
@@ -187,31 +190,12 @@ class Simple(Player):
         """Guard the goal; take a slow ball near it, and play it out."""
         in_play = belief.game.phase is TeamPhase.PLAY
         if belief.holding and in_play:
-            return self._play_out(belief)
-        if in_play and self._is_mine(belief, ball):
-            return Action(Role.KEEPER, CLEAR, self._get(belief, ball), dribble=True)
+            action, self._receiver = play_out(belief, self._receiver, self.setup, self.limits)
+            return action._replace(role=Role.KEEPER)
+        if in_play and is_keepers_ball(belief, ball, self.setup):
+            return Action(Role.KEEPER, CLEAR, fetch(belief, ball, self.setup, self.limits), dribble=True)
         if belief.game.phase is TeamPhase.DROP_BALL:
             place = (-self.setup.pitch.goal_line + self._reach + 0.1, 0.0)
             return Action(Role.KEEPER, "guard", self._stand(belief, place, spot))
         motion = keep_goal(belief.me, ball, self.setup.pitch, self._reach, self.limits)
         return Action(Role.KEEPER, "guard", motion, dribble=in_play)
-
-    def _is_mine(self, belief: WorldBelief, ball: Ball) -> bool:
-        """Whether a slow ball is in the own penalty area, with no opponent nearer to it."""
-        pitch = self.setup.pitch
-        if ball.x > pitch.penalty_area_depth - pitch.goal_line or abs(ball.y) > 0.5 * pitch.penalty_area_width:
-            return False
-        away = math.dist(ball[:2], belief.me[:2])
-        return math.hypot(ball.vx, ball.vy) < 1.5 and all(
-            math.dist(ball[:2], opponent) > away for opponent in belief.opponents
-        )
-
-    def _play_out(self, belief: WorldBelief) -> Action:
-        """Pass to a teammate, or far up the wing that the ball is on."""
-        mates = self._field_mates(belief)
-        receiver = best_receiver(belief.me[:2], places_of(mates), belief.opponents, chosen=self._receiver)
-        self._receiver = receiver
-        up_the_wing = 0.0, math.copysign(0.4 * self.setup.pitch.width, belief.me.y)
-        target = mates[receiver].body[:2] if receiver is not None else up_the_wing
-        motion, kick = pass_to(belief.me, target, self.setup, self.limits)
-        return Action(Role.KEEPER, CLEAR, motion, True, kick, receiver if kick is not None else None)

@@ -44,18 +44,8 @@ def note(draft: RulingDraft, rule: str, decision: Decision) -> None:
         return
     noted = Advantage(rule, decision, decision.restart.side, draft.match.advantage)
     draft.state = draft.state._replace(advantage=noted, offender=decision.robot or draft.state.offender)
-    draft.add_event(
-        EventKind.ADVANTAGE,
-        rule,
-        f"advantage for {noted.side}, {noted.left:g} s: {decision.text}",
-        side=decision.side,
-        robot=decision.robot,
-        robots=decision.robots,
-        place=decision.place,
-        measured=decision.measured,
-        limit=decision.limit,
-        unit=decision.unit,
-        card=decision.card,
+    draft.add_decision_event(
+        EventKind.ADVANTAGE, rule, decision, f"advantage for {noted.side}, {noted.left:g} s: {decision.text}"
     )
 
 

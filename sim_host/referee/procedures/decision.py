@@ -16,20 +16,7 @@ def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
         draft.state = draft.state._replace(score=draft.state.score.plus(decision.goal_for))
     if decision.shot_scored is not None:
         penalties.count(draft, decision.shot_scored)
-    draft.add_event(
-        decision.kind,
-        rule,
-        decision.text,
-        side=decision.side,
-        robot=decision.robot,
-        robots=decision.robots,
-        place=decision.place,
-        score=_published_score(draft.state, decision),
-        measured=decision.measured,
-        limit=decision.limit,
-        unit=decision.unit,
-        card=decision.card,
-    )
+    draft.add_decision_event(decision.kind, rule, decision, decision.text, _published_score(draft.state, decision))
     if decision.kind is EventKind.FOUL and decision.robot is not None:
         draft.state = draft.state._replace(offender=decision.robot)
         offences.count(draft, rule, decision.robot)

@@ -100,7 +100,7 @@ def test_the_brain_that_played_repeats_its_commands(played, robot, brain):
 def test_the_differences_of_another_brain_are_reported(played):
     verdict = compare_brain(played, "cyan2", NUBOT)
     assert verdict.different > 0 and verdict.first is not None
-    assert f"first at tick {verdict.first.tick}" in verdict.sentence()
+    assert f"first difference at tick {verdict.first.tick}" in verdict.sentence()
     assert verdict.fields[verdict.first.field] <= verdict.compared
 
 

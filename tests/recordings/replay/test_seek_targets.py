@@ -31,8 +31,8 @@ def test_seconds_and_events_name_a_seek_target(words, time):
         ("goal:0", "goal happened 2 times"),
         ("corner", "there is no corner"),
         ("gaol", 'did you mean "goal"?'),
-        ("goal;1", "give seconds, or an event"),
-        ("", "give seconds, or an event"),
+        ("goal;1", "give seconds, a tick as in tick:500"),
+        ("", "give seconds, a tick as in tick:500"),
     ],
 )
 def test_an_unknown_seek_target_is_reported_in_one_line(words, answer):
@@ -40,6 +40,15 @@ def test_an_unknown_seek_target_is_reported_in_one_line(words, answer):
         time_of(words, TARGETS)
     said = str(error.value).replace("not in this recording: ", "").replace(": it has", "; it has")
     assert answer.split(";")[0] in said and "\n" not in said
+
+
+def test_a_tick_names_its_time():
+    assert time_of("tick:50", [], 0.02) == pytest.approx(1.0)
+
+
+def test_a_tick_needs_the_setup_of_the_match():
+    with pytest.raises(TouchlineError, match="lacks the setup"):
+        time_of("tick:50", TARGETS)
 
 
 def test_events_and_phases_of_a_recording_are_seek_targets(recorded):

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from robot_agent.bodies import Body, DriveLimits
+from robot_agent.skills.keep_out import Area
 from robot_agent.teams.set_piece import stand
 from schemas.game import Point, TeamPhase
 from schemas.messages.game import GameView
@@ -36,3 +37,42 @@ def test_after_start_of_a_penalty_its_taker_stays_the_same_although_another_robo
     for _ in range(10):
         made.act(running=True, **seen)
     assert [name for name, heard in made.said.items() if heard.role == "striker"] == takers == [taker]
+
+
+@pytest.mark.parametrize("team", ["simple", "nubot"])
+@pytest.mark.parametrize(
+    ("phase", "spot"),
+    [
+        (TeamPhase.THEIR_GOAL_KICK, (7.4, -3.5)),
+        (TeamPhase.THEIR_FREE_KICK, (-7.4, 0.0)),
+        (TeamPhase.THEIR_CORNER, (-10.7, 6.7)),
+        (TeamPhase.OUR_GOAL_KICK, (-7.4, 3.5)),
+        (TeamPhase.OUR_CORNER, (10.7, -6.7)),
+    ],
+)
+def test_at_start_no_field_robot_is_in_a_penalty_area_wherever_it_was_before(squad, setup, team, phase, spot):
+    """As seen in a match: the way out of the circle around the ball led two attackers into the area."""
+    near = math.copysign(1.0, spot[0])
+    poses = {
+        2: (8.6 * near, 3.5, 0.0),
+        3: (8.5 * near, -3.4, 0.0),
+        4: (6.0 * near, -3.0, 0.0),
+        5: (10.9 * near, -2.0, 0.0),
+    }
+    made, area = squad(team, {1: (-10.5, 0.0, 0.0), **poses}), Area.penalty(setup.pitch)
+    for _ in range(200):
+        made.move(made.act(ball=spot, phase=phase, running=False, spot=Point(x=spot[0], y=spot[1])))
+    inside = [name for name, (x, y, _) in made.poses.items() if area.has(near, x, y)]
+    assert [name for name in inside if name != "cyan1"] == []
+
+
+def test_two_robots_that_defend_before_their_own_goal_keep_to_two_places(squad, setup):
+    """Both wanted the same place, and drove to and fro around the ball for it."""
+    made = squad("simple", {1: (-10.5, 0.0, 0.0), 2: (-6.0, 0.5, 0.0), 3: (-6.0, -0.5, 0.0), 4: (0.0, 2.0, 0.0)})
+    seen = {"ball": (-7.4, 0.0), "phase": TeamPhase.THEIR_FREE_KICK, "spot": Point(x=-7.4, y=0.0), "running": False}
+    for tick in range(400):
+        commands = made.act(**seen)
+        made.move(commands)
+        if tick > 300:
+            assert all(math.hypot(c.drive.vx, c.drive.vy) < 0.3 for c in commands.values())
+    assert math.dist(made.poses["cyan2"][:2], made.poses["cyan3"][:2]) > 1.0

@@ -65,7 +65,7 @@ def test_a_settings_file_is_for_its_owner_alone(tmp_path: Path) -> None:
 
 WRONG: dict[str, tuple[type[Settings], object, str]] = {
     "a field that is not known": (WebSettings, {"prot": 80}, 'prot is not known; did you mean "port"?'),
-    "a field that is missing": (AgentSettings, {"robot": "cyan1"}, "brain is missing"),
+    "a field that is missing": (AgentSettings, {"brain": "a:B"}, "robot is missing"),
     "a name that is none": (
         AgentSettings,
         {"robot": "Cyan 1", "brain": "a:B"},

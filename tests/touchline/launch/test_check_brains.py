@@ -8,7 +8,7 @@ import pytest
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from touchline.launch import check_brains
-from touchline.launch.check_brains import check_teams
+from touchline.launch.check_brains import check_reload, check_teams
 
 pytestmark = pytest.mark.processes
 
@@ -132,3 +132,16 @@ def test_a_program_that_is_not_there_is_named() -> None:
 def test_an_empty_command_is_refused() -> None:
     with pytest.raises(TouchlineError, match=r"teams\.cyan\.command is empty"):
         check("teams.cyan.command", [])
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"teams.cyan": {"command": ["a"]}, "teams.magenta": {"remote": True}}, "no team of this match has one"),
+        ({"isolate": "bubblewrap"}, "do not see changed files"),
+    ],
+)
+def test_code_is_reloaded_only_where_brains_can_see_it(changes: dict[str, object], sentence: str) -> None:
+    check_reload(load_match(None, {"teams.cyan": {"command": ["a"]}}))
+    with pytest.raises(TouchlineError, match=sentence):
+        check_reload(load_match(None, changes))

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from robot_agent.stdio.command_line import command_line
 from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.errors import TouchlineError
@@ -12,7 +13,6 @@ from schemas.side import Side
 from touchline.launch import team_user
 from touchline.launch.bubblewrap import bubblewrap
 from touchline.launch.confinement import Confinement, isolation_note, team_confinements, team_isolation_note
-from touchline.launch.processes import program_command
 from touchline.launch.robot_environment import robot_environment, server_environment
 from touchline.launch.team_user import TeamUser, team_users
 
@@ -65,9 +65,9 @@ def test_what_all_forked_robots_can_read_names_none_of_them() -> None:
 
 def test_files_on_the_command_line_of_a_program_are_found_from_its_working_folder(here: Path) -> None:
     (here / "robot").touch()
-    command = program_command(["./robot", "--fast", "one_team.py", "lions/brain.py", "3"])
+    command = command_line(["./robot", "--fast", "one_team.py", "lions/brain.py", "3"])
     assert command == (f"{here}/robot", "--fast", f"{here}/one_team.py", f"{here}/lions/brain.py", "3")
-    assert program_command(["python3"]) == ("python3",)
+    assert command_line(["python3"]) == ("python3",)
 
 
 def test_a_team_s_limits_replace_those_of_the_match() -> None:

@@ -42,7 +42,7 @@ def test_a_team_that_an_option_makes_remote_keeps_the_name_and_the_robots_of_the
 
 
 def test_a_remote_team_has_no_program_here():
-    with pytest.raises(TouchlineError, match=r"teams\.magenta: the team is remote, .* leave brain and command out"):
+    with pytest.raises(TouchlineError, match=r"teams\.magenta: the team is remote, .* leave brain out"):
         config(brain="mine:Brain")
 
 

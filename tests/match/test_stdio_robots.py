@@ -1,0 +1,96 @@
+"""Matches with programs of lines that crash, are silent or write garbage: each is named, none is fatal."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from support.isolated_match import IsolatedMatch, needs_bubblewrap
+
+pytestmark = pytest.mark.processes
+
+PROGRAM = """
+import json, os, signal, sys
+briefing = json.loads(sys.stdin.readline())
+for line in sys.stdin:
+    sight = json.loads(line)
+    tick = sight["tick"]
+{body}
+    print(json.dumps({{"answers_tick": tick}}), flush=True)
+"""
+
+
+class StdioMatch(IsolatedMatch):
+    """A match whose cyan is a program of lines with this body of its loop."""
+
+    def __init__(self, folder: Path, body: str, *, top: str = "", patience: float = 60.0) -> None:
+        super().__init__(folder, "    pass", top=top)
+        (folder / "robot.py").write_text(PROGRAM.format(body="\n".join(f"    {line}" for line in body.splitlines())))
+        file = folder / "match.toml"
+        text = file.read_text().replace('brain = "cyan_team:Brain"', f'stdio = ["{sys.executable}", "robot.py"]')
+        file.write_text(text.replace("answer = 60.0", f"answer = {patience}"))
+
+
+def test_a_robot_whose_program_crashes_is_started_again_and_the_crash_is_named(tmp_path: Path) -> None:
+    played = StdioMatch(tmp_path, "if tick == 60:\n    os.kill(os.getpid(), signal.SIGSEGV)").play()
+    assert played.is_whole()
+    assert "cyan1 ended with status 1; started again (1 of 3)" in played.printed
+    assert "robot.py` was ended by SIGSEGV at tick 60" in played.printed
+
+
+def test_a_program_that_ends_at_its_first_sight_is_not_started_again(tmp_path: Path) -> None:
+    played = StdioMatch(tmp_path, "sys.exit(4)").play()
+    assert played.status == 1
+    assert "cyan1 failed at its first sight; not started again" in played.printed
+    assert "ended with status 4 at tick 0" in played.printed
+
+
+def test_garbage_is_named_in_the_robots_log_and_the_match_goes_on(tmp_path: Path) -> None:
+    played = StdioMatch(tmp_path, "print('ball?', sight['ball'] is not None)\nprint('{\"answers_tick\": NaN}')").play()
+    assert played.is_whole()
+    log = played.log("cyan1")
+    assert "cyan1 sends messages that are no commands" in played.printed
+    assert "cyan1: the program wrote 'ball? " in log
+    assert "answers_tick is nan" in log
+    assert "lines that were no JSON object, " in log.splitlines()[-1]
+
+
+def test_a_silent_program_is_named_and_the_match_goes_on_without_it(tmp_path: Path) -> None:
+    body = "if tick >= 100:\n    print('waiting', file=sys.stderr, flush=True)\n    signal.pause()"
+    played = StdioMatch(tmp_path, body, patience=1.0).play()
+    assert played.is_whole()
+    assert "cyan1: the program has not answered the sight of tick 100 for 1 s; does it write one line" in played.log(
+        "cyan1"
+    )
+    assert "waiting" in played.log("cyan1")
+
+
+def test_a_slow_program_in_real_time_gets_the_newest_sight_each_time(tmp_path: Path) -> None:
+    body = "import time; time.sleep(0.1)\nprint('saw', tick, file=sys.stderr, flush=True)"
+    played = StdioMatch(tmp_path, body).play("--pace", "realtime", "--duration", "1")
+    assert played.is_whole()
+    ticks = [int(line.split()[1]) for line in played.log("cyan1").splitlines() if line.startswith("saw ")]
+    assert 10 < len(ticks) < ticks[-1] / 2
+    assert ticks[-1] > 250  # no pile of old sights at the end
+    assert "cyan1 takes " in played.printed
+
+
+@needs_bubblewrap()
+def test_a_program_is_confined_as_its_agent_is(tmp_path: Path) -> None:
+    body = "if tick == 0: print(os.getcwd(), os.getpid() < 20, os.path.exists('/root'), file=sys.stderr, flush=True)"
+    played = StdioMatch(tmp_path, body, top='isolate = "bubblewrap"').play()
+    assert played.is_whole()
+    assert f"{played.run / 'cyan1'} True False" in played.log("cyan1")
+
+
+def test_a_program_that_does_not_exist_is_one_line_before_the_launch(tmp_path: Path) -> None:
+    match = StdioMatch(tmp_path, "pass")
+    file = match.folder / "match.toml"
+    file.write_text(file.read_text().replace("robot.py", "robot7.py"))
+    played = match.play()
+    assert played.status == 2
+    assert played.printed == (
+        f'touchline: teams.cyan.stdio names "robot7.py", which is not in the current directory ({tmp_path}); '
+        "put the file there\n"
+    )
+    assert not (tmp_path / "runs").exists()

@@ -1,0 +1,64 @@
+"""`touchline new`: the folder of a new team."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from schemas.config.match_config import load_match
+from schemas.side import Side
+from touchline.command_line import app
+from touchline.play import play_match
+
+run = CliRunner()
+
+
+def test_a_new_team_plays_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    made = run.invoke(app, ["new", "my_team"])
+    assert made.exit_code == 0, made.output
+    assert "cd my_team; touchline match match.toml" in made.output
+    folder = tmp_path / "my_team"
+    config = load_match(folder / "match.toml", {"duration": 30.0})
+    assert config.team(Side.CYAN).brain == "my_team:MyTeam"
+    touched: set[str] = set()
+    outcome = play_match(config, watch=lambda tick: touched.update(tick.world.get("touches", ())), brain_folder=folder)
+    assert outcome.time > 30.0
+    assert {robot for robot in touched if robot.startswith("cyan")}
+
+
+def test_its_files_bear_the_name_of_the_team(tmp_path: Path) -> None:
+    assert run.invoke(app, ["new", "red_devils", "--in", str(tmp_path)]).exit_code == 0
+    folder = tmp_path / "red_devils"
+    assert sorted(file.name for file in folder.iterdir()) == [
+        "README.md",
+        "match.toml",
+        "red_devils.py",
+        "test_red_devils.py",
+    ]
+    assert all("eam_name" not in file.read_text() and "TeamName" not in file.read_text() for file in folder.iterdir())
+    assert "class RedDevils(Player):" in (folder / "red_devils.py").read_text()
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("My-Team", "write lower-case letters, digits and _"),
+        ("class", "write lower-case letters, digits and _"),
+        ("json", "is a module of Python or of an installed package"),
+        ("robot_agent", "is a module of Python or of an installed package"),
+    ],
+)
+def test_a_name_that_is_none_for_a_module_is_refused_in_one_line(tmp_path: Path, name: str, reason: str) -> None:
+    refused = run.invoke(app, ["new", name, "--in", str(tmp_path)])
+    assert refused.exit_code == 2
+    assert reason in refused.output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_exists_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "my_team").mkdir()
+    refused = run.invoke(app, ["new", "my_team", "--in", str(tmp_path)])
+    assert refused.exit_code == 2
+    assert "exists already" in refused.output
+    assert list((tmp_path / "my_team").iterdir()) == []

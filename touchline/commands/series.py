@@ -1,0 +1,142 @@
+"""`touchline series`: many matches between two teams, and their figures with intervals."""
+
+import dataclasses
+import json as json_text
+import signal
+from contextlib import closing
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
+from schemas.side import Side
+from touchline.cli import options
+from touchline.cli.errors import FAILED
+from touchline.cli.option_groups import FieldsOf, with_option_groups
+
+if TYPE_CHECKING:
+    from touchline.series.match_row import FailedMatch, MatchRow
+    from touchline.series.plan import SeriesPlan
+    from touchline.series.play_planned import Outcome
+    from touchline.series.summary import Summary
+
+_TEAM_HELP = "The team in {}: the name of a shipped team, or module:Class; by default that of the match file."
+
+
+@with_option_groups
+def series(
+    file: options.MatchFile = None,
+    seeds: Annotated[str, typer.Option(metavar="SEEDS", help="A range and single seeds: 1-50, or 1-10,31.")] = "1-20",
+    both_sides: Annotated[
+        bool, typer.Option("--both-sides", help="Play each seed twice, the second time with sides swapped.")
+    ] = False,
+    cyan: Annotated[str | None, typer.Option(metavar="TEAM", help=_TEAM_HELP.format("cyan"))] = None,
+    magenta: Annotated[str | None, typer.Option(metavar="TEAM", help=_TEAM_HELP.format("magenta"))] = None,
+    scene: options.Scene = None,
+    profile: options.Profile = None,
+    rules: options.Rules = None,
+    change: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Replace a key of the match file: radio.loss=0.2; repeatable."),
+    ] = None,
+    jobs: Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")] = 0,
+    json: options.Json = False,
+    *,
+    changes: Annotated[dict[str, Any], FieldsOf(MatchConfig, "duration")],
+) -> None:
+    """Play a series of matches in parallel, without a network, and print their figures with intervals of 95 %.
+
+    Equal seeds give equal matches, whatever the number of jobs. The figures are those of `touchline stats`. Ctrl-C
+    prints the figures of the matches played so far. If a brain raises, its match is reported as failed, the
+    series goes on, and the exit status is 1.
+
+    Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
+    """
+    options.need_pybullet()
+    from touchline.series.plan import plan_series, with_brains
+    from touchline.series.play_planned import play_all
+    from touchline.series.processes import cores
+    from touchline.series.progress import progress_of
+    from touchline.series.seeds import seeds_of
+    from touchline.series.table import sentence_of
+    from touchline.series.team_names import brain_of
+
+    if jobs < 0:
+        raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
+    named = {"scene": scene, "profile": profile, "rules": rules, **changes}
+    settings = {key.replace(".", "__"): value for key, value in options.settings_of(change or []).items()}
+    config = options.read_match(file, **settings, **named)
+    config = with_brains(
+        config, {side: brain_of(team) for side, team in zip(Side, (cyan, magenta), strict=True) if team is not None}
+    )
+    if note := options.pitch_note(config):
+        typer.echo(f"note: {note}", err=True)
+    plan = plan_series(config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None)
+    _check(plan)
+    outcomes: list[Outcome] = []
+    interrupted = False
+    try:
+        with (
+            closing(play_all(plan.matches, jobs or cores())) as played,
+            progress_of(len(plan.matches), " – ".join(plan.teams)) as report,
+        ):
+            for outcome in played:
+                outcomes.append(outcome)
+                report(sentence_of(outcome, plan))
+    except KeyboardInterrupt:
+        interrupted = True
+    failed = _print(plan, outcomes, json=json)
+    if interrupted:
+        raise typer.Exit(128 + signal.SIGINT)
+    if failed:
+        raise typer.Exit(FAILED)
+
+
+def _check(plan: "SeriesPlan") -> None:
+    """Build the teams once, on each side that they play on, so that an error is reported before the first match."""
+    from touchline.play import InProcessMatch
+
+    for swapped in (False, True):
+        planned = next((one for one in plan.matches if one.swapped is swapped), None)
+        if planned is not None:
+            InProcessMatch(planned.config, brain_folder=planned.brain_folder).close()
+
+
+def _print(plan: "SeriesPlan", outcomes: "list[Outcome]", *, json: bool) -> bool:
+    """Print the figures; returns whether a match has failed."""
+    from touchline.series.match_row import FailedMatch, MatchRow
+    from touchline.series.summary import summary_of
+    from touchline.series.table import sentence_of
+
+    rows = sorted((one for one in outcomes if isinstance(one, MatchRow)), key=lambda one: one.number)
+    failed = sorted((one for one in outcomes if isinstance(one, FailedMatch)), key=lambda one: one.number)
+    summary = summary_of(rows)
+    if json:
+        parts = {"summary": summary, "matches": rows, "failed": failed}
+        plain = {key: _plain(part) for key, part in parts.items()}
+        typer.echo(json_text.dumps({"teams": plan.teams, "planned": len(plan.matches), **plain}, ensure_ascii=False))
+        return bool(failed)
+    _show(plan, summary, rows, failed)
+    for one in failed:
+        typer.echo(sentence_of(one, plan), err=True)
+    return bool(failed)
+
+
+def _plain(part: Any) -> Any:
+    return [dataclasses.asdict(one) for one in part] if isinstance(part, list) else dataclasses.asdict(part)
+
+
+def _show(plan: "SeriesPlan", summary: "Summary", rows: "list[MatchRow]", failed: "list[FailedMatch]") -> None:
+    from touchline.series.table import aligned, figure_rows, headline, longest_lines
+
+    typer.echo(headline(plan, rows, failed))
+    if not rows:
+        return
+    for heading, figures in (((*plan.teams,), summary.teams), ((*Side,), summary.sides), (("both",), summary.match)):
+        typer.echo()
+        for line in aligned(("", *heading), figure_rows(figures)):
+            typer.echo(line)
+    typer.echo()
+    for line in longest_lines(summary):
+        typer.echo(line)

@@ -1,0 +1,79 @@
+"""Estimates with intervals of 95 %: shares by Wilson's score, rates by Student's t over independent samples."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import NormalDist
+
+LEVEL = 0.95
+"""Share of intervals that contain the true value."""
+_Z = NormalDist().inv_cdf((1 + LEVEL) / 2)
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """A value and its interval; without an interval, `low` and `high` are None: there are too few samples."""
+
+    value: float
+    low: float | None = None
+    high: float | None = None
+
+    def scaled(self, factor: float) -> "Estimate":
+        """The same in another unit."""
+        low, high = (None if one is None else one * factor for one in (self.low, self.high))
+        return Estimate(self.value * factor, low, high)
+
+
+def share(successes: float, trials: int) -> Estimate | None:
+    """The share of successes with Wilson's score interval; half successes, such as draws, are allowed.
+
+    None without a trial.
+    """
+    if trials == 0:
+        return None
+    p, z2 = successes / trials, _Z * _Z
+    middle = (p + z2 / (2 * trials)) / (1 + z2 / trials)
+    half = _Z / (1 + z2 / trials) * math.sqrt(p * (1 - p) / trials + z2 / (4 * trials * trials))
+    return Estimate(p, max(0.0, middle - half), min(1.0, middle + half))
+
+
+def ratio(counts: Sequence[float], sizes: Sequence[float], most: float = math.inf) -> Estimate | None:
+    """Sum of the counts, none below 0, by sum of the sizes, for example goals by minutes, over independent samples.
+
+    The interval is that of the ratio estimator: the samples' deviations from the common ratio, and Student's t.
+    `most` is the greatest possible value, 1 for a share. None if the sizes add up to 0.
+    """
+    size, number = sum(sizes), len(sizes)
+    if size <= 0:
+        return None
+    value = sum(counts) / size
+    if number < 2:
+        return Estimate(value)
+    squares = sum((count - value * one) ** 2 for count, one in zip(counts, sizes, strict=True))
+    error = math.sqrt(squares * number / (number - 1)) / size
+    half = student_t(number - 1) * error
+    return Estimate(value, max(0.0, value - half), min(most, value + half))
+
+
+def student_t(freedom: int) -> float:
+    """The quantile of Student's t within which `LEVEL` of its values lie, on both sides of 0."""
+    low, high = 0.0, 1000.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _within(middle, freedom) < LEVEL else (low, middle)
+    return (low + high) / 2
+
+
+def _within(t: float, freedom: int) -> float:
+    """Probability of a value from −t to t, with a whole number of degrees of freedom.
+
+    Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.3 and 26.7.4.
+    """
+    angle = math.atan(t / math.sqrt(freedom))
+    cosine, odd = math.cos(angle), freedom % 2
+    term, total = (cosine if odd else 1.0), 0.0
+    for power in range(2 + odd, freedom + 1, 2):
+        total += term
+        term *= cosine * cosine * (power - 1) / power
+    inside = math.sin(angle) * total
+    return 2 / math.pi * (angle + inside) if odd else inside

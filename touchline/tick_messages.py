@@ -1,0 +1,27 @@
+"""The messages of a match in one process, tick by tick, as a recording of it has them."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from schemas.messages.applied import Applied
+from schemas.messages.world import World
+from sim_host.match.simulation import Simulation, TickResult
+from sim_host.match.state_schedule import StateSchedule
+
+
+class TickMessages:
+    """Makes the messages that statistics read: `recordings.stats.match_tick.KEYS`."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._schedule = StateSchedule(simulation.profile.time.tick)
+
+    def of(self, tick: TickResult) -> Iterator[tuple[int, Any]]:
+        """The messages of the newest tick of the simulation, each with its log time in ns."""
+        state, episode, log_ns = self._simulation.state, tick.world["episode"], round(tick.time * 1e9)
+        for event in tick.events:
+            yield log_ns, event
+        if self._schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
+            yield log_ns, state.game_state(tick.tick, tick.time, episode)
+        yield log_ns, World.model_validate(tick.world)
+        yield log_ns, Applied.decode(tick.applied_encoded)
