@@ -12,6 +12,7 @@ from robot_agent.skills.pass_to import best_receiver, pass_speed, pass_to
 from robot_agent.skills.take_ball import take_ball
 from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.action import Action
+from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
 from robot_agent.teams.nubot.machine import KICK, Machine, MachineOutput, Points, Situation, State
 from robot_agent.teams.nubot.trajectory import ROTATION
 from robot_agent.teams.player import Player
@@ -247,8 +248,14 @@ class NuBot(Player):
     def _keep(self, belief: WorldBelief, ball: SeenBall, spot: tuple[float, float]) -> Action:
         if belief.game.phase is TeamPhase.DROP_BALL:
             return self._hold(belief, spot)._replace(role=KEEPS)
+        in_play = belief.game.phase is TeamPhase.PLAY
+        if in_play and belief.holding:
+            action, self._receiver = play_out(belief, self._receiver, self.setup, self.limits)
+            return self._promising(action._replace(role=KEEPS, pass_to=None), self._receiver)
+        if in_play and is_keepers_ball(belief, ball.now, self.setup):
+            return Action(KEEPS, CLEAR, fetch(belief, ball.now, self.setup, self.limits), dribble=True)
         motion = keep_goal(belief.me, ball.now, self.setup.pitch, self.setup.robot.reach, self.limits)
-        return Action(KEEPS, "keep", motion)
+        return Action(KEEPS, "keep", motion, dribble=in_play)
 
 
 def _spot(belief: WorldBelief, ball: SeenBall) -> tuple[float, float]:

@@ -11,6 +11,7 @@ from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_to
 from robot_agent.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
+from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import legal_place, stand, step_in, wait_behind
@@ -24,8 +25,6 @@ from schemas.messages.command import Drive, Kick
 
 Point = tuple[float, float]
 
-CLEAR = "clear"
-"""Intention of a keeper that leaves its line for the ball."""
 THREAT = 0.75
 """Share of the own half, from the middle, beyond which an opponent with the ball is met by the defender, too."""
 KICK_OFF_TO = (0.8, 3.0)
@@ -191,31 +190,12 @@ class Simple(Player):
         """Guard the goal; take a slow ball near it, and play it out."""
         in_play = belief.game.phase is TeamPhase.PLAY
         if belief.holding and in_play:
-            return self._play_out(belief)
-        if in_play and self._is_mine(belief, ball):
-            return Action(Role.KEEPER, CLEAR, self._get(belief, ball), dribble=True)
+            action, self._receiver = play_out(belief, self._receiver, self.setup, self.limits)
+            return action._replace(role=Role.KEEPER)
+        if in_play and is_keepers_ball(belief, ball, self.setup):
+            return Action(Role.KEEPER, CLEAR, fetch(belief, ball, self.setup, self.limits), dribble=True)
         if belief.game.phase is TeamPhase.DROP_BALL:
             place = (-self.setup.pitch.goal_line + self._reach + 0.1, 0.0)
             return Action(Role.KEEPER, "guard", self._stand(belief, place, spot))
         motion = keep_goal(belief.me, ball, self.setup.pitch, self._reach, self.limits)
         return Action(Role.KEEPER, "guard", motion, dribble=in_play)
-
-    def _is_mine(self, belief: WorldBelief, ball: Ball) -> bool:
-        """Whether a slow ball is in the own penalty area, with no opponent nearer to it."""
-        pitch = self.setup.pitch
-        if ball.x > pitch.penalty_area_depth - pitch.goal_line or abs(ball.y) > 0.5 * pitch.penalty_area_width:
-            return False
-        away = math.dist(ball[:2], belief.me[:2])
-        return math.hypot(ball.vx, ball.vy) < 1.5 and all(
-            math.dist(ball[:2], opponent) > away for opponent in belief.opponents
-        )
-
-    def _play_out(self, belief: WorldBelief) -> Action:
-        """Pass to a teammate, or far up the wing that the ball is on."""
-        mates = self._field_mates(belief)
-        receiver = best_receiver(belief.me[:2], places_of(mates), belief.opponents, chosen=self._receiver)
-        self._receiver = receiver
-        up_the_wing = 0.0, math.copysign(0.4 * self.setup.pitch.width, belief.me.y)
-        target = mates[receiver].body[:2] if receiver is not None else up_the_wing
-        motion, kick = pass_to(belief.me, target, self.setup, self.limits)
-        return Action(Role.KEEPER, CLEAR, motion, True, kick, receiver if kick is not None else None)

@@ -7,7 +7,6 @@ import pytest
 from robot_agent.bodies import Ball, Body
 from robot_agent.skills.dribble_to import SPEED, TURN_RATE, dribble_to
 from robot_agent.skills.intercept import meet, meeting_time, way_of
-from robot_agent.skills.keep_goal import guard_place, keep_goal, shot_place
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.line_up import behind, line_up
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_speed
@@ -154,49 +153,6 @@ def test_a_shot_goes_past_the_keeper_not_at_him(setup):
     high, _ = best_place((6.0, 0.0), [(10.6, -0.5)], setup.pitch)
     assert low < 0.0 < high
     assert max(abs(low), abs(high)) < setup.pitch.goal_width / 2 - setup.ball.radius
-
-
-def test_a_keeper_stands_between_the_posts_on_the_ball_side(setup):
-    pitch, radius = setup.pitch, setup.robot.radius
-    for y in (-6.0, -1.0, 0.0, 1.0, 6.0):
-        gx, gy = guard_place(Ball(-5.0, y), pitch, radius)
-        assert gx - radius > -pitch.goal_line
-        assert abs(gy) <= pitch.goal_width / 2
-        assert gy == pytest.approx(-guard_place(Ball(-5.0, -y), pitch, radius)[1])
-        assert gy * y >= 0.0
-
-
-def test_a_keeper_leaves_no_more_than_its_radius_to_the_post(setup):
-    """A ball beside it, near the post: its hull touches the line through the post and goes no farther."""
-    pitch, radius = setup.pitch, setup.robot.radius
-    assert guard_place(Ball(-10.5, 1.2), pitch, radius)[1] == pitch.goal_width / 2 - radius
-    assert guard_place(Ball(-10.5, -1.2), pitch, radius)[1] == radius - pitch.goal_width / 2
-
-
-def test_a_shot_just_beside_the_post_is_awaited_at_the_post(setup):
-    pitch, radius = setup.pitch, setup.robot.radius
-    line, post = -pitch.goal_line + 0.4, pitch.goal_width / 2
-    for side in (1.0, -1.0):
-        beside = side * (post + 2.0 * radius)
-        assert shot_place(Ball(-5.0, beside - side * 0.01, -8.0), line, pitch, radius) == side * post
-        assert shot_place(Ball(-5.0, beside + side * 0.01, -8.0), line, pitch, radius) is None
-
-
-def test_a_shot_is_awaited_where_it_crosses_the_keepers_line(setup):
-    pitch, radius = setup.pitch, setup.robot.radius
-    line = -pitch.goal_line + 0.4
-    assert shot_place(Ball(-5.0, 1.0, -8.0, 0.0), line, pitch, radius) == pytest.approx(1.0)
-    assert shot_place(Ball(-5.0, 0.0, -8.0, 8.0), line, pitch, radius) is None  # wide
-    assert shot_place(Ball(-5.0, 0.0, 3.0, 0.0), line, pitch, radius) is None  # away
-    assert shot_place(Ball(9.0, 0.0, -2.0, 0.0), line, pitch, radius) is None  # can wait
-
-
-def test_a_keeper_runs_to_a_shot(plant, limits, setup):
-    robot = plant(-10.6, 0.0, 0.0)
-    for tick in range(40):
-        ball = Ball(-4.0 - 8.0 * tick * limits.tick, 0.6, -8.0, 0.0)
-        robot.step(keep_goal(robot.body, ball, setup.pitch, setup.robot.radius, limits))
-    assert robot.body.y == pytest.approx(0.6, abs=setup.robot.radius)
 
 
 @pytest.mark.parametrize("ball", [Ball(0.0, 0.0), Ball(1.0, -2.0, 2.5, 1.0), Ball(-4.0, 3.0, 0.0, -6.0)])
