@@ -1,15 +1,17 @@
-"""What attacks on the host's port cost the others: ticks a second before, during and after, and the host's memory.
+"""What attacks on the host's port cost the others: ticks a second before, during and after, CPU time, and memory.
 
 Each attack runs as a process of its own against a fresh lockstep match of four robots.
 """
 
 import argparse
 import contextlib
+import math
 import os
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 from running_match import PATIENCE_S, running_match
 
@@ -31,10 +33,29 @@ def memory_mb(pid: int) -> float:
     return 0.0
 
 
+def cpu_s(pid: int) -> float:
+    """CPU time of a process and all its threads, s."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return math.nan
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class Rate(NamedTuple):
+    """The progress of a match over some seconds."""
+
+    ticks: float
+    """Ticks a second of wall time."""
+    cpu_ms: float
+    """The host's CPU time for each tick, which depends less on the other load of the machine."""
+
+
 class Gauge:
     """Measures the rate of a running match by its health."""
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: Bus, pid: int) -> None:
+        self._pid = pid
         self._healths = bus.subscribe(HEALTH)
         self.newest: Health | None = None
 
@@ -45,11 +66,12 @@ class Gauge:
                 self.newest = received.message()
         return self.newest.tick if self.newest is not None else -1
 
-    def rate(self, seconds: float) -> float:
-        """Ticks a second over this time."""
-        first, began = self.ticks(), time.monotonic()
+    def rate(self, seconds: float) -> Rate:
+        """The rate over this time."""
+        first, began, used = self.ticks(), time.monotonic(), cpu_s(self._pid)
         time.sleep(seconds)
-        return (self.ticks() - first) / (time.monotonic() - began)
+        ticks = self.ticks() - first
+        return Rate(ticks / (time.monotonic() - began), 1e3 * (cpu_s(self._pid) - used) / max(ticks, 1))
 
 
 def measure(attack: str, seconds: float, robots: int) -> str:
@@ -60,12 +82,11 @@ def measure(attack: str, seconds: float, robots: int) -> str:
         running_match("idle_brain:act", settings) as (config, endpoint, host, *_),
         open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus,
     ):
-        gauge = Gauge(bus)
+        gauge = Gauge(bus, host.pid)
         while gauge.ticks() < 100:
             time.sleep(0.1)
         before, memory = gauge.rate(seconds), memory_mb(host.pid)
         attacker = subprocess.Popen([sys.executable, str(ATTACKER), attack, endpoint, config.name, str(seconds + 1)])
-        time.sleep(1.0)
         during = gauge.rate(seconds)
         most = memory_mb(host.pid)
         attacker.terminate()
@@ -74,10 +95,12 @@ def measure(attack: str, seconds: float, robots: int) -> str:
         after = gauge.rate(seconds)
         lived = host.poll() is None
         most = max(most, memory_mb(host.pid)) if lived else most
-        accounts = getattr(gauge.newest, "accounts", None)
-    rates = f"{before:.0f} | {during:.0f} | {after:.0f}"
+        accounts = gauge.newest.accounts if gauge.newest is not None else {}
+        connections = gauge.newest.connections if gauge.newest is not None else {}
+    measured = (before, during, after)
+    rates = " | ".join([*(f"{one.ticks:.0f}" for one in measured), *(f"{one.cpu_ms:.2f}" for one in measured)])
     row = f"| {attack} | {rates} | {most - memory:+.0f} MB | {'yes' if lived else 'NO'} |"
-    return f"{row} {accounts}" if os.environ.get("VERBOSE") else row
+    return f"{row} {accounts} {connections}" if os.environ.get("VERBOSE") else row
 
 
 def main() -> None:
@@ -88,10 +111,21 @@ def main() -> None:
     parser.add_argument("--robots", type=int, default=4)
     options = parser.parse_args()
     sys.path.insert(0, str(ATTACKER.parent))
-    from attacker import ATTACKS, RAW_ATTACKS
+    from attacker import ATTACKS, CONTROLS, RAW_ATTACKS
 
-    print("| attack | ticks/s before | during | after | memory | host lives |\n| --- | --- | --- | --- | --- | --- |")
-    for attack in options.attacks or [*ATTACKS, *RAW_ATTACKS]:
+    headings = (
+        "attack",
+        "ticks/s before",
+        "during",
+        "after",
+        "CPU ms/tick before",
+        "during",
+        "after",
+        "memory",
+        "host lives",
+    )
+    print("|", " | ".join(headings), "|\n|", " | ".join("---" for _ in headings), "|")
+    for attack in options.attacks or [*ATTACKS, *RAW_ATTACKS, *CONTROLS]:
         print(measure(attack, options.seconds, options.robots), flush=True)
 
 

@@ -9,12 +9,12 @@ from typing import Any
 
 import foxglove.layouts as fl
 
-from recordings.viz.drawing import BALL, EVENTS, FIELD, GAME, ROBOTS
+from recordings.viz.drawing import BALL, DRAWINGS, EVENTS, FIELD, GAME, ROBOTS
 from recordings.viz.transforms import MAP
 from schemas.topics import STATE
 
 FOLDER = Path(__file__).parent / "layouts"
-SCENES = (FIELD, ROBOTS, BALL, GAME)
+SCENES = (FIELD, ROBOTS, BALL, GAME, DRAWINGS)
 DARK = "#15171c"
 CAMERA: dict[str, Any] = {
     "distance": 27.0,

@@ -1,12 +1,15 @@
 """The failure of a brain's `act`, and its report: a traceback, then one line with the place and the fault."""
 
 import traceback
+from bdb import BdbQuit
 from collections.abc import Callable
 from typing import Any
 
 from robot_agent.limit_reached import limit_reached
 from robot_agent.user_code import definition_of, place_of
 from schemas.wire.faults import FaultError
+
+_NO_TERMINAL = "a robot's process has no terminal; write breakpoint(), which it skips, in place of pdb.set_trace()\n"
 
 
 class RobotError(Exception):
@@ -30,7 +33,7 @@ class BrainError(RobotError):
     def report(self) -> str:
         """The failure as text; the last line names the tick, the file and line, and the fault.
 
-        Where a limit of the process made it fail, one more line names that limit and the remedy.
+        Where a limit of the process made it fail, or a debugger without a terminal, one more line has the remedy.
 
         An invalid command is a fault of the values, not of the code that checks them: its report is one line.
         """
@@ -43,7 +46,7 @@ class BrainError(RobotError):
             return f"act failed at tick {self.tick}{place}: {cause}\n"
         failure = f"{type(cause).__name__}: {' '.join(str(cause).split())}"
         limit = limit_reached(cause)
-        remedy = f"limit reached: {limit}\n" if limit else ""
+        remedy = f"limit reached: {limit}\n" if limit else _NO_TERMINAL if isinstance(cause, BdbQuit) else ""
         return f"{_frames(cause)}act raised at tick {self.tick}{place}: {failure}\n{remedy}"
 
 

@@ -14,6 +14,7 @@ from robot_agent.stdio.program_runner import ProgramRunner
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.bus.zenoh.waiting_client import open_when_there
 from schemas.config.match_config import LOCKSTEP
+from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
 from schemas.process.process_log import configure_log, log_line
@@ -24,8 +25,10 @@ def run(settings: AgentSettings) -> int:
     """Run one robot; exit status 0: the match is over or the process was ended; others as in `serve`.
 
     Raises:
-        TouchlineError: no host answers, or the brain cannot be made.
+        TouchlineError: no host answers, the brain cannot be made, or a program is to be reloaded.
     """
+    if settings.reload and settings.stdio:
+        raise TouchlineError("--reload is for brains in Python, --stdio starts a program; leave one of them out")
     configure_log("agent", settings.log_format, settings.robot)
     signal.signal(signal.SIGTERM, _end)
     clock = WallClock()

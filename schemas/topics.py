@@ -9,6 +9,7 @@ from schemas.messages.applied import Applied
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.command import Command
+from schemas.messages.debug import RobotDebug
 from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
 from schemas.messages.health import Health, Invalid
 from schemas.messages.manual import ManualDrive
@@ -100,6 +101,16 @@ BELIEF = Topic(
     Delivery.EVERY,
     True,
     "the newest radio message of this robot",
+)
+DEBUG = Topic(
+    "team/{side}/debug/{robot}",
+    RobotDebug,
+    Party.HOST,
+    (Party.COACH, Party.RECORDER),
+    "each tick in which the robot's command has one",
+    Delivery.EVERY,
+    True,
+    "values and shapes that this robot's program shows its authors, field frame",
 )
 ORDER = Topic(
     "team/{side}/order",
@@ -335,6 +346,7 @@ TOPICS: dict[str, Topic] = {
     "command": COMMAND,
     "manual": MANUAL,
     "belief": BELIEF,
+    "debug": DEBUG,
     "order": ORDER,
     "standing_order": ACTIVE_ORDER,
     "state": STATE,

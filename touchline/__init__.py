@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from schemas.game import TeamPhase
     from schemas.messages.coach import CoachOrder
     from schemas.messages.command import Command, Drive, Kick, KickMode
+    from schemas.messages.debug import Debug
+    from schemas.messages.drawing import Drawing
     from schemas.messages.radio import BallBelief, Motion, Radio
     from schemas.messages.sight import Sight
     from touchline import skills
@@ -30,6 +32,8 @@ _HOMES = {
     "Briefing": "robot_agent.contract",
     "CoachOrder": "schemas.messages.coach",
     "Command": "schemas.messages.command",
+    "Debug": "schemas.messages.debug",
+    "Drawing": "schemas.messages.drawing",
     "Drive": "schemas.messages.command",
     "Kick": "schemas.messages.command",
     "KickMode": "schemas.messages.command",
@@ -56,6 +60,8 @@ __all__ = [
     "Briefing",
     "CoachOrder",
     "Command",
+    "Debug",
+    "Drawing",
     "Drive",
     "Kick",
     "KickMode",

@@ -10,10 +10,12 @@ from touchline.cli.errors import CommandGroup
 from touchline.cli.version import version_text
 from touchline.commands import (
     agent,
+    check,
     coach,
     credentials,
     diff,
     doctor,
+    drill,
     drive,
     export,
     filter,
@@ -78,7 +80,9 @@ PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
 app.command("series", rich_help_panel=PLAY)(series.series)
+app.command("drill", rich_help_panel=PLAY)(drill.drill)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
+app.command("check", rich_help_panel=PLAY)(check.check)
 
 app.command("new", rich_help_panel=TEAMS)(new.new)
 

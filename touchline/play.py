@@ -4,7 +4,7 @@ Sights and commands cross as the same bytes as on the bus; a match played here a
 lockstep from the same seed are the same, tick for tick.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,13 +13,16 @@ from robot_agent.robot_code import end_robot, start_robot
 from robot_agent.user_code import definition_of
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig
-from schemas.errors import TouchlineError
+from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import Score
 from schemas.messages.command import Command
 from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
+
+BrainSource = Brain | type[Brain] | str
+"""A brain, a class to be built with the robot's briefing, or `module:Class`."""
 
 
 @dataclass(slots=True)
@@ -39,25 +42,28 @@ class InProcessMatch:
     """One match laid out in one process: brains around a simulation, stepped by hand."""
 
     def __init__(
-        self, config: MatchConfig, brains: dict[str, Brain] | None = None, brain_folder: Path | None = None
+        self, config: MatchConfig, brains: Mapping[str, BrainSource] | None = None, brain_folder: Path | None = None
     ) -> None:
         """Brains by robot; the others are those of the match file, looked for in `brain_folder` first.
 
         Raises:
-            TouchlineError: a brain cannot be loaded.
+            TouchlineError: a brain cannot be loaded, or is for a robot that is not in the match.
         """
         self.acting: str | None = None
         """The robot whose brain acts; after an exception, the robot whose brain raised it."""
+        self.commands: dict[str, Command] = {}
+        """Robot → its newest command; empty before the first."""
         self.simulation = Simulation(config)
         setup = self.simulation.setup()
         self._given = given = brains or {}
         for robot in (robot for side in config.remote_sides for robot in config.robots(side)):
             if robot not in given:
                 raise TouchlineError(f"{robot} is of a remote team, which a match in one process lacks; give its brain")
+        teams = {name: config.team(side) for side in Side for name in config.robots(side)}
+        if unknown := next((name for name in given if name not in teams), None):
+            raise TouchlineError(f"{unknown} is no robot with a brain in this match; {did_you_mean(unknown, teams)}")
         self.brains = {
-            name: given.get(name) or _start(config.team(side), Briefing.of(name, setup), brain_folder)
-            for side in Side
-            for name in config.robots(side)
+            name: _start(given.get(name, team), Briefing.of(name, setup), brain_folder) for name, team in teams.items()
         }
 
     def close(self) -> None:
@@ -76,7 +82,8 @@ class InProcessMatch:
 
     def answers(self) -> dict[str, Command]:
         """The commands with which the brains answer the newest sights."""
-        sights, commands = self.simulation.now.sights, {}
+        sights = self.simulation.now.sights
+        commands: dict[str, Command] = {}
         try:
             for name, brain in self.brains.items():
                 self.acting = name
@@ -84,7 +91,7 @@ class InProcessMatch:
         except BaseException as error:
             error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
             raise
-        self.acting = None
+        self.acting, self.commands = None, commands
         return commands
 
 
@@ -97,7 +104,7 @@ def _command(brain: Brain, sight: Sight) -> Command:
 
 def play_match(
     config: MatchConfig,
-    brains: dict[str, Brain] | None = None,
+    brains: Mapping[str, BrainSource] | None = None,
     watch: Callable[[TickResult], None] | None = None,
     until: float | None = None,
     brain_folder: Path | None = None,
@@ -124,6 +131,13 @@ def play_match(
     return MatchOutcome(state.score, now.tick, now.time, now.applied["chain"], events)
 
 
-def _start(team: TeamConfig, briefing: Briefing, brain_folder: Path | None) -> Brain:
+def _start(source: BrainSource | TeamConfig, briefing: Briefing, brain_folder: Path | None) -> Brain:
     """The brain of a robot, or its running program."""
-    return start_robot(team.brain or "", team.stdio, briefing, brain_folder)
+    if isinstance(source, TeamConfig):
+        return start_robot(source.brain or "", source.stdio, briefing, brain_folder)
+    if isinstance(source, str):
+        return start_robot(source, None, briefing, brain_folder)
+    if not isinstance(source, type):
+        return source
+    build: Callable[[Briefing], Brain] = source
+    return build(briefing)

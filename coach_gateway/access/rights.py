@@ -41,7 +41,7 @@ def deeds_of(role: Role) -> list[str]:
 
 
 def sides_shown(role: Role, *, to_all: bool) -> list[Side]:
-    """The sides whose orders or beliefs a role is shown: a coach only its own, unless `to_all`."""
+    """The sides whose orders, beliefs or drawings a role is shown: a coach only its own, unless `to_all`."""
     if to_all or role is Role.REFEREE:
         return list(Side)
     return [COACHES[role]] if role in COACHES else []

@@ -84,6 +84,7 @@ class PageBroadcaster:
             live=feed.live,
             deeds=rights.deeds_of(role),
             beliefs=self._beliefs_of(role),
+            debug=self._debug_of(role),
             orders=self._orders_of(role),
             scenes=self._scenes,
         )
@@ -93,7 +94,7 @@ class PageBroadcaster:
         if self._result.result is not None:
             page.queue.put(self._result.result.model_dump_json())
         page.queue.put(feed.orders(self._orders_of(role)))
-        frame = feed.frame(self._beliefs_of(role))
+        frame = feed.frame(self._beliefs_of(role), self._debug_of(role))
         if frame is not None:
             page.queue.put_frame(frame)
 
@@ -132,6 +133,10 @@ class PageBroadcaster:
             wanted = BeliefsFor.ALL if friendly else BeliefsFor.TEAMS
         return rights.sides_shown(role, to_all=wanted is BeliefsFor.ALL)
 
+    def _debug_of(self, role: Role) -> list[Side]:
+        """The sides whose robots' drawings a role is shown; in a replay both, as in the recording."""
+        return rights.sides_shown(role, to_all=not self.feed.live)
+
     def _orders_of(self, role: Role) -> list[Side]:
         """The sides whose orders a role is shown; in a replay all of them."""
         return rights.sides_shown(role, to_all=not self.feed.live)
@@ -159,12 +164,12 @@ class PageBroadcaster:
 
     def _show(self) -> None:
         """Send the newest frame to all pages; it is encoded once for all roles with the same view."""
-        made: dict[tuple[Side, ...], str | None] = {}
+        made: dict[tuple[tuple[Side, ...], tuple[Side, ...]], str | None] = {}
         for role in self._pages.roles():
-            sides = tuple(self._beliefs_of(role))
-            if sides not in made:
-                made[sides] = self.feed.frame(sides)
-            frame = made[sides]
+            view = tuple(self._beliefs_of(role)), tuple(self._debug_of(role))
+            if view not in made:
+                made[view] = self.feed.frame(*view)
+            frame = made[view]
             if frame is not None:
                 self._pages.send_frame(frame, role)
 

@@ -6,6 +6,7 @@ and it is put together once for all pages that see the same.
 
 from collections.abc import Iterable
 
+from coach_gateway.match.debug_follower import DebugFollower
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
 from coach_gateway.web.rounding import rounded_json
@@ -15,6 +16,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import BELIEF, HEALTH, STATE, WORLD
+from schemas.wire.struct import encode
 
 _EVENTS_KEPT = 2000
 """Events of a match that are sent to a new page, the newest."""
@@ -25,6 +27,7 @@ class PageFeed:
 
     def __init__(self, bus: Bus) -> None:
         self._match = MatchFollower(bus, details=True)
+        self._debug = DebugFollower(bus)
         self._newest: dict[str, str] = {}
         self._events_sent: dict[str, None] = {}
         self._world: World | None = None
@@ -50,6 +53,7 @@ class PageFeed:
     def update(self) -> list[str]:
         """Take in what has come, without waiting; returns the messages for all pages, in order."""
         news = self._match.update()
+        self._debug.update()
         if news.new_host:
             self._reset()
         messages: list[str] = []
@@ -83,14 +87,14 @@ class PageFeed:
         """A tick has come."""
         return self._world is not None
 
-    def frame(self, beliefs: Iterable[Side]) -> str | None:
-        """The newest tick with the beliefs of the robots of these sides; None before the setup is known."""
+    def frame(self, beliefs: Iterable[Side], debug: Iterable[Side]) -> str | None:
+        """The newest tick with beliefs and drawings of robots of these sides; None before the setup is known."""
         if self._world is None or self.setup is None:
             return None
         tick, time = self._world.tick, round(self._world.time, 3)
         shown = ",".join(text for side in beliefs for text in self._belief_texts(side))
-        world = self._text_of(self._world)
-        return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{world},"beliefs":{{{shown}}}}}'
+        world, drawn = self._text_of(self._world), self._debug_text(debug)
+        return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{world},"beliefs":{{{shown}}},"debug":{drawn}}}'
 
     def orders(self, sides: Iterable[Side]) -> str:
         """The orders of these sides."""
@@ -149,6 +153,12 @@ class PageFeed:
                 beliefs[robot] = f'"{robot}":{rounded_json(belief)}'
         return [str(text) for text in beliefs.values()]
 
+    def _debug_text(self, sides: Iterable[Side]) -> str:
+        """The drawings of robots of these sides that are shown at this tick, by robot."""
+        assert self._world is not None
+        drawings = self._debug.shown(self._world.time, sides)
+        return rounded_json(encode(drawings)) if drawings else "{}"
+
     def _watch_roster(self, world: World) -> None:
         """Have the host queried again where a scene or an operator has let other robots take part in a match."""
         roster: tuple[int | str, ...] = (world.episode, *world.robots)
@@ -161,6 +171,7 @@ class PageFeed:
         self._newest.clear()
         self._events_sent.clear()
         self._world = self._roster = self.setup = None
+        self._debug.clear()
         for texts in self._beliefs.values():
             texts.clear()
         self.host_changed = True

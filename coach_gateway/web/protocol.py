@@ -15,6 +15,7 @@ from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
 from schemas.messages.coach import CoachOrder
+from schemas.messages.debug import RobotDebug
 from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.health import Health
 from schemas.messages.manual import ManualDrive
@@ -48,6 +49,8 @@ class Welcome(Part):
     `drive`, `replay`. A coach may do them for its own side alone."""
     beliefs: list[Side]
     """Sides whose robots' beliefs this role is shown."""
+    debug: list[Side] = []
+    """Sides whose robots' drawings this role is shown."""
     orders: list[Side]
     """Sides whose orders this role is shown."""
     scenes: dict[str, str] = {}
@@ -73,6 +76,8 @@ class Frame(Part):
     world: World
     beliefs: dict[Name, Belief]
     """Newest beliefs of robots of the sides in `Welcome.beliefs`, in their team's frame."""
+    debug: dict[Name, RobotDebug] = {}
+    """Drawings of robots of the sides in `Welcome.debug` that belong to this tick, or to one of the last 0.5 s."""
 
 
 class StateUpdate(Part):

@@ -16,12 +16,13 @@ from recordings.exchange.omissions import omitted_messages
 from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.messages.command import Command
+from schemas.messages.debug import RobotDebug
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.world import World
 from schemas.side import Side
-from schemas.topics import COMMAND, EVENT, STATE, WORLD
+from schemas.topics import COMMAND, DEBUG, EVENT, STATE, WORLD
 
-_TOPICS = (WORLD, STATE, EVENT, COMMAND)
+_TOPICS = (WORLD, STATE, EVENT, COMMAND, DEBUG)
 Row = tuple[Any, ...]
 Sides = dict[str, Side]
 
@@ -110,6 +111,12 @@ def _commands(recorded: RecordedMessage, command: Command, __: Sides) -> Iterabl
     yield recorded.time, recorded.key.split("/")[1], command.answers_tick, *moves, *kicked, *radio_fields
 
 
+def _debug(_: RecordedMessage, drawing: RobotDebug, __: Sides) -> Iterable[Row]:
+    for name, value in drawing.debug.values.items():
+        is_number = isinstance(value, float | int) and not isinstance(value, bool)
+        yield drawing.tick, drawing.time, drawing.robot, name, *((value, None) if is_number else (None, value))
+
+
 TABLES: dict[str, Table] = {
     "robots.csv": Table(
         WORLD.key,
@@ -150,6 +157,11 @@ TABLES: dict[str, Table] = {
             *("kick_mode", "kick_speed [m/s]", "role", "intention", "pass_to"),
         ),
         _commands,
+    ),
+    "debug.csv": Table(
+        DEBUG.key,
+        ("tick", "time [s]", "robot", "name", "number", "text"),
+        _debug,
     ),
 }
 """File → its table. Velocities of a command are in the robot's body frame."""

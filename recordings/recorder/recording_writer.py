@@ -208,7 +208,7 @@ class RecordingWriter:
                 add(channel, log_ns, received.payload, received.arrived_ns or self._clock.unix_ns())
             else:
                 add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & SEQUENCES)
-            if viz_channels is not None and received.key in READS:
+            if viz_channels is not None and received.topic.key in READS:
                 viz_channels.draw(received, log_ns)
 
     def _open_channel(self, received: ReceivedMessage) -> int:

@@ -17,10 +17,10 @@ from schemas.messages.game import GameEvent
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.process.clock import Clock
 from schemas.topic import Topic
-from schemas.topics import ACTIVE_ORDER, APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STATE, WORLD
+from schemas.topics import ACTIVE_ORDER, APPLIED, BELIEF, COMMAND, DEBUG, HEALTH, ORDER, SIGHT, STATE, WORLD
 
 LATCHED_TOPICS = frozenset(
-    topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, ORDER, ACTIVE_ORDER)
+    topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, DEBUG, ORDER, ACTIVE_ORDER)
 )
 """Topics whose newest message is the current state; all but events and reports of invalid messages."""
 _MAX_AT_ONCE = 500

@@ -21,18 +21,19 @@ class Colour(NamedTuple):
         return self._replace(a=a * self.a)
 
 
-def _of(code: str) -> Colour:
+def colour_of(code: str) -> Colour:
+    """The colour of `#rrggbb`."""
     return Colour(*(int(code[at : at + 2], 16) / 255 for at in (1, 3, 5)))
 
 
-ROBOT = {Side.CYAN: _of("#8fe3f7"), Side.MAGENTA: _of("#8a0f5c")}
-MARK = {Side.CYAN: _of("#0a2f3a"), Side.MAGENTA: _of("#ffd9ef")}
+ROBOT = {Side.CYAN: colour_of("#8fe3f7"), Side.MAGENTA: colour_of("#8a0f5c")}
+MARK = {Side.CYAN: colour_of("#0a2f3a"), Side.MAGENTA: colour_of("#ffd9ef")}
 """Marks on a robot: dark on light, light on dark."""
-UNKNOWN_ROBOT, UNKNOWN_ROBOT_MARK = _of("#9a9a9a"), _of("#202020")
+UNKNOWN_ROBOT, UNKNOWN_ROBOT_MARK = colour_of("#9a9a9a"), colour_of("#202020")
 """Colours of a robot of no team."""
-BALL = _of("#ffb000")
-PITCH, SURROUND, LINE = _of("#4a9468"), _of("#35704e"), _of("#ffffff")
-GOAL, NET, BOUNDARY, OBSTACLE = _of("#ffffff"), _of("#e6ece8"), _of("#1d3529"), _of("#5d6470")
-INK = _of("#ffffff")
-TEAM_TEXT = {Side.CYAN: ROBOT[Side.CYAN], Side.MAGENTA: _of("#f59bd0")}
+BALL = colour_of("#ffb000")
+PITCH, SURROUND, LINE = colour_of("#4a9468"), colour_of("#35704e"), colour_of("#ffffff")
+GOAL, NET, BOUNDARY, OBSTACLE = colour_of("#ffffff"), colour_of("#e6ece8"), colour_of("#1d3529"), colour_of("#5d6470")
+INK = colour_of("#ffffff")
+TEAM_TEXT = {Side.CYAN: ROBOT[Side.CYAN], Side.MAGENTA: colour_of("#f59bd0")}
 """A team's name on a dark background."""

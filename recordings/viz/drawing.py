@@ -8,6 +8,7 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from recordings.container.applied_changes import changes_in
 from recordings.container.lineup import Lineup
+from recordings.viz.debug import debug_entity
 from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
@@ -17,13 +18,15 @@ from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
 from schemas.bus.contract import ReceivedMessage
 from schemas.messages.applied import Applied
+from schemas.messages.debug import RobotDebug
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.setup import Setup
 from schemas.messages.world import ObstacleTruth
-from schemas.topics import APPLIED, EVENT, STATE, WORLD
+from schemas.topics import APPLIED, DEBUG, EVENT, STATE, WORLD
 from schemas.wire.message import BadMessageError
 
 TF, FIELD, ROBOTS, BALL, GAME, EVENTS = "/tf", "/viz/field", "/viz/robots", "/viz/ball", "/viz/game", "/viz/events"
+DRAWINGS = "/viz/debug"
 SCHEMAS = {
     TF: FRAME_TRANSFORMS,
     FIELD: SCENE_UPDATE,
@@ -31,14 +34,15 @@ SCHEMAS = {
     BALL: SCENE_UPDATE,
     GAME: SCENE_UPDATE,
     EVENTS: LOG,
+    DRAWINGS: SCENE_UPDATE,
 }
 """Topic → name of its message."""
 TF_STEP_NS = 19_000_000
 """Least simulated time between two transforms, in ns: each tick of 20 ms or more, 50 Hz with shorter ticks."""
 REPEAT_NS = 5_000_000_000
 """Simulated time, in ns, after which unchanged scenes are repeated, for viewers that start in the middle."""
-READS = frozenset({WORLD.key, STATE.key, EVENT.key, APPLIED.key})
-"""Keys of the messages that a drawing is derived from."""
+READS = frozenset({WORLD.key, STATE.key, EVENT.key, APPLIED.key, DEBUG.key})
+"""Rows of the topic table with the messages that a drawing is derived from."""
 _INVALID_PAYLOAD = (BadMessageError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """Exceptions that invalid payloads cause; they are not drawn."""
 
@@ -74,11 +78,12 @@ class Drawing:
             STATE.key: self._state,
             EVENT.key: self._event,
             APPLIED.key: self._applied,
+            DEBUG.key: self._debug,
         }
 
     def draw(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         """The messages for viewers that follow from a message with this log time in ns; mostly none."""
-        handler = self._handlers.get(received.key)
+        handler = self._handlers.get(received.topic.key)
         if handler is None:
             return []
         try:
@@ -137,6 +142,10 @@ class Drawing:
     def _event(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         event: GameEvent = received.message()
         return [VizMessage(EVENTS, log_entry(event, log_ns))]
+
+    def _debug(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
+        drawing: RobotDebug = received.message()
+        return [VizMessage(DRAWINGS, encode_scene(scene_update([debug_entity(drawing)]), log_ns))]
 
     def _applied(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         """Follow changes of the roster; the next world shows them."""

@@ -46,7 +46,7 @@ class VizChannels:
         message = SCHEMAS[topic]
         if message not in self._schemas:
             self._schemas[message] = self._mcap.register_schema(message, "protobuf", descriptors(message))
-        metadata = {DERIVED: "from world, game/state, game/event and host/applied"}
+        metadata = {DERIVED: "from world, game/state, game/event, host/applied and team/*/debug/*"}
         channel = self._mcap.register_channel(topic, "protobuf", self._schemas[message], metadata)
         self._channels[topic] = channel
         return channel

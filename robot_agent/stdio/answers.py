@@ -33,6 +33,10 @@ class AnswerFault(StrEnum):
     """A sight that the program did not read."""
 
 
+NOT_COMMANDS = frozenset({AnswerFault.STRAY, AnswerFault.INVALID})
+"""Faults of lines that no command can be read from."""
+
+
 class Verdict(NamedTuple):
     """What one line is."""
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from robot_agent.brain_error import RobotError
 from robot_agent.contract import Briefing
-from robot_agent.stdio.answers import AnswerFault, Expected, judge
+from robot_agent.stdio.answers import NOT_COMMANDS, AnswerFault, Expected, judge
 from robot_agent.stdio.child import Child
 from robot_agent.stdio.fault_counts import FaultCounts
 from schemas.errors import TouchlineError
@@ -27,6 +27,8 @@ SLICE_S = 0.25
 """Longest wait of one exchange: the caller looks at its host between two."""
 ACT_PATIENCE_S = 30.0
 """Wall time for an answer in a match in one process, which waits for each robot."""
+_REPORT_S = 0.05
+"""Wall time between two lines without a command that are sent to the host, which limits a flood of them."""
 _MOST_GIVEN_UP = 100
 """Newest sights without an answer that are remembered, to recognize a late answer."""
 
@@ -38,8 +40,8 @@ class ProgramEndedError(RobotError):
 class Exchange(NamedTuple):
     """What came of a sight: commands to publish."""
 
-    late: tuple[bytes, ...] = ()
-    """Answers to sights after which the program was given newer ones."""
+    others: tuple[bytes, ...] = ()
+    """Late answers, and some of the lines that are no commands, which the host counts and reports."""
     answer: bytes | None = None
     """The answer that was awaited; None if it has not come."""
     tick: int | None = None
@@ -81,34 +83,36 @@ class StdioProgram:
         self._sent_at = 0.0
         self._is_reported_silent = False
         self._given_up: list[int] = []
+        self._next_report = 0.0
         self._answered: int | None = None
 
-    def exchange(self, sight: Sight, wait: float = SLICE_S) -> Exchange:
+    def exchange(self, sight: Sight, wait: float = SLICE_S, patience: float = SILENCE_S) -> Exchange:
         """Give the program a sight unless it still owes an answer; wait up to `wait` s for its answer.
 
-        An invalid answer to the awaited sight is replaced by a command to rest.
+        After `patience` s without an answer it counts as silent. An invalid answer to the awaited sight is replaced by
+        a command to rest.
 
         Raises:
             ProgramEndedError: it has ended.
         """
         deadline = self._clock.now() + wait
-        late: list[bytes] = []
+        others: list[bytes] = []
         if self._awaited is None:
-            self._read(0.0, late)  # lines since the last answer
+            self._read(0.0, others)  # lines since the last answer
             self._give(sight)
-        elif sight.tick != self._awaited and self._is_silent():
-            self._report_silence()
+        elif sight.tick != self._awaited and self._clock.now() - self._sent_at >= patience:
+            self._report_silence(patience)
             self._give_newer(sight)
         while True:
-            answer = self._read(deadline - self._clock.now(), late)
+            answer = self._read(deadline - self._clock.now(), others)
             if answer is not None:
-                return Exchange(tuple(late), answer, self._answered)
+                return Exchange(tuple(others), answer, self._answered)
             if self._child.has_ended:
                 how = self._child.ending()
                 raise ProgramEndedError(f"the program `{self._name}` {how} at tick {sight.tick}")
             if self._clock.now() >= deadline:
-                self._report_silence()
-                return Exchange(tuple(late))
+                self._report_silence(patience)
+                return Exchange(tuple(others))
 
     def act(self, sight: Sight) -> Command:
         """The command for a sight, which is waited for.
@@ -119,7 +123,7 @@ class StdioProgram:
         deadline = self._clock.now() + ACT_PATIENCE_S
         while self._clock.now() < deadline:
             try:
-                found = self.exchange(sight)
+                found = self.exchange(sight, patience=ACT_PATIENCE_S)
             except ProgramEndedError as error:
                 raise TouchlineError(f"{self._robot}: {error}") from None
             if found.answer is not None and found.tick == sight.tick:
@@ -150,30 +154,31 @@ class StdioProgram:
         self._given_up = [*self._given_up[1 - _MOST_GIVEN_UP :], self._awaited]
         self._give(sight)
 
-    def _is_silent(self) -> bool:
-        return self._clock.now() - self._sent_at >= SILENCE_S
-
-    def _report_silence(self) -> None:
+    def _report_silence(self, patience: float) -> None:
         """Count a sight without an answer once."""
-        if self._is_silent() and not self._is_reported_silent:
-            self._is_reported_silent = True
-            remedy = "does it write one line for each sight, and flush it?"
-            self._count(
-                AnswerFault.SILENT, f"has not answered the sight of tick {self._awaited} for {SILENCE_S:g} s; {remedy}"
-            )
+        if self._clock.now() - self._sent_at < patience or self._is_reported_silent:
+            return
+        self._is_reported_silent = True
+        remedy = "does it write one line for each sight, and flush it?"
+        self._count(
+            AnswerFault.SILENT, f"has not answered the sight of tick {self._awaited} for {patience:g} s; {remedy}"
+        )
 
-    def _read(self, timeout: float, late: list[bytes]) -> bytes | None:
-        """The awaited answer if it is in the next lines of the program; late answers are added to `late`."""
+    def _read(self, timeout: float, others: list[bytes]) -> bytes | None:
+        """The awaited answer if it is in the next lines of the program; other lines for the host are added."""
         answer = None
         for line in self._child.receive(timeout):
             verdict = judge(line, Expected(self._awaited, self._given_up, self._answered))
             if verdict.fault is not None:
                 self._count(verdict.fault, f"wrote {verdict.reason}")
+            if verdict.fault in NOT_COMMANDS and self._clock.now() >= self._next_report:
+                self._next_report = self._clock.now() + _REPORT_S
+                others.append(line.content)
             if verdict.ends_wait and self._awaited is not None:
                 answer = (verdict.command or Command(answers_tick=self._awaited)).encode()
                 self._answered, self._awaited = self._awaited, None
             elif verdict.command is not None:
-                late.append(verdict.command.encode())
+                others.append(verdict.command.encode())
                 self._given_up.remove(verdict.command.answers_tick)
         return answer
 

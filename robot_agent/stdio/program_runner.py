@@ -30,7 +30,7 @@ class ProgramRunner(Runner):
         owed = True
         while owed:
             found = program.exchange(sight)
-            for payload in found.late:
+            for payload in found.others:
                 self._commands.put_payload(payload)
             if found.answer is not None:
                 self._last_tick, self._last_answer = found.tick, found.answer

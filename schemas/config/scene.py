@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, StringConstraints, model_validator
 
+from schemas.config.drill import Drill, Variation
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.config.toml_file import validate_tables
@@ -27,6 +28,7 @@ REMEDIES = {
     "robots.side": "write cyan or magenta",
     "robots.name": "a robot's name is a key chunk: lower-case letters, digits and _",
     "game.phase": f"one of {', '.join(phase for phase in Phase if phase in PHASES)}",
+    "drill.seconds": "simulated time in s, above 0 and at most 600",
     "obstacles.shape": "one of cylinder, box",
     "obstacles.place": "x and y of the centre in m",
     "obstacles.size": "x, y and z of a box in m",
@@ -130,11 +132,29 @@ class Scene(Part):
     """The robots of both sides."""
     obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
     """The obstacles on the pitch."""
+    drill: Drill | None = None
+    """What makes it a drill: its end and verdict; a match that starts in the scene plays on."""
+    vary: Annotated[list[Variation], Field(max_length=2 * MAX_ROBOTS + 1)] = Field(default_factory=list)
+    """How the start of a drill differs from seed to seed; a match starts in the scene as it is."""
 
     @model_validator(mode="after")
     def _check_robots(self) -> "Scene":
         check_names([*(robot.name for robot in self.robots), *(obstacle.name for obstacle in self.obstacles)])
         check_sides(self.robots)
+        return self
+
+    @model_validator(mode="after")
+    def _check_drill(self) -> "Scene":
+        names = [robot.name for robot in self.robots]
+        for one in self.vary:
+            if one.body not in ("ball", *names):
+                raise ValueError(f'vary names the body "{one.body}"; {did_you_mean(one.body, ["ball", *names])}')
+            if (one.body == "ball" and one.heading) or (one.body != "ball" and one.vz):
+                raise ValueError(f"vary of {one.body}: the ball has no heading, and a robot no vz; leave it out")
+        for occurred in [*self.drill.success, *self.drill.failure] if self.drill is not None else []:
+            _, colon, who = occurred.partition(":")
+            if colon and who not in (*Side, *names):
+                raise ValueError(f'drill names "{occurred}"; {did_you_mean(who, [*Side, *names])}')
         return self
 
     def of(self, side: Side) -> list[SceneRobot]:

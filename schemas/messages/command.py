@@ -5,6 +5,8 @@ from typing import Annotated, ClassVar
 
 from msgspec import Meta
 
+from schemas.messages.debug import MAX_BYTES as MAX_DEBUG_BYTES
+from schemas.messages.debug import Debug
 from schemas.messages.radio import Radio
 from schemas.wire.message import ShortText
 from schemas.wire.struct import Checked, Struct, StructMessage
@@ -53,7 +55,7 @@ class Kick(Struct, frozen=True, kw_only=True, metaclass=Checked):
 class Command(StructMessage, frozen=True, kw_only=True, metaclass=Checked):
     """One robot's answer to one sight."""
 
-    max_bytes: ClassVar[int] = 4096
+    max_bytes: ClassVar[int] = 4096 + MAX_DEBUG_BYTES
 
     answers_tick: Annotated[int, Meta(ge=0)]
     """Tick of the sight that this command answers."""
@@ -69,3 +71,6 @@ class Command(StructMessage, frozen=True, kw_only=True, metaclass=Checked):
     """Sequence number of the newest coach order that this robot has received; None before the first."""
     refuses_order: ShortText = ""
     """Why this robot does not carry out that order, such as `unknown test: machine`; empty while it does."""
+    debug: Debug | None = None
+    """Values and shapes for the robot's authors, in the team frame; None without any. They have no effect on the match,
+    and only the robot's own coach, the operator and recorders receive them."""

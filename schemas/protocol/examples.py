@@ -8,6 +8,7 @@ from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.debug import Debug, DebugCircle, DebugLine, RobotDebug
 from schemas.messages.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
 from schemas.messages.health import AccountHealth, Health, Invalid, RobotHealth
 from schemas.messages.manual import ManualDrive
@@ -38,6 +39,11 @@ _RADIO = Radio(
     intention="pass to cyan4",
     pass_to="cyan4",
     extra={"pressed": True},
+)
+_DEBUG = Debug(
+    values={"gap": 0.42, "plan": "pass"},
+    lines=[DebugLine(x1=3.12, y1=-1.19, x2=7.5, y2=0.6, colour="orange")],
+    circles=[DebugCircle(x=7.5, y=0.6, radius=0.5)],
 )
 
 
@@ -86,9 +92,11 @@ def _robot() -> tuple[WireMessage, ...]:
             kick=_KICK,
             radio=_RADIO,
             acknowledges_order=_ORDER.sequence,
+            debug=_DEBUG,
         ),
         ManualDrive(drive=Drive(vx=1.0, omega=-1.0), dribble=True),
         Belief(tick=_TICK + 1, time=_TIME + 0.02, robot="cyan2", radio=_RADIO),
+        RobotDebug(tick=_TICK, time=_TIME, robot="cyan2", debug=_DEBUG),
         _ORDER,
         ActiveOrder(tick=_TICK, time=_TIME, order=_ORDER, acknowledged={"cyan1": True, "cyan2": True, "cyan3": False}),
     )

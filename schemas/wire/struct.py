@@ -149,7 +149,7 @@ def _plan(kind: type[Struct]) -> _Plan:
         if base in (float, int, bool):
             plan.numbers.append((name, base, *_range(base, limits)))
         else:
-            choices = get_args(base) if get_origin(base) in (Union, UnionType) else (base,)
+            choices = get_args(base) if get_origin(base) in (Union, UnionType) else (hints_of(kind)[name],)
             tests = [test for choice in choices for test in _tests(*_split(choice))]
             plan.others.append((name, dict(tests)))
     return plan

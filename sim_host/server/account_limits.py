@@ -37,6 +37,8 @@ class AccountTraffic:
     """Bytes."""
     extra: int = 0
     """Messages of this period that were not useful."""
+    read: int = 0
+    """Bytes of the messages of this period that were to be read."""
     periods: int = 0
     """Periods in a row above the limit."""
     cut_off: bool = False
@@ -54,6 +56,7 @@ class AccountTraffic:
             self.extra += not weight
             self.drop(OVER_RATE)
             return False
+        self.read += size
         return True
 
     def drop(self, reason: str, messages: int = 1) -> None:
@@ -63,7 +66,7 @@ class AccountTraffic:
     def end_period(self, forgiving: bool) -> bool:
         """End a period; returns whether the account is cut off from now on."""
         self.periods = self.periods + 1 if self.extra > MOST_EXTRA else 0
-        self.extra = 0
+        self.extra = self.read = 0
         if forgiving or self.cut_off or not self.may_be_cut_off or self.periods < MOST_PERIODS:
             return False
         self.cut_off = True
@@ -101,6 +104,16 @@ class AccountLimits:
             account.messages += refusal.messages
             account.size += refusal.size
             account.drop(refusal.reason, refusal.messages)
+
+    @property
+    def read(self) -> int:
+        """Bytes of the messages of this period that were to be read, of all accounts."""
+        return sum(account.read for account in self._accounts.values())
+
+    @property
+    def over_limit(self) -> list[str]:
+        """Names of the accounts that are above their limit in this period, or cut off."""
+        return [name for name, account in self._accounts.items() if account.cut_off or account.extra > MOST_EXTRA]
 
     def end_period(self) -> list[AccountTraffic]:
         """End a period for all accounts; returns those that are cut off from now on."""

@@ -1,4 +1,4 @@
-"""Supervises the accounts while the match runs: ends their periods by wall time, and reports who is cut off."""
+"""Supervises accounts and links while the match runs: ends their periods by wall time, and reports who is cut off."""
 
 import logging
 from collections.abc import Mapping
@@ -7,6 +7,7 @@ from schemas.bus.contract import Bus
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.admission import Admission
 from sim_host.server.agent_stats import AgentStats
+from sim_host.server.link_limits import Flood, LinkLimits
 
 log = logging.getLogger("sim_host")
 
@@ -15,25 +16,35 @@ _PERIOD_S = 0.25
 
 
 class AccountSupervision:
-    """Supervises all accounts."""
+    """Supervises all accounts, and the links of their clients."""
 
     def __init__(
-        self, bus: Bus, accounts: AccountLimits, admission: Admission, agent_stats: Mapping[str, AgentStats]
+        self,
+        bus: Bus,
+        accounts: AccountLimits,
+        links: LinkLimits,
+        admission: Admission,
+        agent_stats: Mapping[str, AgentStats],
     ) -> None:
         self._bus = bus
         self._accounts = accounts
+        self._links = links
         self._admission = admission
         self._agent_stats = agent_stats
         self._next = bus.clock.now() + _PERIOD_S
         self._reports: list[str] = []
+        bus.links.refuse_if(lambda link: links.is_refused(link, bus.clock.now()))
 
     def update(self) -> None:
-        """End a period where it is due: count what the bus refused, and cut off accounts that went on too long."""
+        """End a period where it is due: count what the bus refused, and cut off links and accounts that went on."""
         now = self._bus.clock.now()
         if now < self._next:
             return
         self._next = now + _PERIOD_S
         self._accounts.add_refusals(self._bus.refusals.pop())
+        for flood in self._links.end_period(self._bus.links.traffic(), self._accounts.read, now):
+            if self._bus.links.close(flood.link):
+                self._reports.append(_report(flood, self._accounts.over_limit))
         for account in self._accounts.end_period():
             self._reports.append(
                 f"{account.name} is cut off: it went on above its limit of messages; a referee may admit it again"
@@ -47,3 +58,12 @@ class AccountSupervision:
         for text in reports:
             log.warning(text)
         return reports
+
+
+def _report(flood: Flood, accounts: list[str]) -> str:
+    """The report on a link that was closed; `accounts` are above their limits at the same time."""
+    above = f"; above their limits: {', '.join(accounts)}" if accounts else ""
+    return (
+        f"a connection from {flood.link.address} is closed: it carried {flood.rate / 1e6:.1f} MB/s, "
+        f"far more than the host reads{above}"
+    )

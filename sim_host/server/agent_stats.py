@@ -90,15 +90,14 @@ class AgentStats:
             self.missed_in_a_row += 1
             self.silent += 1
 
-    def jump_to(self, sequence: int, tick: int) -> None:
-        """Count the messages that are missing before this sequence number, which is not the next and arrives at `tick`.
+    def add_gap(self, sequence: int, tick: int) -> None:
+        """Count the messages that are missing before this sequence number, which is above the next, at `tick`.
 
-        A restarted agent counts from 0 again. A gap that is longer than an agent can make is one of another agent.
+        A gap that is longer than an agent can make is one of another agent.
         """
         gap = sequence - self.next_sequence
-        if self.next_sequence >= 0 and 0 < gap <= tick - self.newest + _REPEATED_COMMANDS:
+        if self.next_sequence >= 0 and gap <= tick - self.newest + _REPEATED_COMMANDS:
             self.lost_commands += gap
-        self.next_sequence = sequence
 
     def add_latency(self, latency_s: float) -> None:
         """Add the wall time in s from a sight to its command."""

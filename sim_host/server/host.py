@@ -13,11 +13,13 @@ from sim_host.server.account_limits import AccountLimits
 from sim_host.server.account_supervision import AccountSupervision
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
 from sim_host.server.admission import Admission
+from sim_host.server.debug_publisher import DebugPublisher
 from sim_host.server.eligibility import Eligibility
 from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.host_reports import HostReports
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.link_limits import LinkLimits
 from sim_host.server.manual_control import ManualControl
 from sim_host.server.outbox import Outbox
 from sim_host.server.pace import Lockstep, Pace, Realtime
@@ -56,6 +58,7 @@ class Host:
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
         self.accounts = AccountLimits(self._sides(), has_accounts=has_accounts, forgiving=forgiving or config.forgiving)
+        self._links = LinkLimits(forgiving=forgiving or config.forgiving)
         admission = Admission([*config.record.admit, *recorders], self.accounts, any_recorder=has_accounts)
         self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches, self.accounts)
@@ -85,9 +88,10 @@ class Host:
             self.presence.add_refusal,
         )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
-        self._supervision = AccountSupervision(bus, self.accounts, admission, self.inbox.agent_stats)
+        self._supervision = AccountSupervision(bus, self.accounts, self._links, admission, self.inbox.agent_stats)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
+        self._debug = DebugPublisher(self._batches, tick_s)
         self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self._supervision)
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
@@ -144,6 +148,7 @@ class Host:
     def tick(self) -> TickResult:
         """One tick: collect commands, step the simulation, publish the result."""
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
+        self._debug.publish(commands, self._roster, self.simulation.state)
         self.presence.update()
         self._process_requests()
         self._look_for_sight_recorders()
@@ -258,7 +263,15 @@ class Host:
         simulation, late = self.simulation, self.pace.late_ticks
         budget = simulation.profile.radio.budget
         report = self._health.report(
-            tick.tick, tick.time, late, self.inbox, self.presence, self.accounts, simulation.radio_use, budget
+            tick.tick,
+            tick.time,
+            late,
+            self.inbox,
+            self.presence,
+            self.accounts,
+            self._links,
+            simulation.radio_use,
+            budget,
         )
         self._outbox.publish_health(report)
 

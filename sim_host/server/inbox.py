@@ -89,10 +89,11 @@ class Inbox:
             return None
         if stats.removed:
             return None  # it answers a sight from before it was removed
-        if received.stamp is not None:
-            if received.stamp.sequence != stats.next_sequence:
-                stats.jump_to(received.stamp.sequence, tick)
-            stats.next_sequence += 1
+        sequence = received.stamp.sequence if received.stamp is not None else -1
+        if sequence >= max(0, stats.next_sequence):
+            if sequence > stats.next_sequence:
+                stats.add_gap(sequence, tick)
+            stats.next_sequence = sequence + 1
         try:
             command = Command.decode(received.payload)
             if command.answers_tick > tick:
@@ -103,6 +104,8 @@ class Inbox:
             return None
         if not stats.add_answer(command.answers_tick, tick):
             return None
+        if sequence >= 0:
+            stats.next_sequence = sequence + 1  # a restarted agent counts from 0 again; a message sent twice does not
         stats.acknowledged = command.acknowledges_order
         stats.refused_order = command.refuses_order
         self._note_latency(stats, command.answers_tick, received.arrived_ns)

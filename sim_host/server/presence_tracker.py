@@ -150,6 +150,7 @@ class PresenceTracker:
         """
         name = presence.name
         if presence.alive:
+            self._admission.join(name)
             if name in self.recorders or self._admission.waits_for(name) or len(self.recorders) < _MAX_RECORDERS:
                 self.recorders.setdefault(name, -1)
             self._lost.pop(name, None)

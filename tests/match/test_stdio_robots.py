@@ -49,6 +49,7 @@ def test_garbage_is_named_in_the_robots_log_and_the_match_goes_on(tmp_path: Path
     played = StdioMatch(tmp_path, "print('ball?', sight['ball'] is not None)\nprint('{\"answers_tick\": NaN}')").play()
     assert played.is_whole()
     log = played.log("cyan1")
+    assert "cyan1 sends messages that are no commands" in played.printed
     assert "cyan1: the program wrote 'ball? " in log
     assert "answers_tick is nan" in log
     assert "lines that were no JSON object, " in log.splitlines()[-1]

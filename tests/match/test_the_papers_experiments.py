@@ -36,7 +36,7 @@ from schemas.side import Side
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
 from touchline.watch.drawing import draw_match
-from touchline.watch.pitch import MARGIN
+from touchline.watch.scale import MARGIN
 
 CYAN = ("cyan1", "cyan2", "cyan3")
 RIVALS = ("magenta1", "magenta2", "magenta3")

@@ -24,6 +24,7 @@ from schemas.messages.sight import Sight
 from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation
+from sim_host.server.debug_publisher import DebugPublisher
 from sim_host.server.outbox import Outbox
 from support.recorder_rig import FakeHost, RecorderRig, make_setup
 from touchline.play import InProcessMatch
@@ -122,6 +123,7 @@ def record_match(
     host_bus.declare_alive("host", "host")
     batches = BatchPublisher(host_bus)
     outbox = Outbox(batches, simulation.roster, simulation.profile.time.tick)
+    debug = DebugPublisher(batches, simulation.profile.time.tick)
     loss_counts = LossCounts()
     recorder = Recorder(
         bus, open_sink(path, bus.clock, config.name, loss_counts, limits, viz=viz), loss_counts, config=config
@@ -150,6 +152,7 @@ def record_match(
         }
         for name, command in said.items():
             commands[name].put(command)
+        debug.publish(said, simulation.roster, simulation.state)
         quiet = silent(simulation)
         answers = {name: command for name, command in said.items() if name not in quiet}
         tick = simulation.step(answers, actions(simulation), silent=quiet, refbox=refbox(simulation))

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 from robot_agent.settings import AgentSettings
 from schemas.bus.endpoint import with_free_port
@@ -12,6 +13,8 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.config.settings_file import write_settings
 from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, SETUP, SIGHT
+from support.process_story import descendants, is_running, wait_for
+from touchline.command_line import app
 
 BRAIN = "robot_agent.teams.nubot:NuBot"
 LIMIT_S = 60.0
@@ -46,6 +49,61 @@ def by_environment(endpoint: str, folder: Path) -> tuple[list[str], dict[str, st
     """The command line and the environment of `touchline agent` without options."""
     told = {"CONNECT": endpoint, "MATCH": "friendly", "ROBOT": "cyan2", "BRAIN": BRAIN}
     return ["touchline", "agent"], {f"TOUCHLINE_{name}": value for name, value in told.items()}
+
+
+PROGRAM = """
+import json, sys
+robot = json.loads(sys.stdin.readline())["robot"]
+for line in sys.stdin:
+    print(json.dumps({"answers_tick": json.loads(line)["tick"], "refuses_order": robot}), flush=True)
+"""
+
+
+@pytest.mark.processes
+@pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGKILL])
+def test_a_program_of_lines_answers_a_host_and_ends_with_its_agent(setup, sight_of, tmp_path, end):
+    (tmp_path / "robot.py").write_text(PROGRAM)
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    words = [
+        "agent",
+        "--connect",
+        endpoint,
+        "--match",
+        "friendly",
+        "--robot",
+        "cyan2",
+        "--stdio",
+        f"{sys.executable} robot.py",
+    ]
+    with open_host("friendly", WallClock(), endpoint) as host:
+        server = host.serve(SETUP)
+        commands, sights = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan2")
+        run = [sys.executable, "-m", "touchline", *words]
+        robot = subprocess.Popen(run, cwd=tmp_path, stderr=subprocess.PIPE)
+        try:
+            query = server.receive(LIMIT_S)
+            assert query is not None
+            query.reply(setup)
+            received = None
+            while received is None:
+                sights.put(sight_of(3))
+                received = commands.receive(0.2)
+            assert (received.message().answers_tick, received.message().refuses_order) == (3, "cyan2")
+            programs = descendants(robot.pid)
+            assert len(programs) == 1
+        finally:
+            robot.send_signal(end)
+            _, said = robot.communicate(timeout=LIMIT_S)
+    assert said == b""
+    assert robot.returncode == (0 if end == signal.SIGTERM else -signal.SIGKILL)
+    wait_for(lambda: not is_running(programs[0]), "the end of the program")
+
+
+@pytest.mark.parametrize("words", [[], ["--brain", "a:B", "--stdio", "cat"]])
+def test_an_agent_has_a_brain_or_a_program(words):
+    found = CliRunner().invoke(app, ["agent", "--robot", "cyan1", *words])
+    assert found.exit_code == 2
+    assert "a robot has a brain or a program; give --brain module:Class or --stdio" in found.output
 
 
 @pytest.mark.processes

@@ -1,4 +1,5 @@
 import json
+import pdb
 from pathlib import Path
 
 import pytest
@@ -235,6 +236,17 @@ def test_a_brain_that_ends_its_process_is_reported_as_one_that_raises(seats, sig
 
     report = failure_of(seats, act, sight_of(4))
     assert report.splitlines()[-1] == f"act raised at tick 4 {place_in(act, 1)}: SystemExit: 0"
+
+
+def test_a_debugger_that_finds_no_terminal_is_reported_with_the_remedy(seats, sight_of, monkeypatch):
+    def act(self, sight):
+        pdb.Pdb().set_trace()
+        return Command(answers_tick=sight.tick)
+
+    monkeypatch.setattr("builtins.input", lambda _prompt="": "EOF")
+    report = failure_of(seats, act, sight_of(4)).splitlines()
+    assert report[-2].startswith("act raised at tick 4 ") and "BdbQuit" in report[-2]
+    assert "write breakpoint(), which it skips" in report[-1]
 
 
 def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, sight_of, monkeypatch):

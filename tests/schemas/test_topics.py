@@ -23,7 +23,7 @@ def test_a_chunk_that_a_key_does_not_have_is_named() -> None:
 def test_all_but_sights_questions_and_single_bodies_is_recorded() -> None:
     kept = {name for name, topic in TOPICS.items() if topic.recorded}
     orders = {"order", "standing_order"}
-    assert kept == {"world", "command", "belief", *orders, "state", "event", "applied", "health", "invalid"}
+    assert kept == {"world", "command", "belief", "debug", *orders, "state", "event", "applied", "health", "invalid"}
 
 
 def test_the_truth_is_for_everyone_but_robots() -> None:

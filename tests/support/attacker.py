@@ -1,16 +1,18 @@
 """Attacks on a host's port: each is a function of a session, the prefix of the match, and a deadline.
 
-Run as a process, `python attacker.py ATTACK ENDPOINT MATCH SECONDS`, so that an attack takes its own CPU time. All are
-bounded in time, and in what they send.
+Run as a process, `python attacker.py ATTACK ENDPOINT MATCH SECONDS [CREDENTIALS]`, so that an attack takes its own CPU
+time; with the credentials of an account it attacks as that one. All are bounded in time, and in what they send.
 """
 
 import json
+import os
 import socket
 import struct
 import sys
 import time
 from collections.abc import Callable
 from datetime import UTC
+from pathlib import Path
 from typing import Any
 
 import zenoh
@@ -20,6 +22,9 @@ STAMP = struct.Struct("<QQq")
 BELIEF = b'{"version":"2.0","tick":1,"time":0.02,"robot":"cyan1","side":"cyan","message":{}}'
 PROGRESS = b'{"version":"2.0","tick":999999,"messages":0,"lost":0}'
 COMMAND = b'{"version":"2.0","answers_tick":1}'
+_PATIENCE_S = 20.0
+_READ = ("world", "game/**", "host/**")
+"""Keys that deaf readers subscribe to."""
 DEEP = b"[" * 3000 + b"]" * 3000
 
 
@@ -37,6 +42,18 @@ def open_session(endpoint: str, mode: str = "client", **more: Any) -> zenoh.Sess
     for key, value in settings.items():
         config.insert_json5(key, json.dumps(value))
     return zenoh.open(config)
+
+
+def _patient_session(endpoint: str, **user: str) -> zenoh.Session:
+    """A session, also while the host refuses unknown clients because of an earlier attack."""
+    deadline = time.monotonic() + _PATIENCE_S
+    while True:
+        try:
+            return open_session(endpoint, **user)
+        except zenoh.ZError:
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.2)
 
 
 Attack = Callable[[zenoh.Session, str, float], None]
@@ -171,6 +188,29 @@ def flood(session: zenoh.Session, prefix: str, until: float) -> None:
             publisher.put(COMMAND)
 
 
+def burn(session: zenoh.Session, prefix: str, until: float) -> None:
+    """Messages at full speed that reach nobody: only the CPU time of an attacker, for comparison."""
+    publisher = session.declare_publisher(f"{prefix}nobody", congestion_control=zenoh.CongestionControl.BLOCK)
+    while time.monotonic() < until:
+        for _ in range(1000):
+            publisher.put(COMMAND)
+
+
+def reconnecting_flood(endpoint: str, match: str, until: float, **user: str) -> None:
+    """A flood by a new client whenever the host has closed the connection of the last one."""
+    while time.monotonic() < until:
+        try:
+            with open_session(endpoint, **user) as session:
+                publisher = session.declare_publisher(
+                    f"touchline/{match}/robot/cyan1/command", congestion_control=zenoh.CongestionControl.BLOCK
+                )
+                while session.info.routers_zid() and time.monotonic() < until:
+                    for _ in range(1000):
+                        publisher.put(COMMAND)
+        except zenoh.ZError:
+            time.sleep(0.05)
+
+
 def steady_flood(session: zenoh.Session, prefix: str, until: float) -> None:
     """Small messages on one robot's key at a rate that the router lets through, three times what the host allows.
 
@@ -197,6 +237,14 @@ def flood_of_orders(session: zenoh.Session, prefix: str, until: float) -> None:
         for _ in range(500):
             session.put(f"{prefix}team/cyan/order", b"{}")
             session.put(f"{prefix}record/recorder/progress", PROGRESS)
+
+
+def flood_of_drives(session: zenoh.Session, prefix: str, until: float) -> None:
+    """Small messages on the keys of manual control, as fast as they can be sent."""
+    while time.monotonic() < until:
+        for _ in range(500):
+            session.put(f"{prefix}robot/cyan1/manual", b"{}")
+            session.put(f"{prefix}robot/magenta1/manual", b"{}")
 
 
 def huge_message(session: zenoh.Session, prefix: str, until: float) -> None:
@@ -239,23 +287,70 @@ def malformed(session: zenoh.Session, prefix: str, until: float) -> None:
     _paced(until, 5, act)
 
 
-def deaf_readers(session: zenoh.Session, prefix: str, until: float) -> None:
-    """Ten subscriptions over one link that is never read."""
-    host, port = _address(session)
-    del host, port
-    held = [session.declare_subscriber(f"{prefix}world", zenoh.handlers.FifoChannel(1)) for _ in range(10)]
-    time.sleep(max(0.0, until - time.monotonic()))
-    del held
+def _deaf_readers(links: int) -> Callable[..., None]:
+    def attack(endpoint: str, match: str, until: float, **user: str) -> None:
+        held = []
+        for _ in range(links):
+            session = open_session(endpoint, **user)
+            held += [
+                session.declare_subscriber(f"touchline/{match}/{key}", zenoh.handlers.FifoChannel(1)) for key in _READ
+            ]
+            held.append(session)
+        time.sleep(max(0.0, until - time.monotonic()))
+        os._exit(0)  # Zenoh would wait for the readers
+
+    attack.__doc__ = f"Subscriptions over {links} links that are never read."
+    return attack
 
 
-def _address(session: zenoh.Session) -> tuple[str, int]:
-    endpoint = str(next(iter(session.info.links())).dst)
-    host, _, port = endpoint.partition("/")[2].partition("?")[0].rpartition(":")
-    return host, int(port)
+def resets(endpoint: str, match: str, until: float, **user: str) -> None:
+    """Connections that are reset in the middle of the handshake, and sessions in the middle of a long message."""
+    while time.monotonic() < until:
+        for content in (b"", b"\x20\x00\x01", b"\xff\x7f" + b"\x01" * 1000):
+            try:
+                near = socket.create_connection(_parts(endpoint), timeout=0.5)
+                near.sendall(content)
+                _reset(near)
+            except OSError:
+                time.sleep(0.02)
+        try:
+            with open_session(endpoint, **user) as session:
+                session.put(f"touchline/{match}/robot/cyan1/command", b"x" * 1_000_000)
+                for near in _connections_to(endpoint):
+                    _reset(near)
+        except zenoh.ZError:
+            time.sleep(0.02)
 
 
-def half_open(endpoint: str, until: float) -> None:
+def _connections_to(endpoint: str) -> list[socket.socket]:
+    """The connections of this process to the host, whichever library has opened them."""
+    found = []
+    for entry in Path("/proc/self/fd").iterdir():
+        try:
+            near = socket.socket(fileno=os.dup(int(entry.name)))
+        except OSError:
+            continue
+        try:
+            is_wanted = near.getpeername()[1] == _parts(endpoint)[1]
+        except (OSError, IndexError):
+            is_wanted = False
+        if is_wanted:
+            found.append(near)
+        else:
+            near.close()
+    return found
+
+
+def _reset(near: socket.socket) -> None:
+    """End a connection with a reset: what was not sent is discarded."""
+    near.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    near.shutdown(socket.SHUT_RDWR)
+    near.close()
+
+
+def half_open(endpoint: str, match: str, until: float, **user: str) -> None:
     """A thousand connections that send nothing."""
+    del match, user
     held = []
     for _ in range(1000):
         try:
@@ -265,8 +360,9 @@ def half_open(endpoint: str, until: float) -> None:
     time.sleep(max(0.0, until - time.monotonic()))
 
 
-def garbage(endpoint: str, until: float) -> None:
+def garbage(endpoint: str, match: str, until: float, **user: str) -> None:
     """Raw garbage, a length prefix of 4 GB, and one byte a second."""
+    del match, user
     while time.monotonic() < until:
         for content in (b"GET / HTTP/1.1\r\n\r\n", b"\xff\xff\xff\xff" * 100, b"\xff\xff\x00\x00" + b"\x01" * 65_535):
             try:
@@ -277,8 +373,9 @@ def garbage(endpoint: str, until: float) -> None:
                 time.sleep(0.02)
 
 
-def slow_loris(endpoint: str, until: float) -> None:
+def slow_loris(endpoint: str, match: str, until: float, **user: str) -> None:
     """Two hundred connections that send a byte of a handshake now and then."""
+    del match, user
     held = []
     for _ in range(200):
         try:
@@ -309,37 +406,55 @@ ATTACKS: dict[str, Attack] = {
     "setup_queries": _queries("host/setup", b'{"version":"2.0"}'),
     "parameter_queries": _queries("host/parameters", b'{"version":"2.0","operation":"list"}'),
     "scene_queries": _queries("host/scene", b'{"version":"2.0","operation":"list"}'),
+    "action_queries": _queries("game/action", b"{}"),
     "histories": histories,
     "subscriptions": subscriptions,
     "fake_batches": fake_batches,
     "flood": flood,
     "flood_of_names": flood_of_names,
     "flood_of_orders": flood_of_orders,
+    "flood_of_drives": flood_of_drives,
     "huge_message": huge_message,
     "false_times": false_times,
     "malformed": malformed,
-    "deaf_readers": deaf_readers,
 }
 """Attacks over the protocol of Zenoh."""
-RAW_ATTACKS: dict[str, Callable[[str, float], None]] = {
+RAW_ATTACKS: dict[str, Callable[..., None]] = {
+    "reconnecting_flood": reconnecting_flood,
     "half_open": half_open,
     "garbage": garbage,
     "slow_loris": slow_loris,
+    "resets": resets,
+    "one_deaf_reader": _deaf_readers(1),
+    "ten_deaf_readers": _deaf_readers(10),
+    "forty_deaf_readers": _deaf_readers(40),
 }
-"""Attacks on the port itself."""
+"""Attacks on the port itself, or by connections of their own; each is called with the endpoint and the match."""
 STEADY_ATTACKS: dict[str, Attack] = {"steady_flood": steady_flood}
 """Attacks that take effect after seconds only."""
+CONTROLS: dict[str, Attack] = {"burn": burn}
+"""What an attacker's process costs the others by its CPU time alone."""
+
+
+def user_of(path: str | Path) -> dict[str, str]:
+    """The settings with which an account connects, by its file."""
+    account = json.loads(Path(path).read_text())
+    return {
+        "transport/auth/usrpwd/user": account["user"],
+        "transport/auth/usrpwd/password": account["password"],
+    }
 
 
 def main() -> None:
     """Carry out one attack."""
-    name, endpoint, match, seconds = sys.argv[1:5]
-    until = time.monotonic() + float(seconds)
+    name, endpoint, match, seconds, *credentials = sys.argv[1:]
+    user = user_of(credentials[0]) if credentials else {}
     if name in RAW_ATTACKS:
-        RAW_ATTACKS[name](endpoint, until)
+        RAW_ATTACKS[name](endpoint, match, time.monotonic() + float(seconds), **user)
         return
-    with open_session(endpoint) as session:
-        {**ATTACKS, **STEADY_ATTACKS}[name](session, f"touchline/{match}/", until)
+    with _patient_session(endpoint, **user) as session:
+        until = time.monotonic() + float(seconds)
+        {**ATTACKS, **STEADY_ATTACKS, **CONTROLS}[name](session, f"touchline/{match}/", until)
 
 
 if __name__ == "__main__":

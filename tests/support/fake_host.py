@@ -12,6 +12,7 @@ from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.game import EventKind, Phase
 from schemas.messages.coach import ActiveOrder, CoachOrder
+from schemas.messages.debug import Debug, RobotDebug
 from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
 from schemas.messages.health import Health
 from schemas.messages.radio import Belief, Radio
@@ -20,7 +21,7 @@ from schemas.messages.world import BallTruth, World
 from schemas.process.clock import Clock, WallClock
 from schemas.side import Side
 from schemas.topic import Topic
-from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD
+from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, DEBUG, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD
 from schemas.wire.message import WireMessage
 from support.messages import make_event, make_robot, make_world
 
@@ -149,13 +150,15 @@ class FakeHost:
         self.put(BELIEF, belief, side=side.value, robot=robot)
 
     def play(self, tick: int) -> None:
-        """Publish game, health, beliefs and the world of one tick; a reader of this world has the beliefs already."""
+        """Publish game, health, beliefs, drawings and the world of one tick; a reader of this world has the rest."""
         at: dict[str, Any] = {"tick": tick, "time": tick * 0.02}
         self.put(STATE, GameState(**at, phase=Phase.PLAY))
         self.put(HEALTH, Health(**at, pace="realtime", real_time_factor=1.0))
         for side in Side:
             robot = f"{side}1"
             self.put(BELIEF, Belief(**at, robot=robot, radio=Radio(role="striker")), side=side.value, robot=robot)
+            debug = RobotDebug(**at, robot=robot, debug=Debug(values={"tick": tick}))
+            self.put(DEBUG, debug, side=side.value, robot=robot)
         self.put(WORLD, make_world(tick, (tick, 0.0)))
 
     def stand(self, side: Side, order: CoachOrder, refused: dict[str, str] | None = None, **acknowledged: bool) -> None:

@@ -2,6 +2,7 @@
 
 import importlib.util
 import shlex
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -117,6 +118,24 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
 
     opening_layout(config, LiveParameters.of(config), book)
     return config
+
+
+def settings_of(changes: list[str]) -> dict[str, Any]:
+    """Key of a match file → value, from texts as `radio.loss=0.2`; a value that is no TOML is text.
+
+    Raises:
+        TouchlineError: a text has no key or no value.
+    """
+    found: dict[str, Any] = {}
+    for change in changes:
+        key, sign, value = (part.strip() for part in change.partition("="))
+        if not sign or not key:
+            raise TouchlineError(f'--set is "{change}"; write a key of the match file and its value: radio.loss=0.2')
+        try:
+            found[key] = tomllib.loads(f"value = {value}")["value"]
+        except tomllib.TOMLDecodeError:
+            found[key] = value
+    return found
 
 
 def pitch_note(config: MatchConfig) -> str | None:

@@ -79,6 +79,7 @@ def replay(
     live: Annotated[
         bool, typer.Option("--live", help="With --agent: simulate on from --from with this brain; no bus.")
     ] = False,
+    out: Annotated[Path | None, typer.Option(help="With --live: the recording to write of the match.")] = None,
     web: options.Web = False,
     foxglove: Annotated[
         bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick and print its address.")
@@ -105,12 +106,24 @@ def replay(
     if agent is not None:
         from touchline.debugger.agent_replay import AgentReplay, parse_agent
 
-        robot, brain = parse_agent(agent)
-        raise typer.Exit(
-            AgentReplay(file, robot, brain, start, end, every_difference, pdb, brain_folder, live, json).run()
+        on_the_bus: dict[str, object] = {"--fast": fast, "--loop": loop, "--paused": paused, "--stay": stay}
+        on_the_bus |= {"--include": include, "--exclude": exclude, "--follow": follow, "--connect": connect}
+        on_the_bus |= {
+            "--match": match,
+            "--prefix": prefix,
+            "--web": web,
+            "--foxglove": foxglove,
+            "--rate": rate != 1.0,
+        }
+        robot, brain = parse_agent(agent, on_the_bus)
+        debugged = AgentReplay(
+            file, robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
         )
-    if every_difference or pdb or live:
-        raise TouchlineError("--every-difference, --pdb and --live need --agent, such as --agent cyan2=module:Class")
+        raise typer.Exit(debugged.run())
+    if every_difference or pdb or live or out or brain_folder:
+        raise TouchlineError(
+            "--every-difference, --pdb, --live, --out and --brain-folder need --agent, such as --agent cyan2=my:Brain"
+        )
     from recordings.container.key_selection import KeySelection
     from recordings.replay.replay import Replay, ReplaySettings
     from schemas.process.clock import WallClock

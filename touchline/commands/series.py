@@ -3,7 +3,6 @@
 import dataclasses
 import json as json_text
 import signal
-import tomllib
 from contextlib import closing
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -55,16 +54,22 @@ def series(
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
     options.need_pybullet()
-    from touchline.series.match_processes import cores, play_in_processes
-    from touchline.series.plan import plan_series
+    from touchline.series.plan import plan_series, with_brains
+    from touchline.series.play_planned import play_all
+    from touchline.series.processes import cores
     from touchline.series.progress import progress_of
     from touchline.series.seeds import seeds_of
     from touchline.series.table import sentence_of
+    from touchline.series.team_names import brain_of
 
     if jobs < 0:
         raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
     named = {"scene": scene, "profile": profile, "rules": rules, **changes}
-    config = options.read_match(file, **_set(change or []), **_teams({"cyan": cyan, "magenta": magenta}), **named)
+    settings = {key.replace(".", "__"): value for key, value in options.settings_of(change or []).items()}
+    config = options.read_match(file, **settings, **named)
+    config = with_brains(
+        config, {side: brain_of(team) for side, team in zip(Side, (cyan, magenta), strict=True) if team is not None}
+    )
     if note := options.pitch_note(config):
         typer.echo(f"note: {note}", err=True)
     plan = plan_series(config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None)
@@ -73,7 +78,7 @@ def series(
     interrupted = False
     try:
         with (
-            closing(play_in_processes(plan.matches, jobs or cores())) as played,
+            closing(play_all(plan.matches, jobs or cores())) as played,
             progress_of(len(plan.matches), " – ".join(plan.teams)) as report,
         ):
             for outcome in played:
@@ -86,32 +91,6 @@ def series(
         raise typer.Exit(128 + signal.SIGINT)
     if failed:
         raise typer.Exit(FAILED)
-
-
-def _set(changes: list[str]) -> dict[str, Any]:
-    """Key of the match file, with `__` in place of a dot → value; a value that is no TOML is text."""
-    found = {}
-    for change in changes:
-        key, sign, value = change.partition("=")
-        if not sign or not key:
-            raise TouchlineError(f'--set is "{change}"; write a key of the match file and its value: radio.loss=0.2')
-        try:
-            found[key.strip().replace(".", "__")] = tomllib.loads(f"value = {value}")["value"]
-        except tomllib.TOMLDecodeError:
-            found[key.strip().replace(".", "__")] = value.strip()
-    return found
-
-
-def _teams(teams: dict[str, str | None]) -> dict[str, Any]:
-    """Keys of the match file for teams that are given by an option; size and robots of the file stay."""
-    from touchline.series.team_names import brain_of
-
-    found: dict[str, Any] = {}
-    for side, team in teams.items():
-        if team is not None:
-            brain = brain_of(team)
-            found |= {f"teams__{side}__brain": brain, f"teams__{side}__name": brain.partition(":")[2]}
-    return found
 
 
 def _check(plan: "SeriesPlan") -> None:

@@ -1,7 +1,7 @@
 """`touchline watch`: a running match, or a replay, drawn in the terminal."""
 
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -9,6 +9,7 @@ from coach_gateway import run
 from coach_gateway.settings import GatewaySettings
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
+from schemas.errors import TouchlineError, did_you_mean
 from touchline.cli.bus_client import PATIENCE, bus_client
 from touchline.cli.option_groups import with_option_groups
 
@@ -16,47 +17,58 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from schemas.bus.contract import Bus
+    from schemas.messages.setup import Setup
 
 _EVERY = 0.1
 """Wall time between two pictures, s."""
 
 
 @with_option_groups
-def watch(connection: ClientSettings) -> None:
-    """Watch a match in the terminal until its host ends, or until Ctrl-C: pitch, score, robots, events.
+def watch(
+    connection: ClientSettings,
+    robot: Annotated[
+        str | None, typer.Option(help="List the values that this robot's brain shows in `Command.debug`.")
+    ] = None,
+) -> None:
+    """Watch a match in the terminal until its host ends, or until Ctrl-C: pitch, score, robots, events, drawings.
 
     If the output is not a terminal, the match is printed as plain lines. Replays can be watched, too.
 
-    Example: touchline watch --match friendly
+    Example: touchline watch --match friendly --robot cyan2
     """
     if not sys.stdout.isatty():
+        if robot is not None:
+            raise TouchlineError("--robot lists values on a terminal only; leave it out, or write to a terminal")
         raise typer.Exit(run(GatewaySettings(**connection.model_dump())))
     from touchline.cli.console import console
 
     with bus_client(connection, Account.OPERATOR) as bus:
         try:
-            watch_on(bus, console())
+            watch_on(bus, console(), robot)
         except KeyboardInterrupt:
             return
     typer.echo("the host is gone", err=True)
 
 
-def watch_on(bus: "Bus", console: "Console") -> None:
-    """Draw until the host ends; the last picture stays on the terminal.
+def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
+    """Draw until the host ends; the last picture stays on the terminal. The values of `robot` are listed.
 
     Raises:
-        TouchlineError: no host plays this match.
+        TouchlineError: no host plays this match, or no such robot takes part.
     """
     from rich.console import Group
     from rich.live import Live
 
+    from coach_gateway.match.debug_follower import DebugFollower
     from coach_gateway.match.follower import MatchFollower
     from coach_gateway.match.host_client import HostClient
     from schemas.bus.contract import PresenceKind
     from touchline.watch.drawing import draw_match
 
     client, seen = HostClient(bus, PATIENCE), MatchFollower(bus, details=True)
+    drawings, host_changes = DebugFollower(bus), 0
     setup, episode = client.setup(), 0
+    _check_robot(robot, setup)
     seen.host.wait(PATIENCE)
     bus.declare_alive(PresenceKind.COACH, "watch")
     last = Group()
@@ -65,11 +77,22 @@ def watch_on(bus: "Bus", console: "Console") -> None:
             going = True
             while going:
                 seen.update()
+                drawings.update()
+                if seen.host_changes != host_changes:
+                    host_changes = seen.host_changes
+                    drawings.clear()
                 going = not seen.gone
                 if going and seen.world is not None and seen.world.episode != episode:
                     setup, episode = client.setup(), seen.world.episode  # others may take part
-                last = Group(*draw_match(seen, setup, console.width, console.height - 1))
+                drawn = drawings.shown(seen.world.time) if seen.world is not None else {}
+                last = Group(*draw_match(seen, setup, console.width, console.height - 1, drawn, robot))
                 live.update(last, refresh=True)
                 bus.clock.sleep_until(bus.clock.now() + _EVERY)
     finally:
         console.print(last)
+
+
+def _check_robot(robot: str | None, setup: "Setup") -> None:
+    names = [name for team in setup.teams.values() for name in team.robots]
+    if robot is not None and robot not in names:
+        raise TouchlineError(f"--robot {robot}: no such robot takes part; {did_you_mean(robot, names)}")

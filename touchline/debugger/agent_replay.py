@@ -4,9 +4,9 @@ import math
 import sys
 import traceback
 from bdb import BdbQuit
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext, redirect_stdout
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import typer
@@ -41,6 +41,8 @@ class AgentReplay:
     """Folder in which the brain's module is looked for before the current directory."""
     live: bool = False
     """Play on from `start` with this brain, in place of the comparison."""
+    out: Path | None = None
+    """With `live`: the recording to write of the whole match, its repeated part included."""
     json: bool = False
     """Print one JSON object; the brain's own output goes to stderr."""
 
@@ -55,6 +57,8 @@ class AgentReplay:
             raise TouchlineError("--pdb is a dialogue, --json is for programs; leave one of them out")
         if self.live and self.every_difference:
             raise TouchlineError("--live compares no commands; leave --every-difference out")
+        if self.out is not None and not self.live:
+            raise TouchlineError("--out is the recording of a live match; give --live, too")
         recording = open_recording(self.file)
         start = time_in(self.start, recording) if self.start is not None else 0.0
         end = time_in(self.end, recording) if self.end is not None else math.inf
@@ -80,12 +84,12 @@ class AgentReplay:
         if verdict.first is None:
             return 0
         if self.pdb and self.start is None:
-            self._stop_before(recording, verdict, settings)
+            self._stop_before(recording, verdict)
         elif not self.json:
             report.print_next_steps(verdict, is_first_only=settings.first_only)
         return 1
 
-    def _stop_before(self, recording: Recording, verdict: BrainComparison, settings: ComparisonSettings) -> None:
+    def _stop_before(self, recording: Recording, verdict: BrainComparison) -> None:
         """Give the same sights to a new brain, and stop before its first different command."""
         assert verdict.first is not None
         tick, moment = verdict.first.tick, verdict.first.time
@@ -95,7 +99,7 @@ class AgentReplay:
                 recording,
                 self.robot,
                 self.brain,
-                replace(settings, start=moment, end=moment, act=StepDebugger(moment).act),
+                ComparisonSettings(moment, moment, act=StepDebugger(moment).act, brain_folder=self.brain_folder),
             )
         if again.first is None:
             typer.echo(
@@ -110,12 +114,12 @@ class AgentReplay:
             end = max((channel.end for channel in recording.channels if channel.key == APPLIED.key), default=0.0)
         with self._brain_output():
             act = StepDebugger(start).act if self.pdb else plainly
-            match = LiveMatch(recording, self.robot, self.brain, act, self.brain_folder)
+            match = LiveMatch(recording, self.robot, self.brain, act, self.brain_folder, self.out)
             try:
                 result = match.play(start, end, report.show_tick)
             finally:
                 match.close()
-        report.print_result(result, match.notes)
+        report.print_result(result, match.notes, self.out)
         return 0
 
     @contextmanager
@@ -134,13 +138,16 @@ class AgentReplay:
                 raise
 
 
-def parse_agent(text: str) -> tuple[str, str]:
-    """Robot and brain of `cyan2=module:Class`.
+def parse_agent(text: str, on_the_bus: Mapping[str, object]) -> tuple[str, str]:
+    """Robot and brain of `cyan2=module:Class`; the options in `on_the_bus` are not for a brain in this process.
 
     Raises:
-        TouchlineError: it is written otherwise.
+        TouchlineError: it is written otherwise, or such an option is given.
     """
     robot, _, brain = text.partition("=")
     if not robot or not brain:
         raise TouchlineError(f'--agent is "{text}"; write it as cyan2=module:Class')
+    given = [option for option, value in on_the_bus.items() if value]
+    if given:
+        raise TouchlineError(f"--agent replays in this process, without a bus; leave {' and '.join(given)} out")
     return robot, brain

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
@@ -66,8 +67,8 @@ class AgentReport:
         if not self._is_json:
             self._print_events(tick.events)
 
-    def print_result(self, result: "LiveResult", notes: list[str]) -> None:
-        """Print what came of a live match beside what was recorded in the same time."""
+    def print_result(self, result: "LiveResult", notes: list[str], out: Path | None) -> None:
+        """Print what came of a live match, recorded in `out`, beside what was recorded in the same time."""
         recorded = self._recorded_score(result.end)
         if self._is_json:
             fields = {
@@ -90,6 +91,8 @@ class AgentReport:
             f"live from {result.start:.2f} s to {result.end:.2f} s: {self._names.score(result.score)}; "
             f"recorded: {self._names.score(recorded)}"
         )
+        if out is not None:
+            typer.echo(f"recording {out}")
 
     def _print_events(self, events: Iterable[GameEvent]) -> None:
         for event in events:

@@ -7,7 +7,9 @@ from pathlib import Path
 from recordings.reading.recording import Recording
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
+from robot_agent.robot_code import end_robot, start_robot
 from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import TeamConfig
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import Score
 from schemas.messages.command import Command
@@ -16,11 +18,12 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from sim_host.match.simulation import TickResult
+from touchline.match_recording import MatchRecording
 from touchline.play import InProcessMatch
 from touchline.verify.command_difference import differences
 from touchline.verify.compare_brain import EPSILON_S, Act, checked_answer, plainly, without_output
 from touchline.verify.regenerate_sights import playable_config
-from touchline.verify.repeated_match import RepeatedMatch, commands_of
+from touchline.verify.repeated_match import Observe, RepeatedMatch, commands_of
 
 
 class RecordedRobot:
@@ -73,11 +76,17 @@ class LiveMatch:
     """A recorded match up to one tick, and from there on with live brains."""
 
     def __init__(
-        self, recording: Recording, robot: str, spec: str, act: Act = plainly, brain_folder: Path | None = None
+        self,
+        recording: Recording,
+        robot: str,
+        spec: str,
+        act: Act = plainly,
+        brain_folder: Path | None = None,
+        out: Path | None = None,
     ) -> None:
         """`act` calls the brain of `robot` once the match is live.
 
-        `brain_folder` is where brains are looked for before the current directory.
+        `brain_folder` is where brains are looked for before the current directory. `out` gets a recording of all.
 
         The other robots are played by the brains of the match file, or else by their recorded commands.
 
@@ -91,6 +100,7 @@ class LiveMatch:
         """What does not go on as in the recorded match, for the user."""
         self._robot = robot
         self._differing: set[str] = set()
+        self._programs: list[Brain] = []
         self._commands = commands_of(recording)
         self._brain_folder = brain_folder
         examined = load_brain(spec, Briefing.of(robot, setup), brain_folder)
@@ -99,11 +109,18 @@ class LiveMatch:
             names = [name for name in config.robots(side) if name != robot]
             brains |= self._others(config, side, names, setup)
         self._match = InProcessMatch(config, brains)
-        self._repeated = RepeatedMatch(recording, self._match.simulation, self._commands)
+        simulation = self._match.simulation
+        self._recording = MatchRecording(out, config, simulation) if out is not None else None
+        self._observe: Observe = self._recording.add if self._recording is not None else lambda _tick, _commands: None
+        self._repeated = RepeatedMatch(recording, simulation, self._commands, self._observe)
 
     def close(self) -> None:
-        """Free the engine."""
-        self._match.simulation.close()
+        """Finish the recording, free the engine, and end the programs that play."""
+        if self._recording is not None:
+            self._recording.close()
+        self._match.close()
+        for program in self._programs:
+            end_robot(program)
 
     def play(self, start: float, end: float, watch: Callable[[TickResult], None]) -> LiveResult:
         """Repeat the recorded match up to `start`, then play on to `end` or full time; times are simulated, in s.
@@ -119,7 +136,9 @@ class LiveMatch:
         began = simulation.now.time
         result = LiveResult(began, began, simulation.state.score)
         while not simulation.over and simulation.now.time < end - EPSILON_S:
-            tick = self._match.step()
+            commands = self._match.answers()
+            tick = simulation.step(commands)
+            self._observe(tick, commands)
             result.events.extend(tick.events)
             watch(tick)
         result.end, result.score = simulation.now.time, simulation.state.score
@@ -127,15 +146,22 @@ class LiveMatch:
 
     def _others(self, config: MatchConfig, side: Side, names: list[str], setup: Setup) -> dict[str, Brain]:
         """The other robots of a side: with the brains of the match file, or with their recorded commands."""
-        spec = config.team(side).brain
+        team = config.team(side)
+        spec = team.brain or " ".join(team.stdio or [])
         try:
-            if spec is None:
-                raise TouchlineError("their program is not a brain of this machine")
-            built = {name: load_brain(spec, Briefing.of(name, setup), self._brain_folder) for name in names}
+            if not spec:
+                raise TouchlineError("their program needs a match on the bus")
+            built = {name: self._started(team, Briefing.of(name, setup)) for name in names}
         except TouchlineError as error:
             self.notes += [f"{', '.join(names)}: recorded commands; {error}"] if names else []
             return {name: self._recorded(name) for name in names}
         return {name: CheckedBrain(spec, brain, quietly) for name, brain in built.items()}
+
+    def _started(self, team: TeamConfig, briefing: Briefing) -> Brain:
+        robot = start_robot(team.brain or "", team.stdio, briefing, self._brain_folder)
+        if team.stdio:
+            self._programs.append(robot)
+        return robot
 
     def _recorded(self, robot: str) -> RecordedRobot:
         return RecordedRobot(self._commands.get(robot, {}))

@@ -78,6 +78,8 @@ def _remarks(ledger: Ledger) -> Iterator[str]:
         yield f"radio {side}: busiest second {100 * share:.2g} % of the budget"
     for key, count in ledger.strangers.items():
         yield f"{count} messages on {key}, which is no robot's of this match"
+    for one in ledger.connections:
+        yield f"{one.address}: {one.closed} connections closed that flooded the host, {one.refused} refused after that"
     for name, behind in ledger.recorders.items():
         yield f"recorder {name}: {behind} ticks behind"
 

@@ -74,7 +74,7 @@ def check_reload(config: MatchConfig) -> None:
     Raises:
         TouchlineError: no robot of this machine has a brain, or brains do not see changed files.
     """
-    if all(config.team(side).brain is None or side in config.remote_sides for side in Side):
+    if all(config.team(side).program is not None or side in config.remote_sides for side in Side):
         raise TouchlineError("--reload is for brains, and no team of this match has one on this machine; leave it out")
     if config.isolate is Isolation.BUBBLEWRAP:
         raise TouchlineError("--reload: robots in bubblewrap do not see changed files; leave one of them out")

@@ -15,7 +15,7 @@ from touchline.launch.join_command import join_lines
 from touchline.launch.processes import MatchPlan
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import NOTABLE
-from touchline.watch.agent_faults import SlowAgents
+from touchline.watch.agent_faults import InvalidAgents, SlowAgents
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
@@ -31,6 +31,7 @@ class MatchScreen:
         self._names = TeamNames.of_match(plan.config)
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._slow_agents = SlowAgents()
+        self._invalid_agents = InvalidAgents()
 
     def begin(self, announcement: Announcement, notes: Iterable[str]) -> None:
         """Print where the host listens, who plays, how a remote team joins, and these notes."""
@@ -55,7 +56,7 @@ class MatchScreen:
             if isinstance(message, GameEvent):
                 self._screen.event(event_line(message, self._names), notable=message.kind in NOTABLE)
             elif isinstance(message, Health):
-                for sentence in self._slow_agents.update(message):
+                for sentence in (*self._slow_agents.update(message), *self._invalid_agents.update(message)):
                     self._screen.warn(sentence)
                 for line in self._remote.update(message, self._clock.now()):
                     self._screen.event(line, notable=True)

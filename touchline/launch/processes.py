@@ -273,7 +273,7 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
         brain_folder=plan.brain_folder,
         launch_folder=Path.cwd(),
         recording=plan.recording,
-        reload=plan.reload,
+        reload=plan.reload and not team.stdio,
         launch_token=plan.launch_token,
     )
     command = program if team.command else None

@@ -1,7 +1,7 @@
 """The plan of a series: its matches, each with all that determines it."""
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,13 +54,14 @@ def plan_series(
     """One match for each seed; with `both_sides` two, the second with the teams on each other's side.
 
     Raises:
-        TouchlineError: a team is no brain in Python, which a match in one process requires.
+        TouchlineError: a team is none that a match in one process can play.
     """
     for side in Side:
-        if config.team(side).brain is None:
-            kind = "remote" if config.team(side).remote else "a program of its own"
+        if config.team(side).brain is None and config.team(side).stdio is None:
+            kind = "remote" if config.team(side).remote else "a program on the network"
             raise TouchlineError(
-                f"teams.{side} is {kind}, and a series plays brains in Python; give --{side} module:Class"
+                f"teams.{side} is {kind}; a series plays brains in Python and stdio programs: "
+                f"give --{side} module:Class"
             )
     pairs = [(config, (Side.CYAN, Side.MAGENTA))]
     if both_sides:
@@ -71,6 +72,23 @@ def plan_series(
         for number, (seed, one, sides) in numbered
     )
     return SeriesPlan(team_names(config), tuple(matches))
+
+
+def with_brains(config: MatchConfig, brains: Mapping[Side, str]) -> MatchConfig:
+    """The match with these brains in place of the programs of the file; size, names and types of the robots stay."""
+    teams = {
+        side.value: config.team(side).model_copy(
+            update={
+                "name": brain.partition(":")[2],
+                "brain": brain,
+                "command": None,
+                "stdio": None,
+                "remote": False,
+            }
+        )
+        for side, brain in brains.items()
+    }
+    return config.model_copy(update={"teams": config.teams.model_copy(update=teams)})
 
 
 def team_names(config: MatchConfig) -> tuple[str, str]:

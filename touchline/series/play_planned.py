@@ -1,6 +1,7 @@
 """Plays one match of a series and measures it, tick by tick: no tick is kept."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import closing
 from typing import Any
 
 from recordings.stats.match_statistics import MatchStatistics
@@ -10,6 +11,7 @@ from schemas.errors import TouchlineError
 from touchline.play import InProcessMatch
 from touchline.series.match_row import FailedMatch, MatchRow, row_of
 from touchline.series.plan import PlannedMatch
+from touchline.series.processes import DiedProcess, run_in_processes
 from touchline.tick_messages import TickMessages
 
 Outcome = MatchRow | FailedMatch
@@ -24,9 +26,16 @@ def play_planned(planned: PlannedMatch, poll: Callable[[], None] = lambda: None)
     try:
         return _measured(planned, match, poll)
     except (Exception, SystemExit) as error:
-        return failed(planned, _reason(match, error))
+        return failed(planned, reason_of(match, error))
     finally:
         match.close()
+
+
+def play_all(matches: Iterable[PlannedMatch], jobs: int) -> Generator[Outcome, None, None]:
+    """Play matches in up to `jobs` processes at a time; yields each as it ends. Closing it ends the processes."""
+    with closing(run_in_processes(play_planned, matches, jobs)) as results:
+        for planned, result in results:
+            yield failed(planned, result.reason) if isinstance(result, DiedProcess) else result
 
 
 def failed(planned: PlannedMatch, reason: str) -> FailedMatch:
@@ -34,7 +43,8 @@ def failed(planned: PlannedMatch, reason: str) -> FailedMatch:
     return FailedMatch(planned.number, planned.identity, planned.seed, planned.swapped, reason)
 
 
-def _reason(match: InProcessMatch, error: BaseException) -> str:
+def reason_of(match: InProcessMatch, error: BaseException) -> str:
+    """One line for an exception in a match: robot, tick, file and line, as far as they are known."""
     who = f"{match.acting}, tick {match.simulation.now.tick}: " if match.acting is not None else ""
     return f"{who}{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
 

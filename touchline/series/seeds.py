@@ -1,6 +1,7 @@
 """Seeds as they are written on a command line: `1-50`, `7`, `1-10,31,40-42`."""
 
 import re
+from itertools import pairwise
 
 from schemas.errors import TouchlineError
 
@@ -26,7 +27,7 @@ def seeds_of(text: str) -> list[int]:
         if last - first >= MAX_SEEDS - len(seeds):
             raise TouchlineError(f'--seeds is "{text}", which is more than {MAX_SEEDS} seeds; give fewer')
         seeds.extend(range(first, last + 1))
-    doubled = next((seed for place, seed in enumerate(sorted(seeds)[1:]) if sorted(seeds)[place] == seed), None)
+    doubled = next((seed for seed, after in pairwise(sorted(seeds)) if seed == after), None)
     if doubled is not None:
         raise TouchlineError(f'--seeds is "{text}", which has the seed {doubled} twice; equal seeds give equal matches')
     return seeds

@@ -4,7 +4,7 @@ A robot's sights follow from the match file, the commands, the orders, and the a
 changes, parameters and resets are repeated. Others change the pitch by hand: the world would differ from then on.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from recordings.reading.recording import Recording
@@ -15,7 +15,9 @@ from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.side import Side
 from schemas.topics import APPLIED, COMMAND, ORDER
-from sim_host.match.simulation import Simulation
+from sim_host.match.simulation import Simulation, TickResult
+
+Observe = Callable[[TickResult, Mapping[str, Command]], None]
 
 
 def commands_of(recording: Recording) -> dict[str, dict[int, Command]]:
@@ -35,6 +37,8 @@ class RepeatedMatch:
     """Of the recorded match file."""
     commands: Mapping[str, Mapping[int, Command]]
     """Robot → tick of the sight → the robot's command."""
+    observe: Observe = field(default=lambda _tick, _commands: None)
+    """Receives each tick after the first, with the commands that led to it."""
     until: str = field(default="", init=False)
     """Reason why the match ended before the recording; empty if it did not."""
 
@@ -77,7 +81,8 @@ class RepeatedMatch:
             command = self.commands.get(name, {}).get(answered) if answered is not None else None
             if command is not None:
                 commands[name] = command
-        simulation.step(commands, applied.actions, silent=applied.silent, refbox=applied.refbox)
+        tick = simulation.step(commands, applied.actions, silent=applied.silent, refbox=applied.refbox)
+        self.observe(tick, commands)
 
     def _give_orders(self, orders: list[tuple[float, str, CoachOrder]]) -> None:
         simulation = self.simulation

@@ -52,6 +52,23 @@ class SlowAgents:
         return [f"{fault}, {_effect(health)}" for name, fault in slow.items() if self._reports[name] == _LASTING]
 
 
+class InvalidAgents:
+    """Finds agents whose messages are no commands; each is reported once."""
+
+    def __init__(self) -> None:
+        self._reported: set[str] = set()
+
+    def update(self, health: Health) -> list[str]:
+        """Take in a report of the host; returns a sentence for each agent whose first such messages it counts."""
+        new = [name for name, robot in health.robots.items() if robot.invalid and name not in self._reported]
+        self._reported.update(new)
+        return [
+            f"{name} sends messages that are no commands, {health.robots[name].invalid} so far; "
+            "its log names them, and touchline health counts them"
+            for name in new
+        ]
+
+
 def _is_idle(robot: RobotHealth) -> bool:
     return robot.removed or robot.still
 

@@ -15,6 +15,10 @@ class BrailleCanvas:
     def __init__(self, width: int, height: int) -> None:
         """`width` and `height` in cells."""
         self.width, self.height = width, height
+        self.pen: str | None = None
+        """Colour of the cells of dots that are drawn from now on; None leaves the colours of cells as they are."""
+        self.colours: dict[tuple[int, int], str] = {}
+        """Row and column of a cell → its colour, where a pen has drawn."""
         self._cells = [[0] * width for _ in range(height)]
 
     def dot(self, x: float, y: float) -> None:
@@ -22,6 +26,8 @@ class BrailleCanvas:
         column, row = round(x), round(y)
         if 0 <= column < self.width * ACROSS and 0 <= row < self.height * DOWN:
             self._cells[row // DOWN][column // ACROSS] |= _BITS[row % DOWN][column % ACROSS]
+            if self.pen is not None:
+                self.colours[row // DOWN, column // ACROSS] = self.pen
 
     def line(self, x0: float, y0: float, x1: float, y1: float, every: int = 1) -> None:
         """Draw a straight line; of a dotted one, every second, third, … dot."""

@@ -1,10 +1,14 @@
 """One picture of a match, as large as the terminal: pitch, robots, events."""
 
+from collections.abc import Mapping
+
 from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
+from schemas.messages.debug import RobotDebug
 from schemas.messages.setup import Setup
 from touchline.watch import panel
+from touchline.watch.drawings import values
 from touchline.watch.pitch import field, rows_for
 
 LEAST_PITCH = 40
@@ -13,18 +17,33 @@ LEAST_EVENTS = 3
 """Rows reserved for events."""
 
 
-def draw_match(follower: MatchFollower, setup: Setup, width: int, height: int) -> list[Text]:
-    """The picture, at most `height` rows of at most `width` cells."""
+def draw_match(
+    follower: MatchFollower,
+    setup: Setup,
+    width: int,
+    height: int,
+    drawings: Mapping[str, RobotDebug] | None = None,
+    robot: str | None = None,
+) -> list[Text]:
+    """The picture, at most `height` rows of at most `width` cells.
+
+    `drawings` maps robots to what they draw now; the values of `robot` are listed.
+    """
+    drawings = drawings or {}
     is_beside = width >= LEAST_PITCH + 2 + panel.WIDTH
     pitch_width = width - panel.WIDTH - 2 if is_beside else width
     room = max(1, height - 2 - LEAST_EVENTS)
     robots = panel.robots(setup, follower.world, follower.radios, follower.state, follower.health)
     orders = panel.orders(follower.orders)
-    rows = field(setup, follower.world, follower.state, pitch_width, min(room, rows_for(setup.pitch, pitch_width)))
+    shown = values(robot, drawings) if robot is not None else []
+    shapes = [drawing.debug for drawing in drawings.values()]
+    pitch_height = min(room, rows_for(setup.pitch, pitch_width))
+    rows = field(setup, follower.world, follower.state, pitch_width, pitch_height, shapes)
     if is_beside:
-        rows = _beside(rows, pitch_width, [*_fitting(robots, room - len(orders)), *orders])[:room]
-    elif len(rows) + len(robots) + len(orders) <= room:
-        rows = [*rows, *robots, *orders]
+        below = [*orders, *shown]
+        rows = _beside(rows, pitch_width, [*_fitting(robots, room - len(below)), *below])[:room]
+    elif len(rows) + len(robots) + len(orders) + len(shown) <= room:
+        rows = [*rows, *robots, *orders, *shown]
     happened = panel.events(setup, follower, height - 2 - len(rows))
     rows = [panel.head(setup, follower.state), *rows, *happened, panel.foot(follower)][:height]
     for row in rows:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
 
 from rich.style import Style
 from rich.text import Text
@@ -10,16 +9,17 @@ from rich.text import Text
 from schemas.config.sections import Pitch
 from schemas.game import RESTARTS, Phase
 from schemas.league.robot_numbers import numbers_of
+from schemas.messages.debug import Debug
 from schemas.messages.game import GameState
 from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from touchline.watch.braille import ACROSS, DOWN, BrailleCanvas
+from touchline.watch.drawings import draw_shapes
+from touchline.watch.scale import MARGIN, Mark, Scale
 
 ARROWS = "→↗↑↖←↙↓↘"
 """Arrows of the headings, counter-clockwise from +x."""
-MARGIN = 0.8
-"""Margin around the lines, m; includes the goals."""
 _COMET = 0.4
 """Duration of the ball's drawn path ahead, s."""
 
@@ -34,43 +34,21 @@ SIDES = {
 AWAY = Style(dim=True)
 
 
-class Mark(NamedTuple):
-    """Characters drawn on the pitch."""
-
-    x: float
-    """Centre of the characters, m, field frame."""
-    y: float
-    text: str
-    style: Style
-
-
-class Scale(NamedTuple):
-    """Position of the pitch on a canvas: dots per metre, and the dot of the centre mark."""
-
-    dots: float
-    centre_x: float
-    centre_y: float
-
-    @classmethod
-    def of(cls, pitch: Pitch, width: int, height: int) -> "Scale":
-        """The largest pitch that fits into `width` × `height` cells, centred."""
-        across, down = width * ACROSS - 1, height * DOWN - 1
-        dots = min(across / (pitch.length + 2.0 * MARGIN), down / (pitch.width + 2.0 * MARGIN))
-        return cls(dots, 0.5 * across, 0.5 * down)
-
-    def at(self, x: float, y: float) -> tuple[float, float]:
-        """The dot of a point; the point in m, field frame."""
-        return self.centre_x + x * self.dots, self.centre_y - y * self.dots
-
-
 def rows_for(pitch: Pitch, width: int) -> int:
     """Number of rows of a pitch that is `width` cells wide."""
     dots = (width * ACROSS - 1) / (pitch.length + 2.0 * MARGIN)
     return math.ceil((dots * (pitch.width + 2.0 * MARGIN) + 1) / DOWN)
 
 
-def field(setup: Setup, world: World | None, state: GameState | None, width: int, height: int) -> list[Text]:
-    """The pitch with robots, ball and obstacles, in `width` × `height` cells."""
+def field(
+    setup: Setup,
+    world: World | None,
+    state: GameState | None,
+    width: int,
+    height: int,
+    drawings: Iterable[Debug] = (),
+) -> list[Text]:
+    """The pitch with robots, ball, obstacles and what brains have drawn, in `width` × `height` cells."""
     dots, scale = BrailleCanvas(width, height), Scale.of(setup.pitch, width, height)
     _draw_lines(dots, scale, setup.pitch)
     if state is not None:
@@ -80,7 +58,10 @@ def field(setup: Setup, world: World | None, state: GameState | None, width: int
         x, y = scale.at(world.ball.x, world.ball.y)
         dots.line(x, y, *scale.at(world.ball.x + _COMET * world.ball.vx, world.ball.y + _COMET * world.ball.vy), 2)
         marks = _marks(setup, world)
+    marks = [*draw_shapes(dots, scale, drawings), *marks]
     rows = [Text.assemble((row, LINES)) for row in dots.rows()]
+    for (row, column), colour in dots.colours.items():
+        rows[row].stylize(Style(color=colour), column, column + 1)
     return _overlaid(rows, marks, scale)
 
 

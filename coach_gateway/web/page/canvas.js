@@ -1,6 +1,7 @@
 // The picture of the match: the ground is drawn when it changes, everything that moves with each frame of the browser.
 
 import { drawBeliefs, drawPasses } from "./beliefs.js";
+import { drawDrawings } from "./drawings.js";
 import { drawDistances } from "./distances.js";
 import { fillGoals, writeTeams } from "./goals.js";
 import { drawGhost, drawMarkedRobot, drawObstacle, drawVelocity } from "./marked_bodies.js";
@@ -93,6 +94,7 @@ export class PitchCanvas {
     if (layers.roles) this.#labelRobots(context, world);
     if (layers.velocities) drawVelocity(context, projection, world.ball, BALL_VELOCITY);
     drawBall(context, projection, world.ball, match.setup.ball.radius);
+    if (layers.drawings !== "none") drawDrawings(context, projection, match, layers.drawings);
     if (selection.dragged) drawGhost(context, projection, selection.dragged);
   }
 

@@ -1,6 +1,6 @@
 // What the picture shows: switches that are kept for the next visit.
 
-import { byId, choice, element, offer } from "./elements.js";
+import { byId, choice, element, offer, show } from "./elements.js";
 import { TRAILS } from "./trails.js";
 import { SEEN_FROM } from "./seen_from.js";
 
@@ -16,6 +16,7 @@ const SWITCHES = [
 export class Layers {
   trails = "short";
   beliefs = "none";
+  drawings = "all";
   seenFrom = "fixed";
 
   constructor(match) {
@@ -38,7 +39,7 @@ export class Layers {
     });
     byId("layers").append(
       this.#chosen("seenFrom", "Field", SEEN_FROM), this.#chosen("beliefs", "Believed", [["none", "nothing"]]),
-      this.#chosen("trails", "Trails", TRAILS), ...boxes,
+      this.#chosen("drawings", "Drawn by brains", [["all", "all"]]), this.#chosen("trails", "Trails", TRAILS), ...boxes,
     );
     match.on("welcome health", () => this.#offerRobots(match));
   }
@@ -49,17 +50,25 @@ export class Layers {
     return element("label", { class: "chosen" }, text, select);
   }
 
-  /** Offers the robots whose beliefs this role is shown. */
+  /** Offers the robots whose beliefs and drawings this role is shown. */
   #offerRobots(match) {
-    const sides = match.setup === null ? [] : match.shown;
-    const robots = match.robots.filter((name) => sides.includes(match.sideOf(name)));
-    offer(byId("layer-beliefs"), [
+    this.#offer(match, "beliefs", match.shown);
+    this.#offer(match, "drawings", match.drawn);
+    show(byId("layer-drawings").closest("label"), match.drawn.length > 0);
+  }
+
+  /** Offers nothing, all, each side and each robot; a choice that is not offered now is kept for later. */
+  #offer(match, name, shown) {
+    const sides = match.setup === null ? [] : shown;
+    const robots = match.robots.filter((robot) => sides.includes(match.sideOf(robot)));
+    const options = [
       ["none", "nothing"],
       ...(sides.length ? [["all", "by all"]] : []),
       ...sides.map((side) => [side, `by ${match.setup.teams[side].name}`]),
-      ...robots.map((name) => [name, `by ${name}`]),
-    ]);
-    this.beliefs = byId("layer-beliefs").value;
+      ...robots.map((robot) => [robot, `by ${robot}`]),
+    ];
+    offer(byId(`layer-${name}`), options);
+    byId(`layer-${name}`).value = options.some(([value]) => value === this[name]) ? this[name] : "none";
   }
 
   #set(name, value) {

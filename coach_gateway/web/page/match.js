@@ -12,11 +12,13 @@ const emptyMatch = () => ({
   setup: null,
   deeds: new Set(),
   shown: [], // sides whose beliefs are sent
+  drawn: [], // sides whose robots' drawings are sent
   scenes: {}, // name → description
   state: null,
   health: null,
   orders: {},
   beliefs: {},
+  debug: {}, // robot → its drawing in the field frame
   events: [],
   eventCount: 0, // events so far, including dropped ones
   replay: null,
@@ -29,13 +31,15 @@ const emptyMatch = () => ({
 
 /** Kind of message → how it changes the match. */
 const READERS = {
-  welcome(match, { role, match: name, setup, live, deeds, beliefs, scenes }) {
-    Object.assign(match, emptyMatch(), { role, name, setup, live, deeds: new Set(deeds), shown: beliefs, scenes });
+  welcome(match, { role, match: name, setup, live, deeds, beliefs, debug, scenes }) {
+    const known = { role, name, setup, live, deeds: new Set(deeds), shown: beliefs, drawn: debug, scenes };
+    Object.assign(match, emptyMatch(), known);
   },
-  frame(match, { world, beliefs }) {
+  frame(match, { world, beliefs, debug }) {
     if (world.episode !== match.episode) match.frames.clear();
     match.episode = world.episode;
     match.beliefs = beliefs;
+    match.debug = debug;
     match.frames.add(world, performance.now());
   },
   state(match, { state }) {

@@ -79,6 +79,29 @@ def test_in_a_serious_match_a_team_s_beliefs_are_its_own(
     page.close()
 
 
+@pytest.mark.parametrize(
+    ("role", "seen"),
+    [("spectator", []), ("cyan", ["cyan1"]), ("magenta", ["magenta1"]), ("referee", ["cyan1", "magenta1"])],
+)
+def test_a_team_s_drawings_are_its_own_in_any_match(role: str, seen: list[str], visit: Visit, host: FakeHost) -> None:
+    page = visit(role)
+    host.play(1)
+    host.play(2)
+    frame = page.hear("frame", tick=2)
+    assert sorted(frame["debug"]) == seen
+    assert all(drawing["debug"]["values"] == {"tick": 2} for drawing in frame["debug"].values())
+    assert sorted(frame["beliefs"]) == ["cyan1", "magenta1"], "a friendly"
+
+
+def test_a_drawing_is_shown_for_half_a_second_of_the_match(visit: Visit, host: FakeHost) -> None:
+    page = visit("referee")
+    host.play(1)
+    host.put(WORLD, make_world(26, (26, 0.0)))
+    assert sorted(page.hear("frame", tick=26)["debug"]) == ["cyan1", "magenta1"]
+    host.put(WORLD, make_world(27, (27, 0.0)))
+    assert page.hear("frame", tick=27)["debug"] == {}
+
+
 def test_orders_are_shown_to_their_side_and_to_the_referee_with_their_acknowledgements(
     visit: Visit, host: FakeHost
 ) -> None:
@@ -209,7 +232,8 @@ def test_a_replay_sends_all_its_events_at_once_and_none_again(
 ) -> None:
     host = host_of(recorded=[make_event(1, "first"), make_event(900, "last")])
     page = Visitor(gateway_of().origin)
-    assert page.hear("welcome", live=False)["beliefs"] == ["cyan", "magenta"]
+    welcome = page.hear("welcome", live=False)
+    assert welcome["beliefs"] == welcome["debug"] == ["cyan", "magenta"]
     assert [page.hear("event")["event"]["text"] for _ in range(2)] == ["first", "last"]
     host.happen(1, "first")
     host.play(2)

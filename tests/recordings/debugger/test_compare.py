@@ -1,6 +1,7 @@
 """A changed brain against a recording: a table of what differs, up to the first command that does."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -73,6 +74,7 @@ def test_the_result_is_one_json_object_whatever_the_brain_prints(brain, replay, 
     [
         ({"pdb": True, "json": True}, "leave one of them out"),
         ({"live": True, "every_difference": True}, "leave --every-difference out"),
+        ({"out": Path("live.mcap")}, "give --live, too"),
         ({"start": "3", "end": "2"}, "end later"),
         ({"start": "900"}, "begin earlier"),
         ({"start": "gaol:1"}, "did you mean"),
@@ -87,15 +89,24 @@ def test_options_that_make_no_sense_are_one_line(replay, options, words):
 @pytest.mark.parametrize("text", ["cyan2", "=my:Brain", "cyan2="])
 def test_an_agent_without_robot_or_brain_is_reported(text):
     with pytest.raises(TouchlineError, match="write it as cyan2=module:Class"):
-        parse_agent(text)
+        parse_agent(text, {})
 
 
-@pytest.mark.parametrize("option", ["--every-difference", "--pdb", "--live"])
+@pytest.mark.parametrize("option", ["--web", "--rate=2", "--include=world", "--paused"])
+def test_options_of_a_replay_on_the_bus_are_refused_with_an_agent(played, option, capsys, monkeypatch):
+    words = ["touchline", "replay", str(played.path), "--agent", f"cyan2={SIMPLE}", option]
+    monkeypatch.setattr("sys.argv", words)
+    with pytest.raises(SystemExit):
+        app()
+    assert f"without a bus; leave {option.partition('=')[0]} out" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--every-difference", "--pdb", "--live", "--out=a", "--brain-folder=."])
 def test_the_debuggers_options_need_an_agent(played, option, capsys, monkeypatch):
     monkeypatch.setattr("sys.argv", ["touchline", "replay", str(played.path), option])
     with pytest.raises(SystemExit):
         app()
-    assert "need --agent, such as --agent cyan2=module:Class" in capsys.readouterr().err
+    assert "need --agent, such as --agent cyan2=my:Brain" in capsys.readouterr().err
 
 
 def test_a_brain_that_raises_is_shown_with_its_own_frames(brain, replay, capsys):
@@ -139,3 +150,18 @@ def test_a_match_with_a_reset_is_compared_to_its_end(match_recorder, tmp_path):
     verdict = compare_brain(open_recording(tmp_path / "reset.mcap"), "cyan2", SIMPLE)
     assert (verdict.until, verdict.different) == ("", 0)
     assert verdict.compared >= 99
+
+
+def test_a_match_with_a_referee_box_is_compared_to_its_end(match_recorder, tmp_path):
+    """The box alone ends halves: without it, the first one would end after a second of play."""
+    sides = {f"teams.{side}": {"size": 2, "brain": SIMPLE} for side in ("cyan", "magenta")}
+    config = load_match(None, {"seed": 5, "duration": 2.0, **sides})
+    match_recorder(tmp_path / "box.mcap", config, 8.0, refbox=lambda _: True)
+    verdict = compare_brain(open_recording(tmp_path / "box.mcap"), "cyan2", SIMPLE)
+    assert (verdict.until, verdict.different) == ("", 0)
+
+
+def test_what_a_brain_draws_and_plots_is_no_difference(brain, replay):
+    """It is added to a brain to find out why it does what it does."""
+    drawing = "command = replace(command, debug=Debug(values={'tick': float(sight.tick)}))"
+    assert replay(brain(drawing, "from schemas.messages.debug import Debug")) == 0

@@ -32,7 +32,7 @@ def test_an_empty_line_is_nothing(blank: bytes) -> None:
         (Line(b"[1, 2]"), AnswerFault.STRAY, "no JSON object", False),
         (Line(b"\xff\xfe"), AnswerFault.STRAY, "no JSON object", False),
         (Line(b"x" * 5000, is_cut=True), AnswerFault.STRAY, "no JSON object", False),
-        (Line(b"{" + b"x" * 4095, is_cut=True), AnswerFault.INVALID, "longer than 4096 bytes", True),
+        (Line(b"{" + b"x" * 4095, is_cut=True), AnswerFault.INVALID, f"longer than {Command.max_bytes} bytes", True),
         (Line(b'{"answers_tick": 7, "drive": {"vx": NaN}}'), AnswerFault.INVALID, "drive.vx is nan", True),
         (Line(b'{"answers_tick": 7'), AnswerFault.INVALID, "is not JSON", True),
         (line_of(answers_tick=7, speed=1), AnswerFault.INVALID, "speed is not known", True),

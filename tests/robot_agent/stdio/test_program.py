@@ -65,6 +65,15 @@ def test_an_invalid_answer_lets_the_robot_rest_for_its_tick(bench, sight_of) -> 
     assert "(10 lines that were no command so far)" in one.log[1]
 
 
+def test_some_lines_that_are_no_commands_are_sent_to_the_host_which_counts_them(bench, sight_of) -> None:
+    one = bench("for line in sys.stdin:\n    print('thinking\\n' * 50)\n    answer(json.loads(line)['tick'])")
+    assert one.answered(sight_of(0)).others == (b"thinking",)
+    one.pass_time(0.04)
+    assert one.answered(sight_of(2)).others == ()
+    one.pass_time(0.04)
+    assert one.answered(sight_of(4)).others == (b"thinking",)
+
+
 def test_lines_for_people_are_named_and_the_answer_after_them_counts(bench, sight_of) -> None:
     one = bench("for line in sys.stdin:\n    print('thinking')\n    answer(json.loads(line)['tick'], dribble=True)")
     assert Command.decode(one.answered(sight_of(0)).answer).dribble
@@ -80,7 +89,7 @@ def test_a_second_answer_is_counted_and_not_sent(bench, sight_of) -> None:
     )
     answers = [one.answered(sight_of(tick)) for tick in range(3)]
     assert [Command.decode(found.answer).dribble for found in answers] == [False] * 3
-    assert [found.late for found in answers] == [()] * 3
+    assert [found.others for found in answers] == [()] * 3
     assert set(one.program.faults.counts) == {AnswerFault.SECOND}
 
 

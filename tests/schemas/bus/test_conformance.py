@@ -332,8 +332,8 @@ def test_a_watch_begins_with_the_processes_that_are_present(buses: Buses) -> Non
 def test_rubbish_arrives_as_it_is_and_fails_only_when_read(buses: Buses) -> None:
     commands = buses.host.subscribe(COMMAND)
     writer = buses.join().publisher(COMMAND, robot="cyan1")
-    received = put_until_heard(lambda: writer.put_payload(b"\xff" * 10_000), commands)
-    with pytest.raises(BadMessageError, match="10000 bytes, at most 4096"):
+    received = put_until_heard(lambda: writer.put_payload(b"\xff" * 20_000), commands)
+    with pytest.raises(BadMessageError, match="20000 bytes, at most 12288"):
         received.message()
 
 

@@ -60,6 +60,12 @@ def test_what_a_file_leaves_out_is_play_with_the_ball_at_the_centre(tmp_path: Pa
 
 
 WRONG = {
+    "an end that is none": (GOOD + '[drill]\nseconds = 5\nsuccess = ["gaol:cyan"]\n', 'did you mean "goal"'),
+    "an end of a robot that is none": (GOOD + '[drill]\nseconds = 5\nsuccess = ["goal:cyan9"]\n', 'names "goal:cyan9"'),
+    "a drill without its time": (GOOD + '[drill]\nsuccess = ["goal"]\n', "drill.seconds is missing; simulated time"),
+    "a drill of no time": (GOOD + "[drill]\nseconds = 0\n", "drill.seconds"),
+    "a body that is none": (GOOD + '[[vary]]\nbody = "bal"\nx = 1\n', 'did you mean "ball"'),
+    "a heading of the ball": (GOOD + '[[vary]]\nbody = "ball"\nheading = 1\n', "the ball has no heading"),
     "a key that is not known": ("descritpion = 1\n" + GOOD, 'descritpion is not known; did you mean "description"'),
     "a key of a robot": (GOOD + "hedaing = 1.0\n", 'robots.1.hedaing is not known; did you mean "heading"'),
     "no sentence": (GOOD.replace('description = "Two robots."', ""), "description is missing; one sentence"),

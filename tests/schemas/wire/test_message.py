@@ -35,7 +35,7 @@ FINITE = st.floats(allow_nan=False, allow_infinity=False)
         (b'{"version":"2.0","answers_ti', "not JSON"),
         (b"\x00\xff", "not JSON"),
         (b"[]", "Command"),
-        (b" " * 10_000, "10000 bytes, at most 4096"),
+        (b" " * 20_000, "20000 bytes, at most 12288"),
     ],
 )
 def test_a_bad_command_is_refused_in_one_line_that_names_what_is_wrong(payload: bytes, reason: str) -> None:

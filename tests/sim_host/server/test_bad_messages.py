@@ -22,7 +22,7 @@ RUBBISH = {
     "an absurd speed": (b'{"version":"2.0","answers_tick":1,"drive":{"vx":1e9}}', "drive.vx is 1000000000.0"),
     "a truncated payload": (Command(answers_tick=1).encode()[:-7], " is not JSON: "),
     "words": (b"drive ahead!", "b'drive ahead!' is not JSON"),
-    "ten thousand bytes": (b"x" * 10_000, "10000 bytes, at most 4096"),
+    "twenty thousand bytes": (b"x" * 20_000, "20000 bytes, at most 12288"),
     "nothing": (b"", "b'' is not JSON"),
     "bytes that are no text": (b"\xff\xfe\x00", " is not JSON: "),
     "an answer to a tick to come": (Command(answers_tick=500).encode(), "answers_tick is 500, the newest sight is 5"),

@@ -41,8 +41,9 @@ class StampedBus(InProcessBus):
 
     def arrive(self, *commands):
         self.left += [
-            ReceivedMessage(COMMAND, "robot/cyan1/command", payload, Stamp(sequence, 0, 0), 0)
+            ReceivedMessage(COMMAND, "robot/cyan1/command", payload, stamp, 0)
             for sequence, tick in commands
+            for stamp in [Stamp(sequence, 0, 0) if sequence is not None else None]
             for payload in [Command(answers_tick=tick).encode() if tick is not None else b"{}"]
         ]
 
@@ -83,6 +84,16 @@ def test_the_first_number_of_an_agent_and_a_restart_are_no_loss(bus, inbox):
     assert receive_all(inbox, 4).lost_commands == 0
 
 
+def test_commands_without_a_number_before_the_first_number_are_no_loss(bus, inbox):
+    bus.arrive((None, 1), (50, 2), (None, 3), (51, 4), (53, 5))
+    assert receive_all(inbox, 5).lost_commands == 1
+
+
+def test_commands_that_arrive_a_second_time_are_no_loss(bus, inbox):
+    bus.arrive((0, 1), (1, 2), (2, 3), (0, 1), (1, 2), (3, 4), (0, 1), (4, 5))
+    assert receive_all(inbox, 5).lost_commands == 0
+
+
 def test_a_second_writer_with_other_numbers_is_no_loss(bus, inbox):
     bus.arrive((5000, 1), (3, 2), (5001, 3), (4, 4), (5002, 5))
     assert receive_all(inbox, 5).lost_commands == 0
@@ -92,7 +103,7 @@ def test_commands_that_are_lost_in_a_long_cut_are_counted():
     stats = AgentStats(alive=True)
     stats.add_answer(10, 10)
     stats.next_sequence = 11
-    stats.jump_to(4010, 4010)
+    stats.add_gap(4010, 4010)
     assert stats.lost_commands == 3999
 
 

@@ -7,6 +7,8 @@ from schemas.messages.record_batch import RecordBatchesRequest, read_batch, read
 from schemas.messages.recorder import RecorderProgress
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
+from sim_host.server.admission import MOST_UNNAMED
+from support.host_rig import TEAMS, HostRig
 
 PATIENCE_S = MatchConfig().patience.recorder
 """How long the host waits for a recorder that stands still; the match file's default."""
@@ -211,3 +213,21 @@ def test_if_the_match_file_demands_it_sights_are_in_the_batches_from_tick_0(rig_
     rig.begin()
     rig.ticks(1)
     assert sights_in(rig, batches) == ["robot/cyan1/sight", "robot/cyan2/sight", "robot/magenta1/sight"] * 2
+
+
+def test_with_credentials_the_host_waits_for_the_first_few_recorders_that_nobody_named_and_for_named_ones():
+    config = MatchConfig.model_validate({"seed": 7, "teams": TEAMS, "record": {"admit": ["tape"]}})
+    rig = HostRig(config, settings={"has_accounts": True})
+    rig.join_all()
+    rig.begin()
+    for name in [*(f"ghost{number}" for number in range(200)), "tape"]:
+        rig.outside.declare_alive("recorder", name)
+    began = rig.clock.now()
+    rig.ticks(RUN_AHEAD_TICKS + 50)
+    assert rig.clock.now() - began < (MOST_UNNAMED + 2) * PATIENCE_S
+    recorders = rig.health().recorders
+    assert "tape" in recorders
+    assert len(recorders) < 30
+    (text,) = [text for text in rig.silences() if text.startswith("the host does not wait for ")]
+    assert text.startswith("the host does not wait for ghost4 and later recorders: ghost0, ghost1, ghost2, ghost3 have")
+    rig.host.simulation.close()

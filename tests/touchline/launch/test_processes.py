@@ -78,11 +78,17 @@ def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> Non
         robot="magenta2",
         brain="robot_agent.teams.nubot:NuBot",
         launch_folder=Path.cwd(),
+        recording=Path("match.mcap"),
         launch_token="secret",
     )
     assert agent.environment["TOUCHLINE_SIDE"] == "magenta"
     assert agent.environment["PYTHONHASHSEED"] == "0"
     assert agent.restarts == PROCESSES[ProcessKind.AGENT].restarts == 3
+
+
+def test_agents_reload_code_in_a_match_that_does() -> None:
+    settings = by_name(replace(plan(), reload=True))["cyan1"].settings
+    assert isinstance(settings, AgentSettings) and settings.reload
 
 
 def test_a_team_with_a_command_gets_its_robot_in_environment_variables() -> None:

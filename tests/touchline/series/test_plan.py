@@ -5,7 +5,7 @@ import pytest
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.series.plan import plan_series, with_sides_swapped
+from touchline.series.plan import plan_series, with_brains, with_sides_swapped
 from touchline.series.team_names import brain_of, shipped_teams
 
 
@@ -47,7 +47,7 @@ def test_teams_of_the_same_name_are_told_apart() -> None:
 
 def test_a_team_that_is_no_brain_in_python_is_refused() -> None:
     program = load_match(None, {"teams.cyan": {"command": ["./robot"]}})
-    with pytest.raises(TouchlineError, match=r"teams\.cyan is a program of its own.*--cyan module:Class"):
+    with pytest.raises(TouchlineError, match=r"teams\.cyan is a program on the network.*--cyan module:Class"):
         plan_series(program, [1])
     remote = load_match(None, {"teams.magenta": "remote"})
     with pytest.raises(TouchlineError, match=r"teams\.magenta is remote"):
@@ -60,3 +60,16 @@ def test_each_shipped_team_is_known_by_its_name() -> None:
     assert brain_of("my_team:Striker") == "my_team:Striker"
     with pytest.raises(TouchlineError, match="did you mean"):
         brain_of("simpel")
+
+
+def test_a_team_of_lines_plays_a_series() -> None:
+    config = load_match(None, {"teams.cyan.stdio": ["node", "robot.js"]})
+    assert [match.config.seed for match in plan_series(config, [1, 2]).matches] == [1, 2]
+
+
+def test_a_brain_replaces_the_program_of_the_file_and_its_robots_stay() -> None:
+    config = load_match(None, {"teams.cyan": {"command": ["./robot"], "size": 3}, "teams.magenta": "remote"})
+    changed = with_brains(config, {Side.CYAN: "a:B", Side.MAGENTA: "c:D"})
+    assert [changed.team(side).brain for side in Side] == ["a:B", "c:D"]
+    assert [len(changed.robots(side)) for side in Side] == [3, 5]
+    assert plan_series(changed, [1]).teams == ("B", "D")

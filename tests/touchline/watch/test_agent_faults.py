@@ -1,7 +1,7 @@
 import pytest
 
 from schemas.messages.health import Health, RobotHealth
-from touchline.watch.agent_faults import SlowAgents, agent_faults
+from touchline.watch.agent_faults import InvalidAgents, SlowAgents, agent_faults
 
 
 def health(pace: str = "lockstep", **robots: RobotHealth) -> Health:
@@ -76,3 +76,12 @@ def test_in_real_time_a_slow_agent_is_reported_with_the_length_of_a_tick() -> No
         "cyan1 takes 35 ms a tick, a tick lasts 20 ms, so its commands are late; make its act faster, "
         "or play in lockstep"
     )
+
+
+def test_an_agent_whose_messages_are_no_commands_is_reported_once() -> None:
+    agents = InvalidAgents()
+    assert agents.update(health(cyan1=taking(1.0), cyan2=taking(1.0))) == []
+    assert agents.update(health(cyan1=taking(1.0), cyan2=taking(1.0, invalid=3))) == [
+        "cyan2 sends messages that are no commands, 3 so far; its log names them, and touchline health counts them"
+    ]
+    assert agents.update(health(cyan1=taking(1.0), cyan2=taking(1.0, invalid=9))) == []

@@ -34,3 +34,11 @@ def test_a_line_joins_its_ends_and_a_circle_keeps_its_distance() -> None:
     round_.circle(10, 10, 8)
     rows = round_.rows()
     assert rows[0].strip() and rows[4].strip() and not rows[2][4:6].strip()
+
+
+def test_cells_that_a_pen_draws_in_have_its_colour() -> None:
+    canvas = BrailleCanvas(4, 2)
+    canvas.dot(0, 0)
+    canvas.pen = "#ff0000"
+    canvas.dot(6, 5)
+    assert canvas.colours == {(1, 3): "#ff0000"}

@@ -25,7 +25,8 @@ from support.messages import make_setup
 from touchline.commands.watch import watch_on
 from touchline.watch.drawing import draw_match
 from touchline.watch.panel import head, orders, robots
-from touchline.watch.pitch import ARROWS, SIDES, Scale, field
+from touchline.watch.pitch import ARROWS, SIDES, field
+from touchline.watch.scale import Scale
 
 WIDTH, HEIGHT = 90, 30
 

@@ -1,0 +1,5 @@
+"""The reference team: one shared estimate, roles by assignment, passes by value, and parameters in one place."""
+
+from robot_agent.teams.reference.team import Reference
+
+__all__ = ["Reference"]

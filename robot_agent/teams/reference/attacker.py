@@ -1,0 +1,125 @@
+"""The robot that holds the ball: shoot, pass, or dribble, whichever is worth most. Pure."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from robot_agent.bodies import Body, DriveLimits
+from robot_agent.skills.avoid import circles, steer
+from robot_agent.skills.go_to import drive
+from robot_agent.skills.kick_on_the_run import kick_on_the_run
+from robot_agent.skills.pass_to import pass_speed
+from robot_agent.skills.turn_to import turn_rate
+from robot_agent.teams.action import Action
+from robot_agent.teams.reference.parameters import Parameters
+from robot_agent.teams.reference.passing import Pass, chance, cost_of_loss, passes, worth
+from robot_agent.teams.reference.roles import Role
+from robot_agent.teams.reference.shooting import Shot, best_shot
+from schemas.config.sections import Pitch
+from schemas.messages.command import KickMode
+from schemas.messages.setup import Setup
+
+Point = tuple[float, float]
+
+PREPARED = 0.6
+"""m into the other half; a pass received there makes a goal count."""
+_STEP = 2.0
+"""m ahead that a dribble is judged by."""
+_WAYS = tuple(math.radians(angle) for angle in (0, 25, -25, 50, -50, 80, -80))
+"""Directions of a dribble, from the kick axis's way to the goal."""
+_TURN_RATE = 2.8
+"""rad/s with the ball."""
+
+
+class Situation(NamedTuple):
+    """What the robot with the ball decides by."""
+
+    me: Body
+    mates: Mapping[str, Body]
+    """Teammates in the field."""
+    opponents: Sequence[Point]
+    held: float
+    """s with the ball."""
+    chosen: tuple[str, Point] | None
+    """The pass that was chosen a tick ago."""
+    may_score: bool
+    must_pass: bool
+
+
+def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Parameters) -> tuple[Action, Pass | None]:
+    """One tick with the ball, and the pass that is aimed at."""
+    me, pitch = now.me, setup.pitch
+    gap = setup.dribble.gap
+    ball = me.x + gap * math.cos(me.heading), me.y + gap * math.sin(me.heading)
+    shot = best_shot(ball, now.opponents, pitch, parameters) if now.may_score else None
+    best = _best_pass(now, ball, pitch, parameters)
+    way, dribble_worth = _best_dribble(now, ball, pitch, parameters)
+    is_late = now.held > parameters.patience or now.must_pass
+    if shot is not None and (
+        shot.chance > (parameters.shot_worth if not is_late else 0.05)
+        and (best is None or shot.chance >= best.value - 0.1)
+    ):
+        return _shoot(me, shot, setup, limits, parameters), None
+    if best is not None and (best.value > dribble_worth or (is_late and best.chance > 0.2)):
+        return _pass(now, ball, best, setup, limits, parameters), best
+    return _dribble(now, way, setup, limits, parameters), None
+
+
+def _best_pass(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters) -> Pass | None:
+    """The pass of the highest value; where a goal would not count, passes into the other half are worth more."""
+    found = passes(ball, now.me.heading, now.mates, now.opponents, now.chosen, pitch, parameters)
+    if not now.may_score:
+        found = [one._replace(value=one.value + 0.1 * one.chance * (one.target[0] > PREPARED)) for one in found]
+    return max(found, key=lambda one: one.value, default=None)
+
+
+def _best_dribble(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters) -> tuple[float, float]:
+    """The best direction to carry the ball, rad, and its value."""
+    to_goal = math.atan2(-ball[1], pitch.goal_line - 1.5 - ball[0])
+    best, most = to_goal, -math.inf
+    pressed = min((math.dist(ball, opponent) for opponent in now.opponents), default=9.0) < parameters.pressed
+    for turn in _WAYS:
+        way = to_goal + turn
+        end = ball[0] + _STEP * math.cos(way), ball[1] + _STEP * math.sin(way)
+        if abs(end[1]) > pitch.touch_line - 0.6 or end[0] > pitch.goal_line - 1.2:
+            continue
+        sure = chance(ball, end, now.opponents, parameters)
+        value = sure * worth(end, now.opponents, pitch) - (1.0 - sure) * cost_of_loss(end, pitch, parameters)
+        value -= 0.02 * abs(turn)
+        if value > most:
+            best, most = way, value
+    return best, most - (0.1 if pressed else 0.0)
+
+
+def _shoot(me: Body, shot: Shot, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
+    """Shoot while driving on."""
+    kicker = setup.kicker
+    speed = kicker.max_lob_speed if shot.mode is KickMode.LOB else kicker.max_ground_speed
+    velocity = _toward(me, shot.target, 0.5 * parameters.dribble_speed)
+    motion, kick = kick_on_the_run(me, shot.target, speed, parameters.shot_error, velocity, limits, shot.mode)
+    return Action(Role.ATTACKER, f"shoot {shot.mode.value}", motion, dribble=True, kick=kick)
+
+
+def _pass(now: Situation, ball: Point, best: Pass, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
+    """Aim while turning; the ball arrives as fast as a dribbler keeps it."""
+    speed = pass_speed(math.dist(ball, best.target), setup, parameters.pass_arriving)
+    velocity = _toward(now.me, best.target, 0.4 * parameters.dribble_speed)
+    motion, kick = kick_on_the_run(now.me, best.target, speed, parameters.pass_error, velocity, limits)
+    pass_to = best.receiver if kick is not None else None
+    return Action(Role.ATTACKER, f"pass to {best.receiver}", motion, dribble=True, kick=kick, pass_to=pass_to)
+
+
+def _dribble(now: Situation, way: float, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
+    """Carry the ball round opponents, its front toward where it goes: backward driving is limited by the rules."""
+    me, slow = now.me, limits.capped(parameters.dribble_speed, _TURN_RATE)
+    blocked = circles(now.opponents, 2.0 * setup.robot.reach + setup.ball.radius + 0.2)
+    ahead = max(0.25, math.cos(way - me.heading))
+    speed = parameters.dribble_speed * ahead
+    vx, vy = steer(me, speed * math.cos(way), speed * math.sin(way), _STEP, blocked)
+    facing = math.atan2(vy, vx)
+    return Action(Role.ATTACKER, "dribble", drive(me, vx, vy, turn_rate(me, facing, slow), slow), dribble=True)
+
+
+def _toward(me: Body, target: Point, speed: float) -> Point:
+    away = max(math.dist(me[:2], target), 1e-6)
+    return speed * (target[0] - me.x) / away, speed * (target[1] - me.y) / away

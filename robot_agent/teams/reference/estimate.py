@@ -1,0 +1,92 @@
+"""The shared estimate: what this robot and its teammates believe, fused, each part with its age.
+
+Own pictures and the freshest ball of the team are the world model's. This adds what teammates send beside it (`extra`):
+the opponents that each sees, and when it could be at the ball. All robots compare the same numbers that way, their own
+included as they were sent, and so agree on who plays the ball.
+"""
+
+import math
+from typing import NamedTuple
+
+from robot_agent.contract import Briefing
+from robot_agent.teams.reference.parameters import Parameters
+from robot_agent.world_model import STALE, WorldBelief, WorldModel
+from schemas.messages.sight import Sight
+
+Point = tuple[float, float]
+
+MOST_OPPONENTS = 6
+"""Opponents in a radio message: two entries each, of sixteen."""
+
+
+class Words(NamedTuple):
+    """What a teammate sent beside its pose and ball."""
+
+    arrival: float
+    """s until it could be at the ball, by now; infinite when it does not know."""
+    age: float
+    """s since it was sent."""
+
+
+class SharedEstimate(WorldModel):
+    """The world model, fused with the opponents that teammates report."""
+
+    def __init__(self, briefing: Briefing, parameters: Parameters) -> None:
+        super().__init__(briefing)
+        self._briefing = briefing
+        self._parameters = parameters
+        self.words: dict[str, Words] = {}
+        """Teammate → its newest words, while they are fresh."""
+        self.stuck = 0.0
+        """s for which this robot has been stuck."""
+        self.height: float | None = None
+        """m; height of the ball's centre in the newest picture."""
+
+    def update(self, sight: Sight) -> WorldBelief:
+        """The belief after one more sight."""
+        belief = super().update(sight)
+        self.stuck = self.stuck + belief.dt if sight.stuck else 0.0
+        ball = sight.ball
+        self.height = ball.z if ball is not None and ball.visible else None
+        self.words = {
+            name: Words(float(received.extra.get("arrival", math.inf)) - received.age, received.age)
+            for name, received in sight.radio.items()
+            if received.age <= STALE
+        }
+        return belief._replace(opponents=self._with_reports(belief, sight))
+
+    def _with_reports(self, belief: WorldBelief, sight: Sight) -> list[Point]:
+        """The own opponents, and those that only teammates see."""
+        same, most = self._parameters.same_robot, len(self._their_robots())
+        known = list(belief.opponents)
+        ours = [belief.me[:2], *[mate.body[:2] for mate in belief.mates.values()]]
+        for received in sorted(sight.radio.values(), key=lambda received: received.age):
+            if received.age > self._parameters.told_age:
+                continue
+            for place in reported(received.extra):
+                if len(known) < most and all(math.dist(place, other) > same for other in (*known, *ours)):
+                    known.append(place)
+        return known
+
+    def _their_robots(self) -> list[str]:
+        return self._briefing.setup.teams[self._briefing.side.opponent].robots
+
+
+def report(opponents: list[Point], me: Point, arrival: float) -> dict[str, float]:
+    """The words of one robot: its arrival at the ball, and the opponents nearest to it, in centimetres."""
+    words = {"arrival": round(arrival, 2)} if math.isfinite(arrival) else {}
+    nearest = sorted(opponents, key=lambda place: math.dist(place, me))[:MOST_OPPONENTS]
+    for index, (x, y) in enumerate(nearest):
+        words[f"x{index}"], words[f"y{index}"] = round(x, 2), round(y, 2)
+    return words
+
+
+def reported(words: dict[str, float | int | bool | str]) -> list[Point]:
+    """The opponents in a teammate's words."""
+    places = []
+    for index in range(MOST_OPPONENTS):
+        x, y = words.get(f"x{index}"), words.get(f"y{index}")
+        if not isinstance(x, float | int) or not isinstance(y, float | int):
+            break
+        places.append((float(x), float(y)))
+    return places

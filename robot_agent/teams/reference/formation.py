@@ -1,0 +1,111 @@
+"""The places of the robots that do not play the ball, in attack and defence. Pure."""
+
+import math
+from collections.abc import Iterator, Sequence
+
+from robot_agent.skills.keep_off import inside
+from robot_agent.teams.reference.parameters import Parameters
+from robot_agent.teams.reference.passing import chance, worth
+from robot_agent.teams.reference.roles import Place, Role
+from schemas.config.sections import Pitch
+
+Point = tuple[float, float]
+
+_DIRECTIONS = tuple(math.radians(angle) for angle in (-150, -110, -75, -40, 0, 40, 75, 110, 150))
+"""Where supporters may stand around the ball, from the direction of the attack."""
+_SPREAD = 2.5
+"""m; within this distance of our goal line opponents without the ball are marked."""
+
+
+def places(
+    ball: Point,
+    *,
+    attacks: bool,
+    opponents: Sequence[Point],
+    robots: Sequence[Point],
+    pitch: Pitch,
+    inset: float,
+    parameters: Parameters,
+) -> list[Place]:
+    """As many places as robots, the most important first; all outside the penalty areas.
+
+    Args:
+        attacks: whether our side has the ball, or is first at it.
+        robots: where the robots are that share the places.
+        inset: m between the lines and a robot's centre.
+    """
+    front = pitch.goal_line - pitch.penalty_area_depth - inset - 0.2
+    found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))]
+    if not attacks and ball[0] < parameters.blocks_before:
+        found.insert(0, Place(Role.BLOCKER, _before_goal(ball, parameters.block_distance, pitch, front)))
+    if not attacks and ball[0] < parameters.marks_before:
+        found += [Place(Role.MARKER, place) for place in _marks(ball, opponents, pitch, front, parameters)]
+    found = found[: len(robots)]
+    while len(found) < len(robots):
+        taken = [place.at for place in found]
+        found.append(Place(Role.SUPPORTER, _support(ball, taken, opponents, robots, pitch, front, inset, parameters)))
+    return found
+
+
+def _guard(ball: Point, pitch: Pitch, front: float, parameters: Parameters) -> Point:
+    """Between the own goal and the ball, a share of the way."""
+    dx, dy = ball[0] + pitch.goal_line, ball[1]
+    away = max(math.hypot(dx, dy), 1e-6)
+    share = min(parameters.guard_share, parameters.guard_farthest / away)
+    return max(-front, share * dx - pitch.goal_line), share * dy
+
+
+def _before_goal(ball: Point, distance: float, pitch: Pitch, front: float) -> Point:
+    """`distance` m from the ball toward the own goal."""
+    dx, dy = -pitch.goal_line - ball[0], -ball[1]
+    away = max(math.hypot(dx, dy), 1e-6)
+    return max(-front, ball[0] + distance * dx / away), ball[1] + distance * dy / away
+
+
+def _marks(ball: Point, opponents: Sequence[Point], pitch: Pitch, front: float, parameters: Parameters) -> list[Point]:
+    """A place at each opponent without the ball, on the way of a pass to it; the nearest to our goal first."""
+    free = [place for place in opponents if math.dist(place, ball) > 1.5 and place[0] < _SPREAD]
+    marks = []
+    for x, y in sorted(free, key=lambda place: math.dist(place, (-pitch.goal_line, 0.0))):
+        dx, dy = 0.6 * (ball[0] - x) + 0.4 * (-pitch.goal_line - x), 0.6 * (ball[1] - y) - 0.4 * y
+        away = max(math.hypot(dx, dy), 1e-6)
+        place = x + parameters.mark_distance * dx / away, y + parameters.mark_distance * dy / away
+        marks.append((max(-front, min(front, place[0])), place[1]))
+    return marks[:2]
+
+
+def _support(
+    ball: Point,
+    taken: Sequence[Point],
+    opponents: Sequence[Point],
+    robots: Sequence[Point],
+    pitch: Pitch,
+    front: float,
+    inset: float,
+    parameters: Parameters,
+) -> Point:
+    """The best place for a pass: free lane, room, near their goal, apart from the others, and near a robot already."""
+    best, most = ball, -math.inf
+    for place in _candidates(ball, robots, pitch, front, inset, parameters):
+        if any(math.dist(place, other) < parameters.support_apart for other in taken):
+            continue
+        way = min(math.dist(place, robot) for robot in robots)
+        value = 0.6 * chance(ball, place, opponents, parameters) + 1.2 * worth(place, opponents, pitch)
+        value -= parameters.support_sticks * min(way, 6.0)
+        if value > most:
+            best, most = place, value
+    return best
+
+
+def _candidates(
+    ball: Point, robots: Sequence[Point], pitch: Pitch, front: float, inset: float, parameters: Parameters
+) -> Iterator[Point]:
+    """Two rings around the ball, and where robots are that could stay."""
+    for radius in (parameters.support_near, parameters.support_far):
+        for angle in _DIRECTIONS:
+            x, y = inside(ball[0] + radius * math.cos(angle), ball[1] + radius * math.sin(angle), pitch, inset + 0.4)
+            if -front <= x <= front and math.dist((x, y), ball) > 0.8 * parameters.support_near:
+                yield x, y
+    for x, y in robots:
+        if abs(x) <= front and parameters.support_near < math.dist((x, y), ball) < parameters.pass_longest:
+            yield inside(x, y, pitch, inset + 0.4)

@@ -1,0 +1,82 @@
+"""The keeper: where it stands, what it catches, when it comes out. Pure.
+
+A lob passes under the bar at 0.87 m: a hull that stands on the line is in its way, one that stands half a metre before
+it is not. So the keeper stands on the line, and moves along it.
+"""
+
+import math
+from collections.abc import Sequence
+
+from robot_agent.bodies import Ball, Body, DriveLimits
+from robot_agent.skills.braking import travel_time
+from robot_agent.skills.go_to import drive, velocity_to
+from robot_agent.skills.turn_to import turn_rate
+from robot_agent.teams.reference.parameters import Parameters
+from schemas.config.rolling import Rolling
+from schemas.config.sections import Pitch
+from schemas.messages.command import Drive
+
+Point = tuple[float, float]
+
+_SHOT_SPEED = 1.0
+"""m/s toward the goal; a slower ball is no shot."""
+_SHOT_TIME = 2.5
+"""s to the line; a later ball can wait."""
+_GAIN = 8.0
+"""1/s; full speed to a shot's crossing, easing off over the last centimetres."""
+
+
+def guard(me: Body, ball: Ball, pitch: Pitch, reach: float, limits: DriveLimits, parameters: Parameters) -> Drive:
+    """Stand on the line where the open angle is halved; cross a shot's way."""
+    x = -pitch.goal_line + parameters.on_line
+    crossing = shot_crossing(ball, x, pitch, reach)
+    y = crossing if crossing is not None else halving_place(ball, x, pitch, reach)
+    vx, vy = velocity_to(me, x, y, limits)
+    if crossing is not None:
+        vy = max(-limits.speed, min(limits.speed, _GAIN * (y - me.y)))
+    facing = math.atan2(ball.y - me.y, max(0.3, ball.x - me.x))
+    return drive(me, vx, vy, turn_rate(me, facing, limits), limits)
+
+
+def halving_place(ball: Ball, x: float, pitch: Pitch, reach: float) -> float:
+    """y on the line at `x` that halves the angle between ball and posts, between the posts."""
+    half = 0.5 * pitch.goal_width
+    back = max(ball.x + pitch.goal_line, 0.1)
+    left, right = math.hypot(half - ball.y, back), math.hypot(half + ball.y, back)
+    middle = half * (right - left) / (right + left)
+    part = (x + pitch.goal_line) / back
+    y = middle + part * (ball.y - middle)
+    widest = half - 0.6 * reach
+    return max(-widest, min(widest, y))
+
+
+def shot_crossing(ball: Ball, x: float, pitch: Pitch, reach: float) -> float | None:
+    """y where a ball on its way into the goal crosses the keeper's line; None when there is no shot."""
+    if ball.vx > -_SHOT_SPEED:
+        return None
+    time = (x - ball.x) / ball.vx
+    widest = 0.5 * pitch.goal_width
+    y = ball.y + ball.vy * time
+    if not 0.0 < time < _SHOT_TIME or abs(y) > widest + 2.0 * reach:
+        return None
+    return max(-widest, min(widest, y))
+
+
+def fetches(
+    me: Body,
+    ball: Ball,
+    opponents: Sequence[Point],
+    rolling: Rolling,
+    pitch: Pitch,
+    limits: DriveLimits,
+    parameters: Parameters,
+) -> bool:
+    """Whether the keeper comes out for a slow ball near its goal that it reaches clearly first."""
+    rests = ball.after(1.0, rolling)
+    if math.hypot(ball.vx, ball.vy) > parameters.comes_out_slow:
+        return False
+    if math.hypot(rests.x + pitch.goal_line, rests.y) > parameters.comes_out:
+        return False
+    mine = travel_time(math.dist(me[:2], rests[:2]), 0.0, limits.speed, limits.acceleration, limits.deceleration)
+    theirs = min((math.dist(place, rests[:2]) / 2.0 for place in opponents), default=math.inf)
+    return mine + parameters.first_by < theirs

@@ -1,0 +1,140 @@
+"""Every number of the reference team, with its unit and its reason. Nothing else in the team is tuned.
+
+Distances are between centres unless a name says otherwise. A variant of the team is
+`dataclasses.replace(PARAMETERS, support_speed=2.5)`, given to `Reference`.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """The numbers of one team."""
+
+    # Shared estimate
+    told_age: float = 0.6
+    """s; an opponent that a teammate reported longer ago has moved more than its own width."""
+    same_robot: float = 0.9
+    """m; two reports closer than this are of one robot: the noise at 7 m, and 0.1 s of motion."""
+    silent_delay: float = 1.5
+    """s that count against a teammate without radio messages: it is believed at its home, and may not be there."""
+
+    # Roles
+    stays: float = 0.4
+    """s by which another robot must be at the ball earlier to take the ball over: radio age and noise."""
+    receives: float = 1.2
+    """s in favour of the robot that was promised a pass: as long as a pass rolls."""
+    keeps_place: float = 1.5
+    """m by which another robot must be nearer to a place than the one that has it."""
+
+    # Places
+    support_near: float = 3.2
+    """m from the ball to a near supporter: outside the reach of the opponent at the ball."""
+    support_far: float = 5.5
+    """m from the ball to a far supporter: a pass of 1.2 s."""
+    support_apart: float = 3.0
+    """m between two supporters, so that one opponent cannot cover both."""
+    support_sticks: float = 0.15
+    """Value of a place a metre that a robot does not have to drive: keeps the way of a match short."""
+    support_speed: float = 2.0
+    """m/s; supporters walk: full speed would double their way and win nothing."""
+    settles: float = 1.3
+    """m by which a place has to move before a robot follows it: the ball moves to and fro, robots need not."""
+    settles_close: float = 0.4
+    """m of the same for a robot that blocks or marks."""
+    guard_share: float = 0.42
+    """Where the guard stands between the own goal and the ball, as a share."""
+    guard_farthest: float = 7.0
+    """m from the own goal to the guard at most."""
+    block_distance: float = 2.2
+    """m from an opponent's ball to the robot that blocks its way to the goal."""
+    mark_distance: float = 0.9
+    """m from a marked opponent, toward the ball: as near as no contact allows."""
+
+    blocks_before: float = 2.0
+    """m; an opponent with the ball is blocked once the ball is behind this x."""
+    marks_before: float = -1.0
+    """m; opponents without the ball are marked once the ball is behind this x."""
+
+    # Passes
+    pass_least: float = 1.6
+    """m; a shorter pass does not roll the metre that counts."""
+    pass_longest: float = 9.5
+    """m; a longer pass takes over 2 s."""
+    pass_arriving: float = 2.6
+    """m/s when it arrives: the dribbler keeps it, and opponents have little time."""
+    pass_error: float = 0.2
+    """m beside the receiver at most: half a dribbler's reach by moving."""
+    intercept_reach: float = 0.45
+    """m beside a lane within which an opponent has the ball without moving: hull, ball and noise."""
+    intercept_speed: float = 1.3
+    """m/s at which an opponent closes a lane, after its reaction."""
+    intercept_reaction: float = 0.25
+    """s until an opponent moves for a pass."""
+    lane_sure: float = 0.9
+    """m of margin with which a pass is sure to arrive."""
+    lead: float = 1.2
+    """m ahead of a receiver that a through ball is played."""
+    pass_bonus: float = 0.06
+    """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
+    turn_cost: float = 0.04
+    """Value a radian of turning: an opponent comes nearer meanwhile."""
+    chosen_bonus: float = 0.06
+    """Value in favour of what was decided before: two equal choices would alternate with the noise."""
+    chosen_near: float = 1.5
+    """m; a target this close to the chosen one is the same: more than `lead`."""
+    loss: float = 0.2
+    """Value of the ball in the opponents' hold, at the middle of the pitch; twice as much before the own goal."""
+
+    # Shots
+    shot_range: float = 7.5
+    """m; from farther away a keeper has the time to move."""
+    shot_margin: float = 0.38
+    """m of lane that a keeper's hull and the ball need."""
+    shot_sure: float = 0.55
+    """m of lane beyond the margin with which a shot is sure to score."""
+    lob_nearest: float = 3.4
+    """m; a nearer lob is still rising over the bar."""
+    lob_value: float = 0.55
+    """Share of lobs that score past a keeper on its line, by drill."""
+    lob_rises: float = 1.6
+    """m after which a lob is above all hulls."""
+    shot_worth: float = 0.3
+    """Least chance of a goal for which a robot shoots."""
+    shot_error: float = 0.15
+    """m beside the target at most."""
+
+    # Dribbling
+    dribble_speed: float = 2.2
+    """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
+    pressed: float = 1.1
+    """m to an opponent ahead that presses."""
+    patience: float = 3.0
+    """s with the ball after which the best kick is taken, however poor."""
+
+    # Keeper
+    on_line: float = 0.0
+    """m from the goal line to the keeper's centre. A lob passes 3 cm lower than the top of a hull only there."""
+    comes_out: float = 3.0
+    """m from the goal's middle up to which the keeper fetches a slow ball that it reaches first."""
+    comes_out_slow: float = 1.5
+    """m/s of a ball that the keeper fetches, at most."""
+    first_by: float = 0.4
+    """s that it has to be there before any opponent."""
+
+    # Set pieces
+    restart_wait: float = 2.0
+    """s after START for a free receiver; then the ball is played anyway: the rules give 7 s."""
+    restart_sure: float = 0.6
+    """Chance of arrival for which a set piece is played at once."""
+
+    # Recovery
+    stuck_after: float = 0.8
+    """s of the stuck flag after which a robot backs out."""
+    stuck_out: float = 0.7
+    """s that it backs out."""
+    lost_after: float = 1.5
+    """s without a sight of the ball after which the nearest robot looks where it should be."""
+
+
+PARAMETERS = Parameters()

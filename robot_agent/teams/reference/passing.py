@@ -1,0 +1,100 @@
+"""The value of a pass: will it arrive, and what is the ball worth there. Pure."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from robot_agent.bodies import Body
+from robot_agent.skills.keep_off import inside
+from robot_agent.teams.reference.parameters import Parameters
+from schemas.config.sections import Pitch
+from schemas.frames import wrap
+
+Point = tuple[float, float]
+
+_MEAN_SPEED = 3.6
+"""m/s; a pass that arrives at 2.6 m/s, over its way."""
+_RUNS = 2.0
+"""m/s of a receiver that moves into a pass."""
+
+
+class Pass(NamedTuple):
+    """A pass that could be played."""
+
+    receiver: str
+    target: Point
+    chance: float
+    """Of arriving, 0 to 1."""
+    value: float
+
+
+def chance(start: Point, end: Point, opponents: Sequence[Point], parameters: Parameters) -> float:
+    """How surely a ball gets from one point to the other before any opponent is at it, 0 to 1."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    length = max(math.hypot(dx, dy), 1e-6)
+    ux, uy = dx / length, dy / length
+    least = parameters.lane_sure
+    for x, y in opponents:
+        along = (x - start[0]) * ux + (y - start[1]) * uy
+        if along < -0.3 or along > length + 2.0:
+            continue
+        part = max(0.0, min(length, along))
+        away = math.hypot(x - start[0] - part * ux, y - start[1] - part * uy)
+        moves = max(0.0, part / _MEAN_SPEED - parameters.intercept_reaction) * parameters.intercept_speed
+        least = min(least, away - parameters.intercept_reach - moves)
+    return max(0.0, least / parameters.lane_sure)
+
+
+def worth(place: Point, opponents: Sequence[Point], pitch: Pitch) -> float:
+    """The ball's worth in our hold at a place, 0 to 1: near their goal, central, with room around."""
+    to_goal = math.hypot(pitch.goal_line - place[0], place[1])
+    room = min((math.dist(place, opponent) for opponent in opponents), default=3.0)
+    return math.exp(-to_goal / 6.0) + 0.04 * min(room, 3.0)
+
+
+def cost_of_loss(place: Point, pitch: Pitch, parameters: Parameters) -> float:
+    """What the ball costs in the opponents' hold at a place."""
+    return parameters.loss * (1.0 - 0.9 * place[0] / pitch.goal_line)
+
+
+def passes(
+    ball: Point,
+    heading: float,
+    mates: Mapping[str, Body],
+    opponents: Sequence[Point],
+    chosen: tuple[str, Point] | None,
+    pitch: Pitch,
+    parameters: Parameters,
+) -> list[Pass]:
+    """All passes within range, into the feet and into the run of each teammate; the best is the largest by value."""
+    found = []
+    for name, body in mates.items():
+        for target in targets(ball, body, pitch, parameters):
+            far = math.dist(ball, target)
+            if not parameters.pass_least < far < parameters.pass_longest:
+                continue
+            sure = chance(ball, target, opponents, parameters)
+            late = math.dist(body[:2], target) / _RUNS - far / _MEAN_SPEED
+            sure *= max(0.0, min(1.0, 1.0 - late))
+            turn = abs(wrap(math.atan2(target[1] - ball[1], target[0] - ball[0]) - heading))
+            gain = sure * (worth(target, opponents, pitch) + parameters.pass_bonus)
+            gain -= (1.0 - sure) * cost_of_loss(target, pitch, parameters) + parameters.turn_cost * turn
+            if chosen is not None and chosen[0] == name and math.dist(chosen[1], target) < parameters.chosen_near:
+                gain += parameters.chosen_bonus
+            found.append(Pass(name, target, sure, gain))
+    return found
+
+
+def targets(ball: Point, mate: Body, pitch: Pitch, parameters: Parameters) -> list[Point]:
+    """Where a pass to a teammate may go: to it, ahead of its motion, and behind the defence toward the goal."""
+    x, y = mate.x + 0.4 * mate.vx, mate.y + 0.4 * mate.vy
+    to_goal = math.atan2(-y, pitch.goal_line - 1.0 - x)
+    to_ball = math.atan2(ball[1] - y, ball[0] - x)
+    lead = parameters.lead
+    wanted = (
+        (x, y),
+        (x + lead * math.cos(to_goal), y + lead * math.sin(to_goal)),
+        (x + lead * math.cos(to_ball + 1.3), y + lead * math.sin(to_ball + 1.3)),
+        (x + lead * math.cos(to_ball - 1.3), y + lead * math.sin(to_ball - 1.3)),
+    )
+    return [inside(*place, pitch, 0.4) for place in wanted]

@@ -1,0 +1,36 @@
+"""Set pieces of our own: whom the taker plays to, and when. Against us, the formation's places are made legal."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from robot_agent.bodies import Body
+from robot_agent.teams.reference.parameters import Parameters
+from robot_agent.teams.reference.passing import Pass, passes
+from schemas.config.sections import Pitch
+
+Point = tuple[float, float]
+
+KICK_OFF_TO = (-1.6, 1.9)
+"""m; target of a kick-off without a free teammate."""
+
+
+def best_restart(
+    spot: Point,
+    mates: Mapping[str, Body],
+    opponents: Sequence[Point],
+    chosen: tuple[str, Point] | None,
+    waited: float,
+    pitch: Pitch,
+    parameters: Parameters,
+) -> Pass | None:
+    """The pass that is played, once one is sure enough or the time is up; None to wait.
+
+    Args:
+        waited: s since START.
+    """
+    toward = math.atan2(-spot[1], -spot[0])
+    found = passes(spot, toward, mates, opponents, chosen, pitch, parameters)
+    best = max(found, key=lambda one: one.chance + 0.3 * one.value, default=None)
+    if best is None or (best.chance < parameters.restart_sure and waited < parameters.restart_wait):
+        return None
+    return best

@@ -1,0 +1,276 @@
+"""One robot of the reference team: the estimate, its role, and the action of its role."""
+
+import math
+
+import msgspec
+
+from robot_agent.bodies import Ball, Body
+from robot_agent.contract import Briefing
+from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.pass_to import pass_speed
+from robot_agent.skills.take_ball import take_ball
+from robot_agent.teams.action import Action
+from robot_agent.teams.player import Player
+from robot_agent.teams.promise import Promise, promise_after
+from robot_agent.teams.reference.attacker import Situation, play_ball
+from robot_agent.teams.reference.estimate import SharedEstimate, report
+from robot_agent.teams.reference.formation import places
+from robot_agent.teams.reference.keeper import fetches, guard
+from robot_agent.teams.reference.parameters import PARAMETERS, Parameters
+from robot_agent.teams.reference.passing import Pass
+from robot_agent.teams.reference.recovery import BackOut, home
+from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
+from robot_agent.teams.reference.set_pieces import KICK_OFF_TO, best_restart
+from robot_agent.teams.set_piece import stand, step_in, wait_behind
+from robot_agent.world_model import WorldBelief, places_of
+from schemas.game import TeamPhase
+from schemas.messages.coach import CoachOrder
+from schemas.messages.command import Command, Drive
+from schemas.messages.sight import Sight
+
+Point = tuple[float, float]
+
+CLEAR = "clear"
+"""Intention of a keeper that leaves its line for the ball."""
+_STEPPED_IN = 0.55
+"""m from the ball of a restart, from where the target stays: to turn with the ball would drag it."""
+_HAS_IT = 0.6
+"""m; a robot this close to the ball has it."""
+
+
+class Reference(Player):
+    """One of up to eleven robots."""
+
+    def __init__(self, briefing: Briefing, parameters: Parameters = PARAMETERS) -> None:
+        super().__init__(briefing)
+        self.parameters = parameters
+        self._estimate = self._world = SharedEstimate(briefing, parameters)
+        self._back_out = BackOut(parameters)
+        self._role: Role = Role.KEEPER if self.is_keeper else Role.SUPPORTER
+        self._promised: Promise | None = None
+        self._chosen: Pass | None = None
+        """The pass that this robot aims at."""
+        self._held = self._waited = 0.0
+        """s with the ball; s since START of a restart."""
+        self._arrival = self._sent_arrival = math.inf
+        """s until this robot could be at the ball: now, and as it was sent last."""
+        self._place: Point | None = None
+        """Where this robot stands, until another place is clearly better."""
+
+    def restart(self) -> None:
+        """Forget what was believed of the world: another episode begins."""
+        super().restart()
+        self._estimate = self._world = SharedEstimate(self.briefing, self.parameters)
+        self._promised = self._chosen = self._place = None
+
+    def act(self, sight: Sight) -> Command:
+        """The answer to one sight, with the words to the teammates in its radio message."""
+        command = super().act(sight)
+        if command.radio is None or command.radio.self is None:
+            return command
+        self._sent_arrival = self._arrival
+        me = command.radio.self
+        words = report([(body.x, body.y) for body in command.radio.obstacles], (me.x, me.y), self._arrival)
+        return msgspec.structs.replace(command, radio=msgspec.structs.replace(command.radio, extra=words))
+
+    def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
+        """Find the role, then act by it."""
+        del order
+        self._held = self._held + belief.dt if belief.holding else 0.0
+        self._waited = self._waited + belief.dt if belief.game.running and belief.game.phase.ours else 0.0
+        self._promised = promise_after(self._promised, belief)
+        if belief.ball is None:
+            self._arrival = math.inf
+            return Action(self._role, "wait", Drive())
+        ball = belief.ball.now
+        spot = (belief.game.spot.x, belief.game.spot.y) if belief.game.spot is not None else (ball.x, ball.y)
+        if belief.game.phase is not TeamPhase.PLAY:
+            ball = Ball(*spot) if not belief.game.running else ball
+        self._arrival = self._arrival_at(belief.me, ball, holding=belief.holding)
+        if self.is_keeper:
+            self._role = Role.KEEPER
+            return self._keep(belief, ball, spot)
+        out = self._back_out.motion(belief.me, self._estimate.stuck, belief.others, belief.dt, self.limits)
+        if out is not None and not belief.holding:
+            return Action(self._role, "back out", out)
+        self._role, place = self._find_role(belief, ball, spot)
+        return self._act_by_role(belief, ball, spot, place)
+
+    def _act_by_role(self, belief: WorldBelief, ball: Ball, spot: Point, place: Point) -> Action:
+        phase = belief.game.phase
+        if self._role is not Role.ATTACKER or phase.theirs:
+            return self._support(belief, place, spot)
+        if phase.ours:
+            return self._take_restart(belief, ball, spot)
+        if phase is TeamPhase.DROP_BALL and not belief.game.running:
+            return self._support(belief, place, spot)
+        if any(mate.intention == CLEAR for mate in belief.mates.values()):
+            return self._support(belief, place, spot)
+        if belief.holding:
+            return self._play_ball(belief)
+        self._chosen = None
+        return Action(Role.ATTACKER, "get the ball", self._get(belief, ball), dribble=True)
+
+    def _arrival_at(self, body: Body, ball: Ball, *, holding: bool = False) -> float:
+        """When a robot could be at the ball, s from now; before any other when it holds it."""
+        if holding:
+            return -1.0
+        return meet(body, way_of(ball, self.rolling), self.setup.dribble.gap, self.limits).time
+
+    def _find_role(self, belief: WorldBelief, ball: Ball, spot: Point) -> tuple[Role, Point]:
+        """The role of this robot, and its place; a robot that may not play the ball stands before the own goal."""
+        me = self.briefing.robot
+        candidates = self._candidates(belief, ball)
+        first = attacker_of(candidates, self.parameters)
+        holder = self._holder(belief, candidates)
+        if holder is not None:
+            first = holder
+        theirs = min((math.dist(place, ball[:2]) for place in belief.opponents), default=math.inf)
+        phase = belief.game.phase
+        attacks = holder is not None or phase.ours or (theirs > _HAS_IT and candidates[first].arrival < theirs / 2.5)
+        attacks = (attacks or self._promised is not None) and not phase.theirs
+        if first == me:
+            return Role.ATTACKER, self._before_own_goal(spot)
+        del candidates[first]
+        shared = share_places(candidates, self._places(belief, ball, spot, candidates, attacks), self.parameters)
+        place = shared.get(me, Place(Role.GUARD, belief.me[:2]))
+        return place.role, place.at
+
+    def _places(
+        self, belief: WorldBelief, ball: Ball, spot: Point, others: dict[str, Candidate], attacks: bool
+    ) -> list[Place]:
+        at = ball.after(0.6, self.rolling)[:2] if belief.game.phase is TeamPhase.PLAY else spot
+        return places(
+            at,
+            attacks=attacks,
+            opponents=belief.opponents,
+            robots=[others[name].body[:2] for name in sorted(others)],
+            pitch=self.setup.pitch,
+            inset=self.setup.robot.reach,
+            parameters=self.parameters,
+        )
+
+    def _candidates(self, belief: WorldBelief, ball: Ball) -> dict[str, Candidate]:
+        """All field robots of the team; those without radio messages at their homes."""
+        me, receiver = self.briefing.robot, self._promised.receiver if self._promised is not None else None
+        arrival = self._sent_arrival if math.isfinite(self._sent_arrival) else self._arrival
+        if belief.holding:
+            arrival = self._arrival
+        found = {me: Candidate(belief.me, arrival, self._role, receiver == me)}
+        for number, name in enumerate(self.setup.teams[self.briefing.side].robots, 1):
+            if name in (me, self.keeper) or self._is_away(belief, name):
+                continue
+            mate, words = belief.mates.get(name), self._estimate.words.get(name)
+            if mate is None:
+                body = Body(*home(number, self.setup.pitch), 0.0)
+                silent = self._arrival_at(body, ball) + self.parameters.silent_delay
+                found[name] = Candidate(body, silent, "")
+            else:
+                heard = words.arrival if words is not None else math.inf
+                if not math.isfinite(heard):
+                    heard = self._arrival_at(mate.body, ball)
+                found[name] = Candidate(mate.body, heard, mate.role, receiver == name)
+        return found
+
+    def _is_away(self, belief: WorldBelief, name: str) -> bool:
+        record = belief.game.robots.get(name)
+        return record is not None and record.off_field is not None
+
+    def _holder(self, belief: WorldBelief, candidates: dict[str, Candidate]) -> str | None:
+        """The robot of the team that holds the ball, by its own words."""
+        holders = [name for name, one in candidates.items() if one.arrival < -0.5]
+        if belief.holding:
+            return self.briefing.robot
+        return min(holders, default=None)
+
+    def _field_mates(self, belief: WorldBelief) -> dict[str, Body]:
+        return {name: mate.body for name, mate in belief.mates.items() if name != self.keeper}
+
+    def _play_ball(self, belief: WorldBelief) -> Action:
+        """Shoot, pass or dribble."""
+        chosen = (self._chosen.receiver, self._chosen.target) if self._chosen is not None else None
+        situation = Situation(
+            belief.me,
+            self._field_mates(belief),
+            belief.opponents,
+            self._held,
+            chosen,
+            may_score=self.may_score,
+            must_pass=self.must_pass_on,
+        )
+        action, self._chosen = play_ball(situation, self.setup, self.limits, self.parameters)
+        if action.pass_to is not None and belief.kicker_ready:
+            self._promised = Promise(action.pass_to)
+        return action
+
+    def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
+        """Meet the ball: a pass is met on its way, a loose ball where it rolls."""
+        gap = self.setup.dribble.gap
+        meeting = meet(belief.me, way_of(ball, self.rolling), gap, self.limits)
+        clearance = 2.0 * self.setup.robot.reach + 0.05
+        mates = places_of(belief.mates).values()
+        return take_ball(belief.me, ball, meeting, gap, belief.opponents, clearance, self.limits, mates)
+
+    def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
+        """Hold the place; walk to it unless it defends."""
+        defends = self._role in (Role.BLOCKER, Role.MARKER)
+        near = self.parameters.settles_close if defends else self.parameters.settles
+        if self._place is None or math.dist(self._place, place) > near:
+            self._place = place
+        walks = not defends and belief.game.phase is TeamPhase.PLAY
+        limits = self.limits.capped(self.parameters.support_speed) if walks else self.limits
+        motion = stand(belief.me, self._place, belief.game, spot, belief.others, self.setup, limits)
+        return Action(self._role, "hold", motion)
+
+    def _before_own_goal(self, spot: Point) -> Point:
+        """A place 1 m from the ball toward the own goal; the rules of the phase move it farther away."""
+        dx, dy = -self.setup.pitch.goal_line - spot[0], -spot[1]
+        away = max(math.hypot(dx, dy), 1e-6)
+        return spot[0] + dx / away, spot[1] + dy / away
+
+    def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
+        """Line up behind the ball; after START play it to the best receiver, or a penalty at the goal."""
+        pitch, phase = self.setup.pitch, belief.game.phase
+        if phase is TeamPhase.OUR_PENALTY:
+            target, speed = (pitch.goal_line, 0.35 * pitch.goal_width), self.setup.kicker.max_ground_speed
+            receiver, error = None, self.parameters.shot_error
+        else:
+            chosen = (self._chosen.receiver, self._chosen.target) if self._chosen is not None else None
+            mates = self._field_mates(belief)
+            waited = self._waited if belief.game.running else math.inf
+            steps_in = belief.game.running and math.dist(belief.me[:2], spot) < _STEPPED_IN
+            best = self._chosen if steps_in else None
+            best = best or best_restart(spot, mates, belief.opponents, chosen, waited, pitch, self.parameters)
+            self._chosen = best or self._chosen
+            target = best.target if best is not None else KICK_OFF_TO
+            receiver = best.receiver if best is not None else None
+            speed = pass_speed(math.dist(spot, target), self.setup, self.parameters.pass_arriving)
+            error = self.parameters.pass_error
+            if best is None and belief.game.running and self._waited < self.parameters.restart_wait:
+                motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
+                return Action(Role.ATTACKER, "wait for a receiver", motion)
+        if not belief.game.running:
+            motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
+            return Action(Role.ATTACKER, "wait behind the ball", motion)
+        if not belief.holding:
+            return Action(Role.ATTACKER, "step in", step_in(belief.me, ball[:2], target, self.setup, self.limits), True)
+        motion, kick = kick_at(belief.me, target, speed, error, self.limits)
+        if kick is not None and receiver is not None and belief.kicker_ready:
+            self._promised = Promise(receiver)
+        return Action(Role.ATTACKER, "kick", motion, True, kick, receiver if kick is not None else None)
+
+    def _keep(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
+        """Guard the goal; fetch a slow ball near it, and play it out."""
+        pitch, reach, in_play = self.setup.pitch, self.setup.robot.reach, belief.game.phase is TeamPhase.PLAY
+        if in_play and belief.holding:
+            action = self._play_ball(belief)
+            return action._replace(role=Role.KEEPER, intention=CLEAR)
+        if in_play and fetches(belief.me, ball, belief.opponents, self.rolling, pitch, self.limits, self.parameters):
+            return Action(Role.KEEPER, CLEAR, self._get(belief, ball), dribble=True)
+        if belief.game.phase is TeamPhase.DROP_BALL:
+            place = (-pitch.goal_line + reach + 0.1, 0.0)
+            motion = stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits)
+            return Action(Role.KEEPER, "guard", motion)
+        motion = guard(belief.me, ball, pitch, reach, self.limits, self.parameters)
+        return Action(Role.KEEPER, "guard", motion, dribble=in_play)

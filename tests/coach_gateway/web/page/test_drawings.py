@@ -1,0 +1,78 @@
+"""What brains draw, on the page: their shapes, their values, and who sees them."""
+
+import pytest
+
+DRAWN = {"cyan": {"name": "Blues", "brain": "support.drawing_brain:DrawingBrain", "size": 1}}
+TEAMS = DRAWN | {"magenta": {"name": "Reds", "brain": "support.drawing_brain:DrawingBrain", "size": 1}}
+SHAPES = [(2.0, 5.0), (6.0, -3.0), (7.5, 2.0), (2.0, -6.0)]
+"""A place on the point, the line, the circle and the polygon, in the team frame."""
+
+RED = """([x, y]) => {
+    const { projection } = window.touchline.pitchCanvas, canvas = document.getElementById("moving");
+    const [left, top] = [projection.x(x), projection.y(y)].map((at) => Math.round(at * projection.density));
+    const { data } = canvas.getContext("2d").getImageData(left - 4, top - 4, 9, 9);
+    const isRed = (at) => data[at] > 240 && data[at + 1] < 30 && data[at + 3] > 200;
+    return [...Array(81).keys()].some((pixel) => isRed(4 * pixel));
+}"""
+
+
+def shown(tab, sign: int) -> list[bool]:
+    """Whether each shape is drawn for a side that attacks in this direction."""
+    return [tab.page.evaluate(RED, [sign * x, sign * y]) for x, y in SHAPES]
+
+
+@pytest.mark.parametrize(
+    ("role", "cyan", "magenta"), [("cyan", True, False), ("magenta", False, True), ("referee", True, True)]
+)
+def test_a_team_s_drawings_are_on_its_own_pages_and_the_operator_s(
+    match_of, visit, role: str, cyan: bool, magenta: bool
+) -> None:
+    tab = visit(match_of(teams=TEAMS), role)
+    seen = [side for side, sees in (("cyan", cyan), ("magenta", magenta)) if sees]
+    tab.until(f"Object.keys(window.touchline.match.debug).sort().join() === '{','.join(f'{side}1' for side in seen)}'")
+    tab.page.wait_for_timeout(200)  # some frames of the browser
+    assert shown(tab, 1) == [cyan] * 4
+    assert shown(tab, -1) == [magenta] * 4
+
+
+def test_spectators_are_sent_no_drawings(match_of, visit) -> None:
+    match = match_of(teams=TEAMS)
+    tab = visit(match)
+    begun = tab.ask("window.touchline.pitchCanvas.world.time")
+    tab.until(f"window.touchline.pitchCanvas.world.time > {begun} + 0.3")
+    assert tab.ask("window.touchline.match.debug") == {}
+    assert not any(shown(tab, 1) + shown(tab, -1))
+    assert not tab.page.locator("#layer-drawings").is_visible()
+
+
+def test_drawings_can_be_switched_off_and_limited_to_a_robot(match_of, visit) -> None:
+    tab = visit(match_of(teams=TEAMS), "referee")
+    tab.until("document.querySelectorAll('#layer-drawings option').length === 6")
+    choice = tab.page.locator("#layer-drawings")
+    assert choice.input_value() == "all"
+    for value, cyan, magenta in (("none", False, False), ("magenta1", False, True), ("cyan", True, False)):
+        choice.select_option(value)
+        tab.page.wait_for_timeout(200)
+        assert (shown(tab, 1), shown(tab, -1)) == ([cyan] * 4, [magenta] * 4)
+
+
+def test_the_values_of_the_chosen_robot_are_listed(match_of, visit) -> None:
+    tab = visit(match_of(teams=TEAMS), "referee")
+    assert not tab.page.locator("#debug").is_visible()
+    tab.page.locator("[data-robot=magenta1] .who").click()
+    tab.until("document.getElementById('debug').innerText.includes('plan')")
+    values = tab.page.locator("#debug-values")
+    assert tab.page.locator("#debug-robot").inner_text() == "magenta1"
+    assert values.locator("dt").all_inner_texts() == ["tick", "gap", "plan"]
+    assert values.locator("dd").all_inner_texts()[1:] == ["0.25", "wait"]
+    before = values.locator("dd").first.inner_text()
+    tab.until(f"document.querySelector('#debug-values dd').textContent !== '{before}'")
+
+
+def test_a_replay_shows_the_drawings_of_both_teams_to_all_pages(record, replay_file, visit) -> None:
+    tab = visit(replay_file(record(duration=2.0, teams=TEAMS)))
+    tab.until("Object.keys(window.touchline.match.debug).length === 2")
+    tick = tab.ask("window.touchline.pitchCanvas.world.tick")
+    assert tab.ask("window.touchline.match.debug.cyan1.debug.values.tick") == pytest.approx(tick, abs=1)
+    tab.page.wait_for_timeout(200)
+    assert shown(tab, 1) == shown(tab, -1) == [True] * 4

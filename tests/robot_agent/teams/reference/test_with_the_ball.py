@@ -1,0 +1,66 @@
+"""What the robot with the ball does."""
+
+import math
+
+from robot_agent.bodies import Body
+from robot_agent.teams.reference.parameters import PARAMETERS
+from robot_agent.teams.reference.passing import chance, passes
+from robot_agent.teams.reference.shooting import best_shot
+from schemas.messages.command import KickMode
+
+
+def test_a_robot_before_an_open_goal_scores(scene):
+    robots = {"cyan1": (-10.5, 0, 0), "cyan2": (5.5, 0.5, 0), "magenta1": (-5, 6, 0), "magenta2": (-6, 5, 0)}
+    played = scene(robots, (6.0, 0.5)).play(4.0, lambda played: played.goals > 0)
+    assert played.goals == 1
+
+
+def test_a_shot_goes_beside_the_keeper(setup):
+    shot = best_shot((6.0, 0.0), [(10.6, 0.5)], setup.pitch, PARAMETERS)
+    assert shot is not None
+    assert shot.target[1] < 0.0
+
+
+def test_a_wall_on_the_ground_is_lobbed_over(setup):
+    wall = [(9.0, y) for y in (-1.0, -0.5, 0.0, 0.5, 1.0)]
+    shot = best_shot((5.0, 0.0), wall, setup.pitch, PARAMETERS)
+    assert shot is not None
+    assert shot.mode is KickMode.LOB
+
+
+def test_there_is_no_shot_from_the_own_half(setup):
+    assert best_shot((-1.0, 0.0), [], setup.pitch, PARAMETERS) is None
+
+
+def test_an_opponent_in_the_lane_makes_a_pass_fail_and_one_beside_it_does_not():
+    assert chance((0.0, 0.0), (5.0, 0.0), [(2.5, 0.1)], PARAMETERS) == 0.0
+    assert chance((0.0, 0.0), (5.0, 0.0), [(2.5, 3.0)], PARAMETERS) == 1.0
+    assert chance((0.0, 0.0), (5.0, 0.0), [(-3.0, 0.0)], PARAMETERS) == 1.0
+
+
+def test_the_best_pass_goes_to_the_free_teammate_and_not_into_an_opponent(setup):
+    mates = {"cyan3": Body(4.0, 2.0, 0.0), "cyan4": Body(4.0, -2.0, 0.0)}
+    found = passes((0.0, 0.0), 0.0, mates, [(2.5, 1.2), (4.0, 2.8)], None, setup.pitch, PARAMETERS)
+    assert max(found, key=lambda one: one.value).receiver == "cyan4"
+
+
+def test_a_chosen_pass_stays_while_another_is_as_good(setup):
+    mates = {"cyan3": Body(4.0, 2.0, 0.0), "cyan4": Body(4.0, -2.0, 0.0)}
+    for name, mate in mates.items():
+        found = passes((0.0, 0.0), 0.0, mates, [], (name, mate[:2]), setup.pitch, PARAMETERS)
+        assert max(found, key=lambda one: one.value).receiver == name
+
+
+def test_a_pressed_robot_passes_to_a_free_mate_which_comes_to_meet_the_ball(scene):
+    robots = {
+        "cyan1": (-10.5, 0, 0),
+        "cyan2": (-2.0, 0.0, 0),
+        "cyan3": (1.5, 3.0, math.pi),
+        "magenta1": (10.5, 0, math.pi),
+        "magenta2": (-0.3, -0.3, math.pi),
+    }
+    played = scene(robots, (-1.6, 0.0)).play(
+        6.0, lambda played: bool(played.commands) and played.match.simulation.now.world["possession"] == "cyan3"
+    )
+    assert [command.radio.pass_to for command in played.kicks("cyan2")] == ["cyan3"]
+    assert played.match.simulation.now.world["possession"] == "cyan3"

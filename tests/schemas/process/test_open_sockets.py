@@ -1,0 +1,62 @@
+"""The TCP connections of this process: their received bytes by peer, and their end."""
+
+import socket
+from pathlib import Path
+
+import pytest
+
+from schemas.process.open_sockets import close_connection, plain_address, received_bytes
+
+linux = pytest.mark.skipif(not hasattr(socket, "TCP_INFO"), reason="only Linux reports the bytes of a connection")
+
+
+@pytest.fixture
+def pair():
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        client = socket.create_connection(listener.getsockname())
+        server, peer = listener.accept()
+        with client, server:
+            yield client, server, peer
+
+
+@linux
+def test_the_received_bytes_are_those_of_the_connection_to_a_peer(pair):
+    client, server, peer = pair
+    assert received_bytes()[peer] == 0
+    client.sendall(b"x" * 5000)
+    server.recv(5000, socket.MSG_WAITALL)
+    assert received_bytes()[peer] == 5000
+
+
+@linux
+def test_a_closed_connection_ends_at_both_ends_even_if_its_peer_never_reads(pair):
+    client, server, peer = pair
+    server.setblocking(False)
+    with pytest.raises(BlockingIOError):
+        while True:
+            server.send(b"x" * 100_000)
+    assert close_connection(peer)
+    assert server.recv(1) == b""
+    server.close()  # as the library does that reads the end
+    with pytest.raises(ConnectionResetError):
+        while client.recv(10**6):
+            pass
+    assert not close_connection(peer)
+
+
+@linux
+def test_no_descriptor_is_left_open(pair):
+    _, _, peer = pair
+    before = len(list(Path("/proc/self/fd").iterdir()))
+    received_bytes()
+    close_connection(peer)
+    assert not close_connection(("127.0.0.1", 1))
+    assert len(list(Path("/proc/self/fd").iterdir())) == before
+
+
+@pytest.mark.parametrize(
+    ("address", "plain"),
+    [("10.0.0.1", "10.0.0.1"), ("::ffff:10.0.0.1", "10.0.0.1"), ("fe80::1%eth0", "fe80::1"), ("host", "host")],
+)
+def test_an_address_has_one_form(address, plain):
+    assert plain_address(address) == plain

@@ -1,0 +1,126 @@
+"""Drawings of robots' programs: published for their own side, turned into the field frame, without effect."""
+
+import pytest
+
+from schemas.access.accounts import Account
+from schemas.access.rights import Rights
+from schemas.config.match_config import MatchConfig
+from schemas.messages.command import Command, Drive
+from schemas.messages.debug import Debug, DebugPoint, RobotDebug
+from schemas.messages.radio import Radio
+from schemas.messages.sight import Sight
+from schemas.side import Side
+from schemas.topics import APPLIED, BELIEF, COMMAND, DEBUG, SIGHT, WORLD
+from support.host_rig import TEAMS, HostRig
+
+CONFIG = MatchConfig.model_validate({"name": "drawn", "duration": 2.0, "teams": TEAMS})
+ROBOTS = {Side.CYAN: ["cyan1", "cyan2"], Side.MAGENTA: ["magenta1"]}
+
+
+class Draws:
+    """Drives ahead, and draws where it is."""
+
+    def __init__(self, *, draws: bool = True) -> None:
+        self.draws = draws
+
+    def act(self, sight: Sight) -> Command:
+        point = DebugPoint(x=sight.self.x, y=sight.self.y, colour="red")
+        debug = Debug(values={"tick": sight.tick}, points=[point]) if self.draws else None
+        return Command(answers_tick=sight.tick, drive=Drive(vx=1.0), radio=Radio(role="a"), debug=debug)
+
+
+def rig_of(*, draws: bool = True) -> HostRig:
+    rig = HostRig(CONFIG, settings={})
+    for robot in ("cyan1", "cyan2", "magenta1"):
+        rig.join(robot, Draws(draws=draws))
+    return rig
+
+
+@pytest.mark.parametrize("robot", ["cyan2", "magenta1"])
+def test_a_drawing_is_published_in_the_field_frame_with_the_tick_of_its_sight(robot: str) -> None:
+    rig = rig_of()
+    drawings, worlds = rig.listen(DEBUG), rig.listen(WORLD)
+    rig.begin()
+    rig.ticks(3)
+    positions = {world.tick: world.robots[robot] for world in worlds.all()}
+    published = [frame for frame in drawings.all() if frame.robot == robot]
+    assert [frame.tick for frame in published] == [0, 1, 2]
+    for frame in published:
+        assert frame.time == pytest.approx(frame.tick * 0.02)
+        assert frame.debug.values == {"tick": frame.tick}
+        truth = positions[frame.tick]
+        assert frame.debug.points[0].x == pytest.approx(truth.x, abs=0.3)
+        assert frame.debug.points[0].y == pytest.approx(truth.y, abs=0.3)
+
+
+def test_a_match_with_drawings_is_the_same_match() -> None:
+    chains, sights = [], []
+    for draws in (True, False):
+        rig = rig_of(draws=draws)
+        applied, seen = rig.listen(APPLIED), rig.listen(SIGHT)
+        rig.begin()
+        rig.ticks(10)
+        chains.append([message.chain for message in applied.all()])
+        sights.append([message.encode() for message in seen.all()])
+    assert chains[0] == chains[1]
+    assert sights[0] == sights[1], "no sight has anything of a drawing"
+
+
+def test_a_drawing_is_no_part_of_the_radio() -> None:
+    beliefs, used = [], []
+    for draws in (True, False):
+        rig = rig_of(draws=draws)
+        published = rig.listen(BELIEF)
+        rig.begin()
+        rig.ticks(4)
+        beliefs.append([message.encode() for message in published.all()])
+        used.append(rig.host.simulation.radio_use.of_robot("cyan1"))
+    assert beliefs[0] == beliefs[1] != []
+    assert used[0] == used[1]
+
+
+def test_without_a_drawing_nothing_is_published() -> None:
+    rig = rig_of(draws=False)
+    drawings = rig.listen(DEBUG)
+    rig.begin()
+    rig.ticks(3)
+    assert drawings.all() == []
+
+
+def test_a_drawing_beyond_its_bounds_is_counted_for_its_robot() -> None:
+    rig = rig_of()
+    rig.begin()
+    rig.ticks(1)
+    point = b'{"x":0,"y":0}'
+    too_many = b'{"version":"2.0","answers_tick":1,"debug":{"points":[' + b",".join([point] * 65) + b"]}}"
+    rig.agents["cyan1"].frozen = True
+    rig.agents["cyan1"].bus.publisher(COMMAND, robot="cyan1").put_payload(too_many)
+    rig.ticks(1)
+    stats = rig.host.inbox.agent_stats["cyan1"]
+    assert stats.invalid == 1
+    assert "debug.points" in stats.fault(2)
+
+
+@pytest.mark.parametrize(
+    ("account", "robots"),
+    [
+        (Account.CYAN, []),
+        (Account.MAGENTA, []),
+        (Account.CYAN_COACH, ["team/cyan/debug/*"]),
+        (Account.MAGENTA_COACH, ["team/magenta/debug/*"]),
+        (Account.REFEREE, []),
+        (Account.VIEWER, []),
+        (Account.OPERATOR, ["team/*/debug/*"]),
+        (Account.RECORDER, ["team/*/debug/*"]),
+    ],
+)
+def test_only_the_own_coach_the_operator_and_recorders_read_drawings(account: Account, robots: list[str]) -> None:
+    keys = Rights(account, ROBOTS).subscribes
+    assert [key for key in keys if "/debug/" in key] == robots
+    if account not in (Account.RECORDER,):
+        assert not any(key.endswith("/command") for key in keys), "commands have drawings, too"
+
+
+def test_a_drawing_is_a_message_of_its_topic() -> None:
+    assert DEBUG.message is RobotDebug
+    assert DEBUG.recorded

@@ -1,0 +1,100 @@
+"""`touchline series`, with short matches in real processes."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from schemas.config.match_config import load_match
+from touchline.command_line import app
+from touchline.play import play_match
+
+
+def series(*words: str | Path) -> Result:
+    return CliRunner().invoke(app, ["series", *map(str, words)])
+
+
+def rows(*words: str | Path) -> dict[str, Any]:
+    result = series(*words, "--json")
+    found: dict[str, Any] = json.loads(result.stdout)
+    return found
+
+
+def test_figures_do_not_depend_on_the_number_of_jobs(match_file: Path) -> None:
+    one, two = (series(match_file, "--seeds", "1-3", "--both-sides", "--jobs", jobs) for jobs in ("1", "2"))
+    assert (one.exit_code, two.exit_code) == (0, 0)
+    assert one.stdout == two.stdout
+    assert "Forward – Still   6 matches" in one.stdout
+    assert rows(match_file, "--seeds", "1-2", "--jobs", "1") == rows(match_file, "--seeds", "1-2", "--jobs", "2")
+
+
+def test_a_match_of_a_series_is_the_match_of_its_seed(match_file: Path) -> None:
+    (row,) = rows(match_file, "--seeds", "5")["matches"]
+    alone = play_match(load_match(match_file, {"seed": 5}), brain_folder=match_file.parent)
+    assert (row["seed"], row["chain"], row["playing_time"]) == (5, alone.chain, pytest.approx(1.0, abs=0.03))
+
+
+def test_a_brain_that_raises_costs_its_match_only(match_file: Path) -> None:
+    words = (match_file, "--seeds", "2", "--both-sides", "--magenta", "few_brains:RaisesInMagenta")
+    result = series(*words)
+    assert result.exit_code == 1
+    assert "1 of 2 matches, 1 failed" in result.stdout
+    assert "seed 2: failed: magenta1, tick 20: ValueError: no idea (few_brains.py, line " in result.stderr
+    found = rows(*words)
+    assert [(row["seed"], row["swapped"]) for row in found["matches"]] == [(2, True)]
+    assert [(row["seed"], row["swapped"]) for row in found["failed"]] == [(2, False)]
+
+
+def test_a_process_that_dies_costs_its_match_only(match_file: Path) -> None:
+    (failed,) = rows(match_file, "--seeds", "4", "--cyan", "few_brains:Dies")["failed"]
+    assert failed["reason"] == "its process ended with status 7"
+
+
+def test_brains_keep_nothing_from_one_match_to_the_next(match_file: Path) -> None:
+    found = rows(match_file, "--seeds", "1-3", "--jobs", "1", "--cyan", "few_brains:OnceOnly")
+    assert (len(found["matches"]), found["failed"]) == (3, [])
+
+
+def test_a_key_of_the_match_file_is_replaced(match_file: Path) -> None:
+    words = (match_file, "--seeds", "1")
+    (short,), (longer,) = (rows(*words, *more)["matches"] for more in ([], ["--set", "duration=1.5"]))
+    assert (round(short["playing_time"], 1), round(longer["playing_time"], 1)) == (1.0, 1.5)
+    assert short["identity"] != longer["identity"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--seeds", "x"], '--seeds is "x"; write a range'),
+        (["--jobs", "-1"], "--jobs is -1; give a number"),
+        (["--set", "radio.loss"], '--set is "radio.loss"; write a key'),
+        (["--set", "radio.lost=0.2"], "radio.lost is not known"),
+        (["--cyan", "simpel"], 'did you mean "simple"'),
+        (["--cyan", "few_brains:Nobody"], "few_brains has no Nobody"),
+    ],
+)
+def test_a_wrong_option_is_one_line_before_any_match(match_file: Path, words: list[str], said: str) -> None:
+    result = series(match_file, *words)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.processes
+def test_ctrl_c_prints_what_has_been_played(match_file: Path) -> None:
+    words = [sys.executable, "-m", "touchline", "series", str(match_file), "--seeds", "1-3000", "--jobs", "1"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=dict(os.environ))
+    assert process.stdout is not None and process.stderr is not None
+    ended = (line for line in process.stderr if line.startswith("2/3000 "))
+    assert next(ended)
+    process.send_signal(signal.SIGINT)
+    output, _ = process.communicate(timeout=60)
+    assert process.returncode == 128 + signal.SIGINT
+    assert " of 3000 matches, " in output and " not played" in output
+    assert "share of points" in output

@@ -1,0 +1,125 @@
+"""A program that speaks the protocol itself, with a host of its own that gives it sights one by one."""
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+
+from robot_agent.contract import Briefing
+from schemas.bus.contract import PresenceKind
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.errors import TouchlineError
+from schemas.messages.claim import AgentClaimReply
+from schemas.messages.command import Command
+from schemas.messages.sight import Sight
+from schemas.process import leash
+from schemas.process.clock import WallClock
+from schemas.topics import COMMAND, ROBOT_CLAIM, SETUP, SIGHT
+from schemas.wire.message import BadMessageError
+
+_PATIENCE_S = 30.0
+"""Wall time for the program to join, and for each command."""
+_RESEND_S = 0.05
+"""Wall time after which an unanswered sight is sent again, as a host does."""
+_POLL_S = 0.01
+_END_S = 1.5
+"""Wall time from SIGTERM to SIGKILL, as in a match."""
+
+
+class BusProgram:
+    """One robot's program on a bus of its own; a brain for the checks."""
+
+    def __init__(self, command: Sequence[str], briefing: Briefing, log: list[str]) -> None:
+        """Start the program, and wait until it has claimed its robot; what it does wrong is added to `log`.
+
+        Raises:
+            TouchlineError: it does not claim its robot.
+        """
+        self._robot, self._clock, self._log = briefing.robot, WallClock(), log
+        self._setup = briefing.setup.model_copy(update={"claims": True})
+        endpoint = with_free_port("tcp/127.0.0.1:0")
+        self._bus = open_host(self._setup.match, self._clock, endpoint)
+        self._bus.declare_alive(PresenceKind.HOST, "host")
+        self._setups, self._claims = self._bus.serve(SETUP), self._bus.serve(ROBOT_CLAIM)
+        self._commands = self._bus.subscribe(COMMAND)
+        self._sights = self._bus.publisher(SIGHT, robot=self._robot)
+        environment = {
+            **os.environ,
+            "TOUCHLINE_CONNECT": endpoint,
+            "TOUCHLINE_MATCH": self._setup.match,
+            "TOUCHLINE_ROBOT": self._robot,
+            "TOUCHLINE_SIDE": briefing.side.value,
+        }
+        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), "{}")
+        self._popen = subprocess.Popen(
+            [*launcher, *command], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+        )
+        try:
+            self._await_claim()
+        except BaseException:
+            self.close()
+            raise
+
+    def act(self, sight: Sight) -> Command:
+        """The program's command for a sight.
+
+        Raises:
+            TouchlineError: it has ended, or does not answer.
+        """
+        self._bus.clock.sim_ns = round(sight.time * 1e9)
+        deadline, next_send = self._clock.now() + _PATIENCE_S, 0.0
+        while self._clock.now() < deadline:
+            if self._clock.now() >= next_send:
+                self._sights.put(sight)
+                next_send = self._clock.now() + _RESEND_S
+            received = self._commands.receive(_POLL_S)
+            if received is not None:
+                try:
+                    command = Command.decode(received.payload)
+                except BadMessageError as error:
+                    self._log.append(f"{self._robot}: the program has sent no command: {error}")
+                    return Command(answers_tick=sight.tick)
+                if command.answers_tick == sight.tick:
+                    return command
+            self._serve()
+        raise TouchlineError(
+            f"{self._robot}: the program does not answer the sight of tick {sight.tick} within {_PATIENCE_S:g} s"
+        )
+
+    def close(self) -> None:
+        """End the program and its host."""
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            self._popen.send_signal(number)
+            with suppress(subprocess.TimeoutExpired):
+                self._popen.wait(_END_S)
+                break
+        self._bus.close()
+
+    def _await_claim(self) -> None:
+        deadline = self._clock.now() + _PATIENCE_S
+        while not self._serve():
+            if self._clock.now() >= deadline:
+                how = f"does not claim its robot within {_PATIENCE_S:g} s; see docs/protocol.md"
+                raise TouchlineError(f"{self._robot}: the program {how}")
+            self._clock.sleep_until(self._clock.now() + _POLL_S)
+
+    def _serve(self) -> bool:
+        """Reply to queries; returns whether the robot was claimed.
+
+        Raises:
+            TouchlineError: the program has ended.
+        """
+        status = self._popen.poll()
+        if status is not None:
+            how = f"ended with status {status}" if status >= 0 else f"was ended by {signal.Signals(-status).name}"
+            raise TouchlineError(f"{self._robot}: the program {how}")
+        while (query := self._setups.receive(0.0)) is not None:
+            query.reply(self._setup)
+        is_claimed = False
+        while (query := self._claims.receive(0.0)) is not None:
+            query.reply(AgentClaimReply(accepted=True))
+            is_claimed = True
+        return is_claimed

@@ -1,0 +1,71 @@
+"""`touchline check`: whether a brain or a program keeps the contract of a robot."""
+
+import json as json_text
+import shlex
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from schemas.errors import TouchlineError
+from touchline.cli import options
+
+
+def check(
+    brain: Annotated[
+        str | None,
+        typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots, or a shipped team by name."),
+    ] = None,
+    stdio: options.StdioProgram = None,
+    command: Annotated[
+        str | None, typer.Option(help="Program that speaks the protocol over Zenoh, in place of a brain.")
+    ] = None,
+    match: Annotated[
+        Path | None, typer.Option(help="Match file with robots, profile and rules; by default five a side.")
+    ] = None,
+    seconds: Annotated[float, typer.Option(min=1.0, max=600.0, help="Simulated s of the match that is played.")] = 12.0,
+    list_checks: Annotated[bool, typer.Option("--list", help="List the checks, and do nothing else.")] = False,
+    json: options.Json = False,
+) -> None:
+    """Check a brain or a program of lines: a match, and sights of situations that are rare in play.
+
+    Exit status 0: the contract is kept; 1: it is broken, and the sentences name how and the remedy.
+
+    Example: touchline check my_team:Striker
+    """
+    from robot_agent.stdio.command_line import check_command_line
+    from schemas.config.match_config import load_match
+    from touchline.check.checks import CHECKS, run_checks
+    from touchline.check.examination import Examination
+    from touchline.check.subject import Subject
+    from touchline.series.team_names import brain_of
+
+    if list_checks:
+        for row in CHECKS:
+            typer.echo(f"{row.name:<12} {row.does}")
+        return
+    if [brain, stdio, command].count(None) != 2:
+        raise TouchlineError('name the brain, module:Class, or give --stdio "program argument" or --command')
+    if command is not None:
+        check_command_line("--command", shlex.split(command))
+    overrides = {"teams.cyan.remote": True}  # the team of the file is not that which is checked
+    subject = Subject(
+        config=load_match(match, overrides),
+        brain=brain_of(brain) if brain is not None else "",
+        stdio=options.program_of(stdio),
+        command=shlex.split(command or ""),
+        folder=match.parent if match is not None else None,
+    )
+    if not subject.robots:
+        raise TouchlineError("the match has no robots of cyan that an agent moves; name another match file")
+    results = []
+    for result in run_checks(Examination(subject, seconds)):
+        results.append(result)
+        if not json:
+            typer.echo(f"{'kept' if result.kept else 'broken':<7} {result.name:<12} {result.sentence}")
+    is_kept = all(result.kept for result in results)
+    if json:
+        rows = [asdict(result) for result in results]
+        typer.echo(json_text.dumps({"kept": is_kept, "checks": rows}, ensure_ascii=False, indent=2))
+    raise typer.Exit(0 if is_kept else 1)

@@ -1,0 +1,1 @@
+"""Drills: scenes with an end and a verdict, played from many seeds."""

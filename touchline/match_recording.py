@@ -1,0 +1,71 @@
+"""Records a match that is played in this process, as the recorder of a match on the bus does."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.record import open_sink
+from recordings.recorder.recorder import Recorder
+from schemas.bus.batch_publisher import BatchPublisher
+from schemas.bus.contract import PresenceKind
+from schemas.bus.in_process_bus import SharedState
+from schemas.config.match_config import MatchConfig
+from schemas.messages.command import Command
+from schemas.process.clock import WallClock
+from schemas.topics import COMMAND, SETUP
+from sim_host.match.simulation import Simulation, TickResult
+from sim_host.server.outbox import Outbox
+
+_PUMP_TICKS = 25
+"""Ticks between two turns of the recorder."""
+
+
+class MatchRecording:
+    """Writes the messages of a match into a file; to be closed."""
+
+    def __init__(self, path: Path, config: MatchConfig, simulation: Simulation) -> None:
+        """`simulation` is at tick 0, which is the first one that is recorded.
+
+        Raises:
+            TouchlineError: the file cannot be written.
+        """
+        medium = SharedState()
+        self._simulation = simulation
+        self._clock = WallClock()
+        host, recorder = (medium.open_bus(config.name, clock) for clock in (self._clock, WallClock()))
+        loss_counts = LossCounts()
+        self._sink = open_sink(path, recorder.clock, config.name, loss_counts)
+        host.declare_alive(PresenceKind.HOST, "host")
+        setup = host.serve(SETUP)
+        self._batches = BatchPublisher(host)
+        self._outbox = Outbox(self._batches, simulation.roster, simulation.profile.time.tick)
+        self._sent = host.subscribe(COMMAND)
+        self._robots = {name: host.publisher(COMMAND, robot=name) for name in simulation.roster.names}
+        self._recorder = Recorder(recorder, self._sink, loss_counts, config=config)
+        self._recorder.pump()  # asks for the setup
+        while (query := setup.receive()) is not None:
+            query.reply(simulation.setup())
+        self.add(simulation.now, {})
+
+    def add(self, tick: TickResult, commands: Mapping[str, Command]) -> None:
+        """Record the newest tick, and the commands that led to it."""
+        for name, command in commands.items():
+            self._robots[name].put(command)  # stamped with the time of their sights
+        self._clock.sim_ns = round(tick.time * 1e9)
+        self._outbox.set_roster(self._simulation.roster)
+        self._outbox.publish_tick(tick, self._simulation.state)
+        while (received := self._sent.receive()) is not None:
+            self._batches.add_received(received)
+        self._batches.end_tick(tick.tick)
+        if tick.tick % _PUMP_TICKS == 0:
+            self._recorder.pump()
+
+    def close(self) -> None:
+        """Finish the file.
+
+        Raises:
+            TouchlineError: the file cannot be written.
+        """
+        self._batches.send()
+        self._recorder.pump()
+        self._recorder.finish(stopped=not self._simulation.over)
