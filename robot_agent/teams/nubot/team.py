@@ -19,6 +19,7 @@ from robot_agent.teams.nubot.trajectory import ROTATION
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import KICK_OFFS, stand, step_in, wait_behind
+from robot_agent.teams.zones import owner_of
 from robot_agent.world_model import SeenBall, WorldBelief, places_of
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder, CoachTest
@@ -132,6 +133,9 @@ class NuBot(Player):
 
     def _nearest(self, belief: WorldBelief, spot: tuple[float, float]) -> str:
         """The field robot that plays the ball: the nearest, with a bonus for playing it already or a promised pass."""
+        if silent := self.silent_field(belief):
+            plays = self.briefing.robot if self._role == PLAYS else None
+            return owner_of(spot, silent, self.setup.pitch, plays)
         promised = self._promised.receiver if self._promised is not None else None
         robots = [(self.briefing.robot, belief.me, self._role)]
         robots += [(name, mate.body, mate.role) for name, mate in belief.mates.items() if name != self.keeper]
