@@ -13,9 +13,10 @@ import sys
 from contextlib import closing
 
 from schemas.config.match_config import load_match
-from touchline.series.match_processes import cores, play_in_processes
 from touchline.series.match_row import FailedMatch, MatchRow
 from touchline.series.plan import SeriesPlan, plan_series
+from touchline.series.play_planned import play_all
+from touchline.series.processes import cores
 from touchline.series.summary import summary_of
 from touchline.series.table import figure_rows
 from touchline.series.team_names import brain_of, shipped_teams
@@ -72,7 +73,7 @@ def main() -> int:
     print(f"| {' | '.join(columns)} |\n|{' --- |' * len(columns)}")
     for first, second in itertools.combinations(teams, 2):
         plan, rows = plan_of(first, second, options), []
-        with closing(play_in_processes(plan.matches, options.jobs or cores())) as outcomes:
+        with closing(play_all(plan.matches, options.jobs or cores())) as outcomes:
             for outcome in outcomes:
                 if isinstance(outcome, FailedMatch):
                     failures.append(outcome)

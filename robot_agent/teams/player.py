@@ -178,8 +178,7 @@ class Player(ABC):
 
     def silent_field(self, belief: WorldBelief) -> list[str]:
         """All field robots in the team's order, if this one has no ball and receives none of them; otherwise none."""
-        away = _away(belief.game)
-        field = [name for name in self._robots if name != self.keeper and name not in away]
+        field = [name for name in self._robots if name != self.keeper and name not in _away(belief.game)]
         is_silent = len(field) > 1 and not belief.holding and not any(name in belief.mates for name in field)
         return field if is_silent else []
 
