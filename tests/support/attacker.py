@@ -318,7 +318,7 @@ def resets(endpoint: str, match: str, until: float, **user: str) -> None:
                 session.put(f"touchline/{match}/robot/cyan1/command", b"x" * 1_000_000)
                 for near in _connections_to(endpoint):
                     _reset(near)
-        except zenoh.ZError:
+        except (zenoh.ZError, OSError):
             time.sleep(0.02)
 
 
