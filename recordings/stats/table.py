@@ -17,6 +17,8 @@ def headline(figures: MatchFigures) -> str:
     played = f"{figures.duration:.1f} s recorded"
     if figures.in_play_s is not None:
         played += f", ball in play {figures.in_play_s:.1f} s ({_percent(figures.in_play)})"
+    if figures.crowded_s:
+        played += f", three or more robots within 1 m of it {figures.crowded_s:.1f} s"
     return f"{cyan.team} {_whole(cyan.goals)} : {_whole(magenta.goals)} {magenta.team}   {played}"
 
 
@@ -32,7 +34,7 @@ def side_rows(figures: MatchFigures) -> list[Row]:
     return rows
 
 
-ROBOT_HEADINGS = ("robot", "m", "top m/s", "mean m/s", "ball s", "passes", "shots", "saves", "dribbles")
+ROBOT_HEADINGS = ("robot", "m", "top m/s", "mean m/s", "ball s", "passes", "shots", "saves", "dribbles", "stuck s")
 """Column headings for `robot_rows`."""
 
 
@@ -106,4 +108,5 @@ def _robot(robot: RobotFigures) -> Row:
         _shots(robot.kicks, "/"),
         _whole(robot.saves),
         _whole(robot.dribbles),
+        _tenths(robot.longest_stuck_s),
     )

@@ -57,6 +57,8 @@ class MatchScript:
         roster: list[RosterEntry] | None = None,
         moving: dict[str, tuple[float, float]] | None = None,
         off: Iterable[str] = (),
+        stuck: Iterable[str] = (),
+        clock: float | None = None,
         **game: Any,
     ) -> None:
         """One more tick: touches, kick, velocity of the ball, events, and fields of the game state from now on."""
@@ -72,6 +74,7 @@ class MatchScript:
                 vy=(moving or {}).get(name, (0.0, 0.0))[1],
                 omega=0.0,
                 holding=name == self.held_by,
+                stuck=name in stuck,
                 off_field="repair" if name in off else None,
             )
             for name, (x, y) in self.places.items()
@@ -86,7 +89,7 @@ class MatchScript:
             possession=self.held_by,
             touches=list(touches),
             kicked=kicked,
-            clock=time,
+            clock=time if clock is None else clock,
             episode=self.episode,
         )
         asked = Kick(mode=mode, speed=max(0.1, abs(vx))) if kicked is not None else None
