@@ -21,7 +21,7 @@ class Drawing:
     """Collects values and shapes of one tick. Points are (x, y) in m in the team frame, as in a sight.
 
         drawing = Drawing()
-        drawing.value("distance to the ball", distance)
+        drawing.value("distance_to_ball", distance)
         drawing.line((me.x, me.y), target, "orange")
         drawing.circle(target, 0.5)
         drawing.text((me.x, me.y + 0.6), "wants to pass")

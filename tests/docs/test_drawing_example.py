@@ -29,7 +29,7 @@ def test_the_example_plays_and_draws() -> None:
         assert isinstance(command, Command) and command.debug is not None
         drawn.append(command.debug)
     match.simulation.close()
-    assert any(shown.lines and "distance to the ball" in shown.values for shown in drawn)
+    assert any(shown.lines and "distance_to_ball" in shown.values for shown in drawn)
 
 
 @pytest.mark.parametrize("bound", [debug.MAX_VALUES, debug.MAX_SHAPES, debug.MAX_CORNERS, debug.MAX_BYTES])

@@ -51,7 +51,7 @@ RUBBISH = {
     "an absurd speed": b'{"answers_tick":1,"drive":{"vx":1e9}}',
     "a truncated payload": Command(answers_tick=1).encode()[:-7],
     "not JSON": b"drive ahead!",
-    "twenty thousand bytes": b"\x00" * 20_000,
+    "fourteen thousand bytes": b"\x00" * 14_000,
     "an answer to a tick to come": Command(answers_tick=10**9).encode(),
 }
 """Sent on the key of cyan1, whose own agent goes on all the while."""

@@ -4,13 +4,16 @@ import pytest
 
 from schemas.access.accounts import Account
 from schemas.access.rights import Rights
+from schemas.bus.batch_publisher import BatchPublisher
 from schemas.config.match_config import MatchConfig
 from schemas.messages.command import Command, Drive
 from schemas.messages.debug import Debug, DebugPoint, RobotDebug
+from schemas.messages.manual import ManualDrive
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from schemas.side import Side
-from schemas.topics import APPLIED, BELIEF, COMMAND, DEBUG, SIGHT, WORLD
+from schemas.topics import APPLIED, BELIEF, COMMAND, DEBUG, MANUAL, SIGHT, WORLD
+from sim_host.server.debug_publisher import DebugPublisher
 from support.host_rig import TEAMS, HostRig
 
 CONFIG = MatchConfig.model_validate({"name": "drawn", "duration": 2.0, "teams": TEAMS})
@@ -51,6 +54,29 @@ def test_a_drawing_is_published_in_the_field_frame_with_the_tick_of_its_sight(ro
         truth = positions[frame.tick]
         assert frame.debug.points[0].x == pytest.approx(truth.x, abs=0.3)
         assert frame.debug.points[0].y == pytest.approx(truth.y, abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ("cyan_attacks", "x"), [(1, {"cyan1": 2.0, "magenta1": -2.0}), (-1, {"cyan1": -2.0, "magenta1": 2.0})]
+)
+def test_a_drawing_is_turned_as_its_side_attacks_in_this_half(cyan_attacks: int, x: dict[str, float]) -> None:
+    rig = HostRig(CONFIG, settings={})
+    drawings = rig.listen(DEBUG)
+    state = rig.host.simulation.state._replace(cyan_attacks=cyan_attacks)
+    debug = Debug(points=[DebugPoint(x=2.0, y=0.0)])
+    commands = {robot: Command(answers_tick=0, debug=debug) for robot in x}
+    publisher = DebugPublisher(BatchPublisher(rig.seat()), 0.02)
+    publisher.publish(commands, rig.host.simulation.roster, state)
+    assert {drawing.robot: drawing.debug.points[0].x for drawing in drawings.all()} == x
+
+
+def test_a_robot_under_manual_control_goes_on_drawing() -> None:
+    rig = rig_of()
+    drawings = rig.listen(DEBUG)
+    rig.begin()
+    rig.outside.publisher(MANUAL, robot="cyan1").put(ManualDrive(drive=Drive(vx=0.1)))
+    rig.ticks(3)
+    assert [drawing.tick for drawing in drawings.all() if drawing.robot == "cyan1"] == [0, 1, 2]
 
 
 def test_a_match_with_drawings_is_the_same_match() -> None:

@@ -5,6 +5,7 @@ import io
 import pytest
 from rich.console import Console
 from rich.text import Text
+from typer.testing import CliRunner
 
 from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
@@ -12,6 +13,7 @@ from schemas.messages.debug import Debug, DebugCircle, DebugLine, DebugPoint, De
 from schemas.process.clock import SteppedClock
 from schemas.topics import DEBUG, WORLD
 from support.messages import make_setup, make_world
+from touchline.command_line import app
 from touchline.commands.watch import watch_on
 from touchline.watch.drawings import values
 from touchline.watch.pitch import field, rows_for
@@ -112,3 +114,9 @@ def test_a_watched_match_shows_shapes_and_the_values_of_one_robot(monkeypatch: p
 def test_a_robot_that_does_not_take_part_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(TouchlineError, match="--robot cyan77: no such robot takes part"):
         watched(monkeypatch, "cyan77")
+
+
+def test_values_are_not_listed_in_plain_lines() -> None:
+    result = CliRunner().invoke(app, ["watch", "--robot", "cyan2"])
+    assert result.exit_code == 2
+    assert "--robot lists values on a terminal only" in " ".join(result.output.split())

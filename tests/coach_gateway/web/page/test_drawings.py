@@ -1,6 +1,10 @@
 """What brains draw, on the page: their shapes, their values, and who sees them."""
 
+import time
+
 import pytest
+
+from support.page_gateway import SOON
 
 DRAWN = {"cyan": {"name": "Blues", "brain": "support.drawing_brain:DrawingBrain", "size": 1}}
 TEAMS = DRAWN | {"magenta": {"name": "Reds", "brain": "support.drawing_brain:DrawingBrain", "size": 1}}
@@ -21,6 +25,14 @@ def shown(tab, sign: int) -> list[bool]:
     return [tab.page.evaluate(RED, [sign * x, sign * y]) for x, y in SHAPES]
 
 
+def wait_for_shapes(tab, cyan: bool, magenta: bool) -> None:
+    """Until the shapes of exactly these sides are drawn."""
+    deadline = time.monotonic() + SOON
+    while (shown(tab, 1), shown(tab, -1)) != ([cyan] * 4, [magenta] * 4):
+        assert time.monotonic() < deadline, (shown(tab, 1), shown(tab, -1))
+        tab.page.wait_for_timeout(20)
+
+
 @pytest.mark.parametrize(
     ("role", "cyan", "magenta"), [("cyan", True, False), ("magenta", False, True), ("referee", True, True)]
 )
@@ -30,9 +42,7 @@ def test_a_team_s_drawings_are_on_its_own_pages_and_the_operator_s(
     tab = visit(match_of(teams=TEAMS), role)
     seen = [side for side, sees in (("cyan", cyan), ("magenta", magenta)) if sees]
     tab.until(f"Object.keys(window.touchline.match.debug).sort().join() === '{','.join(f'{side}1' for side in seen)}'")
-    tab.page.wait_for_timeout(200)  # some frames of the browser
-    assert shown(tab, 1) == [cyan] * 4
-    assert shown(tab, -1) == [magenta] * 4
+    wait_for_shapes(tab, cyan, magenta)
 
 
 def test_spectators_are_sent_no_drawings(match_of, visit) -> None:
@@ -52,8 +62,7 @@ def test_drawings_can_be_switched_off_and_limited_to_a_robot(match_of, visit) ->
     assert choice.input_value() == "all"
     for value, cyan, magenta in (("none", False, False), ("magenta1", False, True), ("cyan", True, False)):
         choice.select_option(value)
-        tab.page.wait_for_timeout(200)
-        assert (shown(tab, 1), shown(tab, -1)) == ([cyan] * 4, [magenta] * 4)
+        wait_for_shapes(tab, cyan, magenta)
 
 
 def test_the_values_of_the_chosen_robot_are_listed(match_of, visit) -> None:
@@ -74,5 +83,4 @@ def test_a_replay_shows_the_drawings_of_both_teams_to_all_pages(record, replay_f
     tab.until("Object.keys(window.touchline.match.debug).length === 2")
     tick = tab.ask("window.touchline.pitchCanvas.world.tick")
     assert tab.ask("window.touchline.match.debug.cyan1.debug.values.tick") == pytest.approx(tick, abs=1)
-    tab.page.wait_for_timeout(200)
-    assert shown(tab, 1) == shown(tab, -1) == [True] * 4
+    wait_for_shapes(tab, cyan=True, magenta=True)

@@ -58,6 +58,7 @@ FOREIGN_READS = (
     "robot/magenta1/sight",
     "robot/*/sight",
     "team/magenta/belief/*",
+    "team/*/debug/*",
     "team/*/order",
     "world",
     "*/*/*",
@@ -183,7 +184,8 @@ def test_a_team_receives_only_its_own_sights_and_public_news(host: ZenohBus, att
     own = attacker.declare_subscriber(PREFIX + "robot/cyan1/sight", zenoh.handlers.FifoChannel(1000))
     sight = host.publisher(SIGHT, robot="cyan1")
     wait_for_subscriber(sight)
-    for key in ("robot/magenta1/sight", "team/magenta/belief/magenta1", "team/magenta/order", "world", "host/applied"):
+    foreign = ("robot/magenta1/sight", "team/magenta/belief/magenta1", "team/magenta/order", "world", "host/applied")
+    for key in (*foreign, "team/cyan/debug/cyan1", "team/magenta/debug/magenta1"):
         host.session.put(PREFIX + key, b"{}")
     sight.put_payload(b"{}")
     assert keys_until(own, "robot/cyan1/sight") == ["robot/cyan1/sight"]
