@@ -1,7 +1,8 @@
 """Plays one match of a series and measures it, tick by tick: no tick is kept."""
 
-from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import closing
+from collections.abc import Generator, Iterable, Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
 from typing import Any
 
 from recordings.stats.match_statistics import MatchStatistics
@@ -9,15 +10,16 @@ from recordings.stats.match_tick import match_ticks
 from robot_agent.user_code import place_of
 from schemas.errors import TouchlineError
 from touchline.play import InProcessMatch
+from touchline.play_recorder import PlayRecorder
 from touchline.series.match_row import FailedMatch, MatchRow, row_of
 from touchline.series.plan import PlannedMatch
-from touchline.series.processes import DiedProcess, run_in_processes
+from touchline.series.processes import DiedProcess, Poll, run_in_processes
 from touchline.tick_messages import TickMessages
 
 Outcome = MatchRow | FailedMatch
 
 
-def play_planned(planned: PlannedMatch, poll: Callable[[], None] = lambda: None) -> Outcome:
+def play_planned(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome:
     """Play a match to its end; `poll` is called with each tick. An exception of a brain makes it a failed match."""
     try:
         match = InProcessMatch(planned.config, brain_folder=planned.brain_folder)
@@ -49,18 +51,37 @@ def reason_of(match: InProcessMatch, error: BaseException) -> str:
     return f"{who}{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
 
 
-def _measured(planned: PlannedMatch, match: InProcessMatch, poll: Callable[[], None]) -> MatchRow:
+def _measured(planned: PlannedMatch, match: InProcessMatch, poll: Poll) -> MatchRow:
     setup, began = match.simulation.setup(), match.simulation.state.clock
     statistics = MatchStatistics(setup, 0.0, 0.0)
-    for tick in match_ticks(setup, _messages(match, poll)):
-        statistics.update(tick)
+    with _recorded(match, planned.recording) as recorder:
+        for tick in match_ticks(setup, _messages(match, recorder, poll)):
+            statistics.update(tick)
     playing_time = match.simulation.state.clock - began
     return row_of(planned, statistics.figures(), playing_time, match.simulation.now.applied["chain"])
 
 
-def _messages(match: InProcessMatch, poll: Callable[[], None]) -> Iterator[tuple[int, Any]]:
+def _messages(match: InProcessMatch, recorder: PlayRecorder | None, poll: Poll) -> Iterator[tuple[int, Any]]:
     messages = TickMessages(match.simulation)
     yield from messages.of(match.simulation.now)
     while not match.simulation.over:
-        yield from messages.of(match.step())
+        tick = match.step()
+        if recorder is not None:
+            recorder.add(tick)
+        yield from messages.of(tick)
         poll()
+
+
+@contextmanager
+def _recorded(match: InProcessMatch, path: Path | None) -> Iterator[PlayRecorder | None]:
+    """A recorder of the match, if a file is given; after an exception, the file is left as `*.part`."""
+    if path is None:
+        yield None
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    recorder = PlayRecorder(match, path)
+    try:
+        yield recorder
+        recorder.finish()
+    finally:
+        recorder.abandon()
