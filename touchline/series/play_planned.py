@@ -1,7 +1,7 @@
 """Plays one match of a series and measures it, tick by tick: no tick is kept."""
 
 from collections.abc import Generator, Iterable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import AbstractContextManager, closing, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +9,8 @@ from recordings.stats.match_statistics import MatchStatistics
 from recordings.stats.match_tick import match_ticks
 from robot_agent.user_code import place_of
 from schemas.errors import TouchlineError
+from touchline.match_recording import MatchRecording
 from touchline.play import InProcessMatch
-from touchline.play_recorder import PlayRecorder
 from touchline.series.match_row import FailedMatch, MatchRow, row_of
 from touchline.series.plan import PlannedMatch
 from touchline.series.processes import DiedProcess, Poll, run_in_processes
@@ -54,34 +54,27 @@ def reason_of(match: InProcessMatch, error: BaseException) -> str:
 def _measured(planned: PlannedMatch, match: InProcessMatch, poll: Poll) -> MatchRow:
     setup, began = match.simulation.setup(), match.simulation.state.clock
     statistics = MatchStatistics(setup, 0.0, 0.0)
-    with _recorded(match, planned.recording) as recorder:
-        for tick in match_ticks(setup, _messages(match, recorder, poll)):
+    with _recording(match, planned.recording) as recording:
+        for tick in match_ticks(setup, _messages(match, recording, poll)):
             statistics.update(tick)
     playing_time = match.simulation.state.clock - began
     return row_of(planned, statistics.figures(), playing_time, match.simulation.now.applied["chain"])
 
 
-def _messages(match: InProcessMatch, recorder: PlayRecorder | None, poll: Poll) -> Iterator[tuple[int, Any]]:
+def _messages(match: InProcessMatch, recording: MatchRecording | None, poll: Poll) -> Iterator[tuple[int, Any]]:
     messages = TickMessages(match.simulation)
     yield from messages.of(match.simulation.now)
     while not match.simulation.over:
         tick = match.step()
-        if recorder is not None:
-            recorder.add(tick)
+        if recording is not None:
+            recording.add(tick, match.commands)
         yield from messages.of(tick)
         poll()
 
 
-@contextmanager
-def _recorded(match: InProcessMatch, path: Path | None) -> Iterator[PlayRecorder | None]:
-    """A recorder of the match, if a file is given; after an exception, the file is left as `*.part`."""
+def _recording(match: InProcessMatch, path: Path | None) -> AbstractContextManager[MatchRecording | None]:
+    """The recording of a match that has just begun, if a file is given."""
     if path is None:
-        yield None
-        return
+        return nullcontext()
     path.parent.mkdir(parents=True, exist_ok=True)
-    recorder = PlayRecorder(match, path)
-    try:
-        yield recorder
-        recorder.finish()
-    finally:
-        recorder.abandon()
+    return closing(MatchRecording(path, match.simulation.config, match.simulation))
