@@ -14,7 +14,11 @@ from robot_agent.user_code import is_users, shown_path
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
+from schemas.process.clock import WallClock
 from schemas.process.process_log import log_note
+
+_FILE_TIME_NS = 10_000_000
+"""The times of files may be this much too early."""
 
 
 class BrainReload:
@@ -35,9 +39,7 @@ class BrainReload:
         Raises:
             TouchlineError: the brain cannot be built.
         """
-        brain = self._rebuilt(setup, "this match") or self._build(setup)
-        self._digests |= self._read()
-        return brain
+        return self._rebuilt(setup, "this match") or self._imported(setup)
 
     def before(self, sight: Sight, setup: Setup) -> Brain | None:
         """The brain from changed code, if this sight is the first of another episode and there is such code.
@@ -46,9 +48,8 @@ class BrainReload:
         """
         if sight.game.episode == self._episode:
             return None
-        is_first = self._episode is None
         self._episode = sight.game.episode
-        return self._rebuilt(setup, f"episode {self._episode}") if not is_first else None
+        return self._rebuilt(setup, f"episode {self._episode}")
 
     def _rebuilt(self, setup: Setup, occasion: str) -> Brain | None:
         """The brain from changed code; None if no code has changed, or if the new code is broken."""
@@ -61,14 +62,20 @@ class BrainReload:
         old = self._modules()
         self._forget(old)
         try:
-            brain = self._build(setup)
+            brain = self._imported(setup)
         except TouchlineError as error:
             self._forget(self._modules())
             sys.modules.update(old)
             log_note(f"{occasion} is played with old brains, the changed {files} is broken", f"{self._robot}: {error}")
             return None
-        self._digests |= self._read()
         log_note(f"{occasion} is played with the changed {files}", f"{self._robot} has a new brain")
+        return brain
+
+    def _imported(self, setup: Setup) -> Brain:
+        """The brain from the modules that are imported, or are imported now."""
+        began_ns = WallClock.unix_ns()
+        brain = self._build(setup)
+        self._digests |= self._read(began_ns)
         return brain
 
     def _modules(self) -> dict[str, ModuleType]:
@@ -76,14 +83,20 @@ class BrainReload:
         added = {name: module for name, module in sys.modules.items() if name not in self._not_reloaded}
         return {name: module for name, module in added.items() if is_users(getattr(module, "__file__", None) or "<")}
 
-    def _read(self) -> dict[str, str]:
-        """File of each module → digest of its content."""
+    def _read(self, began_ns: int | None = None) -> dict[str, str]:
+        """File of each module → digest of its content.
+
+        A file that was written after `began_ns`, ns since 1970, may have been imported before: its digest is empty.
+        """
         digests = {}
         for module in self._modules().values():
             assert module.__file__ is not None
-            content = b""
+            file, content = Path(module.__file__), b""
             with suppress(OSError):  # it was removed
-                content = Path(module.__file__).read_bytes()
+                content = file.read_bytes()
+                if began_ns is not None and file.stat().st_mtime_ns > began_ns - _FILE_TIME_NS:
+                    digests[module.__file__] = ""
+                    continue
             digests[module.__file__] = hashlib.blake2b(content, digest_size=16).hexdigest()
         return digests
 

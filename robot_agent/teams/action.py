@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from schemas.messages.command import Drive, Kick
+from schemas.messages.debug import Debug
 
 
 class Action(NamedTuple):
@@ -14,3 +15,4 @@ class Action(NamedTuple):
     dribble: bool = False
     kick: Kick | None = None
     pass_to: str | None = None
+    debug: Debug | None = None

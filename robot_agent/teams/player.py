@@ -154,6 +154,7 @@ class Player(ABC):
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
             kick=action.kick,
+            debug=action.debug,
             radio=radio_message(belief, action) if sends or action.pass_to is not None else None,
             acknowledges_order=order.sequence if order else None,
             refuses_order=why_refused(order, self.tests, self.tactics) if order else "",

@@ -44,7 +44,7 @@ def rows(page: str, heading: str) -> list[str]:
     return [name for cell in first for name in re.findall(r"`([a-z_]+)", cell)]
 
 
-@pytest.mark.parametrize("name", ["Chaser", "Nearest"])
+@pytest.mark.parametrize("name", ["Chaser", "Nearest", "Shown"])
 def test_its_brains_play_and_reach_the_ball(brains: dict[str, Any], name: str) -> None:
     config = load_match(None, {"duration": 60.0, "teams.cyan.size": 3, "teams.magenta.size": 1})
     match = InProcessMatch(config)
@@ -63,7 +63,7 @@ def test_its_brains_play_and_reach_the_ball(brains: dict[str, Any], name: str) -
 )
 def test_its_tables_name_every_field_of_a_message(page: str, heading: str, kind: type) -> None:
     fields = {field.name for field in msgspec.structs.fields(kind)}
-    unmentioned = {"version", "robot", "side", "obstacles_age", "refuses_order", "debug"}  # protocol.md has them
+    unmentioned = {"version", "robot", "side", "obstacles_age", "refuses_order"}  # protocol.md has them
     assert fields - unmentioned <= set(rows(page, heading)) <= fields
 
 

@@ -44,7 +44,9 @@ class Code:
         self.write_speed(1.0)
 
     def write_brain(self, text):
-        (self.folder / f"{self.brain}.py").write_text(text)
+        file = self.folder / f"{self.brain}.py"
+        file.write_text(text)
+        os.utime(file, (1_700_000_000, 1_700_000_000))
 
     def write_speed(self, speed):
         """All versions have the same length and the same time, to which compiled files are compared."""
@@ -89,6 +91,17 @@ def test_a_changed_module_that_the_brain_imports_makes_a_new_brain_in_the_next_e
     assert capsys.readouterr().err == (
         f"note: episode 2 is played with the changed {code.helper}.py: cyan2 has a new brain\n"
     )
+
+
+def test_code_that_is_edited_while_it_is_imported_is_imported_again(code, setup, in_episode):
+    def build(setup):
+        brain = load_brain(f"{code.brain}:Mine", Briefing.of("cyan2", setup))
+        (code.folder / f"{code.helper}.py").write_text("SPEED = 2.0\n")
+        return brain
+
+    reload = BrainReload("cyan2", build)
+    assert reload.build(setup).act(in_episode(1)).drive.vx == 1.0
+    assert reload.before(in_episode(1), setup).act(in_episode(1)).drive.vx == 2.0
 
 
 def test_unchanged_code_keeps_its_brain(reload, setup, in_episode, capsys):

@@ -5,6 +5,7 @@ time; with the credentials of an account it attacks as that one. All are bounded
 """
 
 import json
+import os
 import socket
 import struct
 import sys
@@ -22,6 +23,8 @@ BELIEF = b'{"version":"2.0","tick":1,"time":0.02,"robot":"cyan1","side":"cyan","
 PROGRESS = b'{"version":"2.0","tick":999999,"messages":0,"lost":0}'
 COMMAND = b'{"version":"2.0","answers_tick":1}'
 _PATIENCE_S = 20.0
+_READ = ("world", "game/**", "host/**")
+"""Keys that deaf readers subscribe to."""
 DEEP = b"[" * 3000 + b"]" * 3000
 
 
@@ -284,19 +287,65 @@ def malformed(session: zenoh.Session, prefix: str, until: float) -> None:
     _paced(until, 5, act)
 
 
-def deaf_readers(session: zenoh.Session, prefix: str, until: float) -> None:
-    """Ten subscriptions over one link that is never read."""
-    host, port = _address(session)
-    del host, port
-    held = [session.declare_subscriber(f"{prefix}world", zenoh.handlers.FifoChannel(1)) for _ in range(10)]
-    time.sleep(max(0.0, until - time.monotonic()))
-    del held
+def _deaf_readers(links: int) -> Callable[..., None]:
+    def attack(endpoint: str, match: str, until: float, **user: str) -> None:
+        held = []
+        for _ in range(links):
+            session = open_session(endpoint, **user)
+            held += [
+                session.declare_subscriber(f"touchline/{match}/{key}", zenoh.handlers.FifoChannel(1)) for key in _READ
+            ]
+            held.append(session)
+        time.sleep(max(0.0, until - time.monotonic()))
+        os._exit(0)  # Zenoh would wait for the readers
+
+    attack.__doc__ = f"Subscriptions over {links} links that are never read."
+    return attack
 
 
-def _address(session: zenoh.Session) -> tuple[str, int]:
-    endpoint = str(next(iter(session.info.links())).dst)
-    host, _, port = endpoint.partition("/")[2].partition("?")[0].rpartition(":")
-    return host, int(port)
+def resets(endpoint: str, match: str, until: float, **user: str) -> None:
+    """Connections that are reset in the middle of the handshake, and sessions in the middle of a long message."""
+    while time.monotonic() < until:
+        for content in (b"", b"\x20\x00\x01", b"\xff\x7f" + b"\x01" * 1000):
+            try:
+                near = socket.create_connection(_parts(endpoint), timeout=0.5)
+                near.sendall(content)
+                _reset(near)
+            except OSError:
+                time.sleep(0.02)
+        try:
+            with open_session(endpoint, **user) as session:
+                session.put(f"touchline/{match}/robot/cyan1/command", b"x" * 1_000_000)
+                for near in _connections_to(endpoint):
+                    _reset(near)
+        except zenoh.ZError:
+            time.sleep(0.02)
+
+
+def _connections_to(endpoint: str) -> list[socket.socket]:
+    """The connections of this process to the host, whichever library has opened them."""
+    found = []
+    for entry in Path("/proc/self/fd").iterdir():
+        try:
+            near = socket.socket(fileno=os.dup(int(entry.name)))
+        except OSError:
+            continue
+        try:
+            is_wanted = near.getpeername()[1] == _parts(endpoint)[1]
+        except (OSError, IndexError):
+            is_wanted = False
+        if is_wanted:
+            found.append(near)
+        else:
+            near.close()
+    return found
+
+
+def _reset(near: socket.socket) -> None:
+    """End a connection with a reset: what was not sent is discarded."""
+    near.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    near.shutdown(socket.SHUT_RDWR)
+    near.close()
 
 
 def half_open(endpoint: str, match: str, until: float, **user: str) -> None:
@@ -368,7 +417,6 @@ ATTACKS: dict[str, Attack] = {
     "huge_message": huge_message,
     "false_times": false_times,
     "malformed": malformed,
-    "deaf_readers": deaf_readers,
 }
 """Attacks over the protocol of Zenoh."""
 RAW_ATTACKS: dict[str, Callable[..., None]] = {
@@ -376,6 +424,10 @@ RAW_ATTACKS: dict[str, Callable[..., None]] = {
     "half_open": half_open,
     "garbage": garbage,
     "slow_loris": slow_loris,
+    "resets": resets,
+    "one_deaf_reader": _deaf_readers(1),
+    "ten_deaf_readers": _deaf_readers(10),
+    "forty_deaf_readers": _deaf_readers(40),
 }
 """Attacks on the port itself, or by connections of their own; each is called with the endpoint and the match."""
 STEADY_ATTACKS: dict[str, Attack] = {"steady_flood": steady_flood}

@@ -13,7 +13,10 @@ from touchline.cli import options
 
 
 def check(
-    brain: Annotated[str | None, typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots.")] = None,
+    brain: Annotated[
+        str | None,
+        typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots, or a shipped team by name."),
+    ] = None,
     stdio: options.StdioProgram = None,
     command: Annotated[
         str | None, typer.Option(help="Program that speaks the protocol over Zenoh, in place of a brain.")
@@ -36,6 +39,7 @@ def check(
     from touchline.check.checks import CHECKS, run_checks
     from touchline.check.examination import Examination
     from touchline.check.subject import Subject
+    from touchline.series.team_names import brain_of
 
     if list_checks:
         for row in CHECKS:
@@ -48,7 +52,7 @@ def check(
     overrides = {"teams.cyan.remote": True}  # the team of the file is not that which is checked
     subject = Subject(
         config=load_match(match, overrides),
-        brain=brain or "",
+        brain=brain_of(brain) if brain is not None else "",
         stdio=options.program_of(stdio),
         command=shlex.split(command or ""),
         folder=match.parent if match is not None else None,

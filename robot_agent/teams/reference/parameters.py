@@ -81,6 +81,8 @@ class Parameters:
     """Value a radian of turning: an opponent comes nearer meanwhile."""
     chosen_bonus: float = 0.06
     """Value in favour of what was decided before: two equal choices would alternate with the noise."""
+    chosen_near: float = 1.5
+    """m; a target this close to the chosen one is the same: more than `lead`."""
     loss: float = 0.2
     """Value of the ball in the opponents' hold, at the middle of the pitch; twice as much before the own goal."""
 

@@ -79,7 +79,7 @@ def passes(
             turn = abs(wrap(math.atan2(target[1] - ball[1], target[0] - ball[0]) - heading))
             gain = sure * (worth(target, opponents, pitch) + parameters.pass_bonus)
             gain -= (1.0 - sure) * cost_of_loss(target, pitch, parameters) + parameters.turn_cost * turn
-            if chosen is not None and chosen[0] == name and math.dist(chosen[1], target) < 1.0:
+            if chosen is not None and chosen[0] == name and math.dist(chosen[1], target) < parameters.chosen_near:
                 gain += parameters.chosen_bonus
             found.append(Pass(name, target, sure, gain))
     return found

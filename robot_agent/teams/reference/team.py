@@ -218,9 +218,9 @@ class Reference(Player):
         near = self.parameters.settles_close if defends else self.parameters.settles
         if self._place is None or math.dist(self._place, place) > near:
             self._place = place
-        limits = self.limits if defends else self.limits.capped(self.parameters.support_speed)
-        goal = self._place or place
-        motion = stand(belief.me, goal, belief.game, spot, belief.others, self.setup, limits)
+        walks = not defends and belief.game.phase is TeamPhase.PLAY
+        limits = self.limits.capped(self.parameters.support_speed) if walks else self.limits
+        motion = stand(belief.me, self._place, belief.game, spot, belief.others, self.setup, limits)
         return Action(self._role, "hold", motion)
 
     def _before_own_goal(self, spot: Point) -> Point:

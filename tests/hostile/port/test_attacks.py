@@ -2,7 +2,11 @@
 
 import pytest
 
+from schemas.bus.zenoh.bus import open_client
 from schemas.game import EventKind
+from schemas.messages.setup import SetupRequest
+from schemas.process.clock import WallClock
+from schemas.topics import SETUP
 from sim_host.server.account_limits import OVER_RATE
 from support.attacker import ATTACKS, RAW_ATTACKS
 from support.process_story import SHORT_LIMIT
@@ -10,6 +14,8 @@ from support.process_story import SHORT_LIMIT
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(180)]
 
 MEMORY_MB = 100
+FALSE_MS = 390.0
+"""Time by which false time stamps are ahead."""
 
 
 @pytest.mark.parametrize("name", [*ATTACKS, *RAW_ATTACKS])
@@ -24,6 +30,26 @@ def test_the_match_goes_on_during_and_after_the_attack(target, attack, name):
     if name not in ("flood", "flood_of_names", "malformed"):
         target.watcher.until(lambda one: one.robot("cyan1").answering, "answers of cyan1")
     target.watcher.until(lambda one: one.robot("magenta1").answering, "answers of magenta1")
+
+
+def test_a_new_client_gets_in_while_a_thousand_half_open_connections_are_held(target):
+    attacker = target.attack("half_open", SHORT_LIMIT)
+    target.watcher.for_ticks(50)
+    with open_client(target.config.name, WallClock(), target.endpoint, SHORT_LIMIT) as bus:
+        setup = bus.query(SETUP, SetupRequest(), timeout=SHORT_LIMIT).result(SHORT_LIMIT)
+    assert setup.match == target.config.name
+    assert attacker.popen.poll() is None, attacker.err
+    attacker.end()
+
+
+def test_false_time_stamps_of_one_client_do_not_lengthen_the_latency_of_others(target):
+    attacker = target.attack("false_times", SHORT_LIMIT)
+    before = len(target.watcher.healths)
+    target.watcher.until(lambda one: len(one.healths) > before + 12, "reports of three seconds")
+    latencies = [health.robots["magenta1"].latency_ms for health in target.watcher.healths[before + 4 :]]
+    assert attacker.popen.poll() is None, attacker.err
+    attacker.end()
+    assert min(latency for latency in latencies if latency is not None) < FALSE_MS / 2
 
 
 def test_tokens_without_a_name_are_named_in_health(target, attack):

@@ -23,7 +23,7 @@ FLOODS = [
     (Account.RECORDER, "histories"),
     (Account.VIEWER, "setup_queries"),
     (Account.VIEWER, "subscriptions"),
-    (Account.VIEWER, "deaf_readers"),
+    (Account.VIEWER, "ten_deaf_readers"),
     (Account.MAGENTA, "huge_message"),
     (Account.MAGENTA, "malformed"),
 ]

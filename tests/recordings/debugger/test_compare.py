@@ -150,3 +150,18 @@ def test_a_match_with_a_reset_is_compared_to_its_end(match_recorder, tmp_path):
     verdict = compare_brain(open_recording(tmp_path / "reset.mcap"), "cyan2", SIMPLE)
     assert (verdict.until, verdict.different) == ("", 0)
     assert verdict.compared >= 99
+
+
+def test_a_match_with_a_referee_box_is_compared_to_its_end(match_recorder, tmp_path):
+    """The box alone ends halves: without it, the first one would end after a second of play."""
+    sides = {f"teams.{side}": {"size": 2, "brain": SIMPLE} for side in ("cyan", "magenta")}
+    config = load_match(None, {"seed": 5, "duration": 2.0, **sides})
+    match_recorder(tmp_path / "box.mcap", config, 8.0, refbox=lambda _: True)
+    verdict = compare_brain(open_recording(tmp_path / "box.mcap"), "cyan2", SIMPLE)
+    assert (verdict.until, verdict.different) == ("", 0)
+
+
+def test_what_a_brain_draws_and_plots_is_no_difference(brain, replay):
+    """It is added to a brain to find out why it does what it does."""
+    drawing = "command = replace(command, debug=Debug(values={'tick': float(sight.tick)}))"
+    assert replay(brain(drawing, "from schemas.messages.debug import Debug")) == 0

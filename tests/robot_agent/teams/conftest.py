@@ -14,7 +14,11 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.side import Side
 
-BRAINS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
+BRAINS = {
+    "simple": "robot_agent.teams.simple:Simple",
+    "nubot": "robot_agent.teams.nubot:NuBot",
+    "random": "robot_agent.teams.random:Random",
+}
 
 
 class Squad:

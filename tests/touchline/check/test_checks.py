@@ -10,6 +10,7 @@ from schemas.process.clock import SteppedClock
 from touchline.check.checks import CHECKS, CheckResult, run_check, run_checks
 from touchline.check.examination import Examination
 from touchline.check.subject import Subject
+from touchline.series.team_names import brain_of, shipped_teams
 
 MODULE = "checked_team"
 BRAINS = """
@@ -168,7 +169,8 @@ def test_without_a_brain_no_other_check_is_run(folder: Path) -> None:
     assert (result.name, result.kept) == ("build", False)
 
 
-@pytest.mark.parametrize("team", ["robot_agent.teams.simple:Simple", "robot_agent.teams.nubot:NuBot"])
+@pytest.mark.parametrize("team", shipped_teams())
 def test_the_teams_that_ship_keep_the_contract(team: str) -> None:
-    examination = Examination(Subject(load_match(None, {"teams.cyan.remote": True}), team), 6.0, SteppedClock())
+    subject = Subject(load_match(None, {"teams.cyan.remote": True}), brain_of(team))
+    examination = Examination(subject, 6.0, SteppedClock())
     assert [result.sentence for result in run_checks(examination) if not result.kept] == []

@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -110,10 +111,25 @@ def visit(browser: Browser, gateway_of: Callable[..., Gateway]) -> Iterator[Call
 
 
 @pytest.fixture(scope="session")
-def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A recording of 12 s of play, as fast as they can be played."""
-    path = tmp_path_factory.mktemp("recorded") / "match.mcap"
-    match = Match(pace="lockstep", duration=12.0)
+def record(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """Records a match, as fast as it can be played; the words are those of the match file."""
+
+    def recorded_match(**words: Any) -> Path:
+        path = tmp_path_factory.mktemp("recorded") / "match.mcap"
+        record_to(path, Match(pace="lockstep", **words))
+        return path
+
+    return recorded_match
+
+
+@pytest.fixture(scope="session")
+def recorded(record: Callable[..., Path]) -> Path:
+    """A recording of 12 s of play."""
+    return record(duration=12.0)
+
+
+def record_to(path: Path, match: Match) -> None:
+    """Record a match to its end."""
     clock = WallClock()
     loss_counts = LossCounts()
     bus = match.medium.open_bus("friendly", clock)
@@ -125,7 +141,6 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     match.wait_for_end()
     match.close()
     recording.join(SOON)
-    return path
 
 
 class Replayed:
@@ -151,16 +166,23 @@ class Replayed:
 
 
 @pytest.fixture
-def replay_of(recorded: Path) -> Iterator[Callable[..., Replayed]]:
+def replay_file() -> Iterator[Callable[..., Replayed]]:
+    """Replays a file."""
     made: list[Replayed] = []
 
-    def make(**words: Any) -> Replayed:
-        made.append(Replayed(recorded, **words))
+    def make(path: Path, **words: Any) -> Replayed:
+        made.append(Replayed(path, **words))
         return made[-1]
 
     yield make
     for replay in made:
         replay.close()
+
+
+@pytest.fixture
+def replay_of(recorded: Path, replay_file: Callable[..., Replayed]) -> Callable[..., Replayed]:
+    """Replays the match of `recorded`."""
+    return partial(replay_file, recorded)
 
 
 @pytest.fixture

@@ -67,3 +67,12 @@ def test_the_values_of_the_chosen_robot_are_listed(match_of, visit) -> None:
     assert values.locator("dd").all_inner_texts()[1:] == ["0.25", "wait"]
     before = values.locator("dd").first.inner_text()
     tab.until(f"document.querySelector('#debug-values dd').textContent !== '{before}'")
+
+
+def test_a_replay_shows_the_drawings_of_both_teams_to_all_pages(record, replay_file, visit) -> None:
+    tab = visit(replay_file(record(duration=2.0, teams=TEAMS)))
+    tab.until("Object.keys(window.touchline.match.debug).length === 2")
+    tick = tab.ask("window.touchline.pitchCanvas.world.tick")
+    assert tab.ask("window.touchline.match.debug.cyan1.debug.values.tick") == pytest.approx(tick, abs=1)
+    tab.page.wait_for_timeout(200)
+    assert shown(tab, 1) == shown(tab, -1) == [True] * 4

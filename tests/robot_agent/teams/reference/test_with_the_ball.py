@@ -62,5 +62,5 @@ def test_a_pressed_robot_passes_to_a_free_mate_which_comes_to_meet_the_ball(scen
     played = scene(robots, (-1.6, 0.0)).play(
         6.0, lambda played: bool(played.commands) and played.match.simulation.now.world["possession"] == "cyan3"
     )
-    assert [command.pass_to for command in map(lambda one: one.radio, played.kicks("cyan2"))] == ["cyan3"]
+    assert [command.radio.pass_to for command in played.kicks("cyan2")] == ["cyan3"]
     assert played.match.simulation.now.world["possession"] == "cyan3"

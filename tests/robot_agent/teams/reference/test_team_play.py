@@ -1,0 +1,79 @@
+"""The whole team on the pitch: who goes for the ball, set pieces, no radio."""
+
+import math
+from itertools import pairwise
+
+import pytest
+
+FIELD = {"cyan1": (-10.5, 0, 0), "cyan2": (-2, 2, 0), "cyan3": (-2, -2, 0), "cyan4": (-5, 1, 0), "cyan5": (-5, -2, 0)}
+THEIRS = {"magenta1": (10.5, 0, math.pi), "magenta2": (5.0, 5.0, math.pi), "magenta3": (-5.0, 4.0, math.pi)}
+
+
+def away(world, robot):
+    ball, place = world["ball"], world["robots"][robot]
+    return math.hypot(place["x"] - ball["x"], place["y"] - ball["y"])
+
+
+def roles(played):
+    """The role that each robot sent last."""
+    sent = {}
+    for commands in played.commands:
+        sent.update({name: one.radio.role for name, one in commands.items() if one.radio is not None})
+    return sent
+
+
+@pytest.mark.parametrize("ball", [(-1.0, 0.0), (-4.0, -3.0)])
+def test_one_robot_goes_for_the_ball_and_the_others_stay_off_it(scene, ball):
+    played = scene(FIELD | THEIRS, ball).play(0.8)
+    assert list(roles(played).values()).count("attacker") == 1
+    field = [name for name in FIELD if name != "cyan1"]
+    for tick in played.ticks:
+        assert sum(away(tick.world, name) < 1.0 for name in field) <= 1
+
+
+@pytest.mark.parametrize("phase", ["throw_in", "free_kick", "corner", "kick_off"])
+def test_at_their_set_piece_every_robot_keeps_the_distance(scene, phase):
+    ball = {"throw_in": (-3.0, -7.0), "free_kick": (-2.0, 0.0), "corner": (-10.7, 6.7), "kick_off": (0.0, 0.0)}
+    played = scene(FIELD | THEIRS, ball[phase], phase, "magenta").play(4.5)
+    world = played.ticks[-1].world
+    hull = 0.245
+    for name in FIELD:
+        assert away(world, name) - hull >= 3.0 or name == "cyan1"
+
+
+def test_at_their_throw_in_the_free_opponent_is_marked(scene):
+    robots = FIELD | THEIRS | {"magenta4": (-7.0, -1.0, 0.0)}
+    played = scene(robots, (-5.0, -6.9), "throw_in", "magenta").play(4.5)
+    world = played.ticks[-1].world["robots"]
+    marked = world["magenta4"]
+    assert min(math.hypot(world[name]["x"] - marked["x"], world[name]["y"] - marked["y"]) for name in FIELD) < 1.8
+
+
+def test_the_own_throw_in_goes_to_a_teammate(scene):
+    played = scene(FIELD | THEIRS, (-1.0, 6.9), "throw_in", "cyan")
+    played.play(9.0, lambda played: any(one.radio and one.radio.pass_to for one in played.kicks(_taker(played))))
+    assert len(played.kicks(_taker(played))) == 1
+
+
+def _taker(played):
+    taking = (name for name, role in roles(played).items() if role == "attacker")
+    return next(taking, "cyan2")
+
+
+def test_without_radio_one_robot_still_gets_the_ball_and_others_stay_off_it(scene):
+    played = scene(FIELD | THEIRS, (-0.5, 3.0), radio={"loss": 1.0})
+    played.play(3.0, lambda played: played.match.simulation.now.world["possession"] is not None)
+    assert played.match.simulation.now.world["possession"] == "cyan2"
+    field = [name for name in FIELD if name != "cyan1"]
+    for tick in played.ticks:
+        assert sum(away(tick.world, name) < 1.0 for name in field) <= 1
+
+
+def test_a_keeper_on_its_line_is_in_the_way_of_a_lob(scene):
+    played = scene({"cyan1": (-10.6, 0, 0), "magenta1": (10.5, 0, 0)}, (-4.5, 0.6, -4.0, -0.4)).play(2.0)
+    assert played.match.simulation.state.score.magenta == 0
+
+
+def test_two_equal_scenes_are_played_alike(scene):
+    chains = [scene(FIELD | THEIRS, (-1.0, 0.0)).play(0.5).match.simulation.now.applied["chain"] for _ in range(2)]
+    assert all(one == other for one, other in pairwise(chains))
