@@ -14,6 +14,7 @@ from schemas.messages.command import Command
 from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation, TickResult
+from sim_host.server.debug_publisher import DebugPublisher
 from sim_host.server.outbox import Outbox
 
 _PUMP_TICKS = 25
@@ -40,6 +41,7 @@ class MatchRecording:
         self._batches = BatchPublisher(host)
         self._outbox = Outbox(self._batches, simulation.roster, simulation.profile.time.tick)
         self._sent = host.subscribe(COMMAND)
+        self._debug, self._state = DebugPublisher(self._batches, simulation.profile.time.tick), simulation.state
         self._robots = {name: host.publisher(COMMAND, robot=name) for name in simulation.roster.names}
         self._recorder = Recorder(recorder, self._sink, loss_counts, config=config)
         self._recorder.pump()  # asks for the setup
@@ -51,6 +53,8 @@ class MatchRecording:
         """Record the newest tick, and the commands that led to it."""
         for name, command in commands.items():
             self._robots[name].put(command)  # stamped with the time of their sights
+        self._debug.publish(commands, self._simulation.roster, self._state)
+        self._state = self._simulation.state
         self._clock.sim_ns = round(tick.time * 1e9)
         self._outbox.set_roster(self._simulation.roster)
         self._outbox.publish_tick(tick, self._simulation.state)

@@ -4,6 +4,7 @@ import dataclasses
 import json as json_text
 import signal
 from contextlib import closing
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -40,6 +41,9 @@ def series(
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key of the match file: radio.loss=0.2; repeatable."),
     ] = None,
+    record: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Keep a recording of each match in this folder.")
+    ] = None,
     jobs: Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")] = 0,
     json: options.Json = False,
     *,
@@ -72,7 +76,9 @@ def series(
     )
     if note := options.pitch_note(config):
         typer.echo(f"note: {note}", err=True)
-    plan = plan_series(config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None)
+    plan = plan_series(
+        config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None, record=record
+    )
     _check(plan)
     outcomes: list[Outcome] = []
     interrupted = False

@@ -22,6 +22,14 @@ class PlannedMatch:
     """The sides that the first and the second team play on."""
     brain_folder: Path | None = None
     """Where brains are looked for first."""
+    record: Path | None = None
+    """The folder that gets its recording; None for none."""
+
+    @property
+    def recording(self) -> Path | None:
+        """The recording that it leaves."""
+        name = f"seed_{self.seed}{'_swapped' if self.swapped else ''}.mcap"
+        return self.record / name if self.record is not None else None
 
     @property
     def seed(self) -> int:
@@ -49,9 +57,16 @@ class SeriesPlan:
 
 
 def plan_series(
-    config: MatchConfig, seeds: Iterable[int], *, both_sides: bool = False, brain_folder: Path | None = None
+    config: MatchConfig,
+    seeds: Iterable[int],
+    *,
+    both_sides: bool = False,
+    brain_folder: Path | None = None,
+    record: Path | None = None,
 ) -> SeriesPlan:
     """One match for each seed; with `both_sides` two, the second with the teams on each other's side.
+
+    `record` is the folder for recordings, if there shall be any.
 
     Raises:
         TouchlineError: a team is none that a match in one process can play.
@@ -68,7 +83,7 @@ def plan_series(
         pairs.append((with_sides_swapped(config), (Side.MAGENTA, Side.CYAN)))
     numbered = enumerate(((seed, one, sides) for seed in seeds for one, sides in pairs), start=1)
     matches = (
-        PlannedMatch(number, one.model_copy(update={"seed": seed}), sides, brain_folder)
+        PlannedMatch(number, one.model_copy(update={"seed": seed}), sides, brain_folder, record)
         for number, (seed, one, sides) in numbered
     )
     return SeriesPlan(team_names(config), tuple(matches))

@@ -11,9 +11,13 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner, Result
 
+from recordings.reading.recording import open_recording
+from recordings.stats.match_statistics import figures_of_recording
 from schemas.config.match_config import load_match
+from schemas.side import Side
 from touchline.command_line import app
 from touchline.play import play_match
+from touchline.verify.resimulate import verify
 
 
 def series(*words: str | Path) -> Result:
@@ -59,6 +63,27 @@ def test_a_process_that_dies_costs_its_match_only(match_file: Path) -> None:
 def test_brains_keep_nothing_from_one_match_to_the_next(match_file: Path) -> None:
     found = rows(match_file, "--seeds", "1-3", "--jobs", "1", "--cyan", "few_brains:OnceOnly")
     assert (len(found["matches"]), found["failed"]) == (3, [])
+
+
+def test_a_recording_of_each_match_has_the_same_figures_and_can_be_verified(match_file: Path, tmp_path: Path) -> None:
+    found = rows(match_file, "--seeds", "3", "--both-sides", "--record", tmp_path / "kept")
+    files = [tmp_path / "kept" / name for name in ("seed_3.mcap", "seed_3_swapped.mcap")]
+    assert sorted((tmp_path / "kept").iterdir()) == sorted(files)
+    for row, file in zip(found["matches"], files, strict=True):
+        figures = figures_of_recording(open_recording(file))
+        assert row["in_play_s"] == figures.in_play_s
+        sides = list(Side)[::-1] if row["swapped"] else list(Side)
+        ways = [[robot.clock_distance for robot in figures.robots if robot.side == side] for side in sides]
+        possession = [figures.sides[side].possession_s or 0.0 for side in sides]
+        assert [team["possession_s"] for team in row["teams"]] == possession
+        assert [team["field_distance"] for team in row["teams"]] == [0.0, 0.0]  # a goalkeeper each
+        assert sum(map(sum, ways)) > 0
+        assert verify(file).identical
+
+
+def test_a_recording_leaves_the_match_as_it_is(match_file: Path, tmp_path: Path) -> None:
+    words = (match_file, "--seeds", "3")
+    assert rows(*words, "--record", tmp_path)["matches"] == rows(*words)["matches"]
 
 
 def test_a_key_of_the_match_file_is_replaced(match_file: Path) -> None:
