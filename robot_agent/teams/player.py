@@ -72,6 +72,7 @@ class Player(ABC):
         self.limits = DriveLimits.of(briefing.setup)
         team = self.setup.teams[briefing.side]
         plays_field = not team.goalkeeper or (self.plays_alone and not briefing.teammates)
+        self._robots = team.robots
         self._keepers = [] if plays_field else team.robots
         """Candidates for the goalkeeper: the first of them on the field."""
         self.keeper = self._first_keeper = goalkeeper_of(self._keepers, ())
@@ -174,6 +175,12 @@ class Player(ABC):
     @abstractmethod
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """The action in a restart or in play."""
+
+    def silent_field(self, belief: WorldBelief) -> list[str]:
+        """All field robots in the team's order, if this one has no ball and receives none of them; otherwise none."""
+        field = [name for name in self._robots if name != self.keeper and name not in _away(belief.game)]
+        is_silent = len(field) > 1 and not belief.holding and not any(name in belief.mates for name in field)
+        return field if is_silent else []
 
     @property
     def may_score(self) -> bool:

@@ -7,6 +7,7 @@ from robot_agent.skills.avoid import circles, steer
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_goal import keep_goal
+from robot_agent.skills.keep_off import keep_off
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import best_receiver, pass_speed, pass_to
 from robot_agent.skills.take_ball import take_ball
@@ -17,7 +18,8 @@ from robot_agent.teams.nubot.machine import KICK, Machine, MachineOutput, Points
 from robot_agent.teams.nubot.trajectory import ROTATION
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
-from robot_agent.teams.set_piece import stand, step_in, wait_behind
+from robot_agent.teams.set_piece import KICK_OFFS, stand, step_in, wait_behind
+from robot_agent.teams.zones import owner_of
 from robot_agent.world_model import SeenBall, WorldBelief, places_of
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder, CoachTest
@@ -43,10 +45,14 @@ LOYALTY = 0.5
 """m by which a teammate must be nearer to the ball than the robot that plays it, to play it instead."""
 PROMISED = 3.0
 """m by which the robot that was promised the ball may be farther from it than another."""
+_FOLLOWS, _BACK_FOLLOWS_LESS = 0.9, 0.1
+"""Share of the ball's x that a place moves along: 0.9, less 0.1 for each m that its home is behind the middle."""
+_ASIDE_FOLLOWS = 0.25
+"""Share of the ball's y."""
+_CLEAR_OF_BALL = 2.4
+"""m between a place and a ball that a teammate plays."""
 _PREPARED = 1.0
 """m into the other half."""
-_KICKED = 2.0
-"""m/s; a ball faster than this is still on its way from the kick."""
 _NEAR_ENOUGH = 1.5
 """m around the dribble point; a pressed robot does not brake for the last step."""
 _TURNS = 4.0
@@ -127,6 +133,9 @@ class NuBot(Player):
 
     def _nearest(self, belief: WorldBelief, spot: tuple[float, float]) -> str:
         """The field robot that plays the ball: the nearest, with a bonus for playing it already or a promised pass."""
+        if silent := self.silent_field(belief):
+            plays = self.briefing.robot if self._role == PLAYS else None
+            return owner_of(spot, silent, self.setup.pitch, plays)
         promised = self._promised.receiver if self._promised is not None else None
         robots = [(self.briefing.robot, belief.me, self._role)]
         robots += [(name, mate.body, mate.role) for name, mate in belief.mates.items() if name != self.keeper]
@@ -139,10 +148,10 @@ class NuBot(Player):
         return nearest
 
     def _run_machine(self, belief: WorldBelief, ball: SeenBall) -> Action:
-        """Run the paper's machine; it starts over when it has kicked and this robot is at the ball again."""
+        """Run the paper's machine; after a kick it starts over as soon as the dribbler is on again."""
         self._machine.points = self._points._replace(dribble=self._dribble_point(belief, ball))
         back = self._machine.state in (State.RESET, State.HOME)
-        if back and math.hypot(ball.now.vx, ball.now.vy) < _KICKED:
+        if back and self._lets_go == 0.0:
             self._machine.restart()
         output = self._machine.step(
             Situation(belief.me, ball.now[:2], belief.holding, belief.dt, kicker_ready=belief.kicker_ready)
@@ -242,8 +251,18 @@ class NuBot(Player):
         in_play = belief.game.phase is TeamPhase.PLAY
         waits_ahead = in_play and self.possession.ours is not False and not self.may_score
         home = self._ahead if waits_ahead else self._home
-        motion = stand(belief.me, home, belief.game, spot, belief.others, self.setup, self.limits)
+        place = home if belief.game.phase in KICK_OFFS else self._following(home, spot)
+        motion = stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits)
         return Action(HOLDS, "hold", motion)
+
+    def _following(self, home: tuple[float, float], spot: tuple[float, float]) -> tuple[float, float]:
+        """The place of a home, moved along with the ball, the more the farther ahead it is; clear of the ball."""
+        pitch = self.setup.pitch
+        share = max(0.0, _FOLLOWS + _BACK_FOLLOWS_LESS * self._home[0])
+        front = pitch.goal_line - pitch.penalty_area_depth - self.setup.robot.reach
+        x = max(-front, min(front, home[0] + share * spot[0]))
+        y = home[1] + _ASIDE_FOLLOWS * spot[1]
+        return keep_off(x, y, spot, _CLEAR_OF_BALL, pitch, self.setup.robot.reach, self._penalty_area)
 
     def _keep(self, belief: WorldBelief, ball: SeenBall, spot: tuple[float, float]) -> Action:
         if belief.game.phase is TeamPhase.DROP_BALL:

@@ -18,6 +18,7 @@ from robot_agent.teams.set_piece import legal_place, stand, step_in, wait_behind
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
 from robot_agent.teams.simple.striker import SHOT_ERROR, StrikerSituation, is_pressed, play_ball
+from robot_agent.teams.zones import owner_of
 from robot_agent.world_model import Teammate, WorldBelief, places_of
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder
@@ -76,6 +77,8 @@ class Simple(Player):
         A striker that may not play the ball stands between it and the own goal.
         """
         me = self.briefing.robot
+        if silent := self.silent_field(belief):
+            return self._find_role_alone(silent, spot)
         receiver = self._promised.receiver if self._promised is not None else None
         candidates = {me: Candidate(belief.me, self._role, receiver == me)}
         for name, mate in belief.mates.items():
@@ -94,6 +97,15 @@ class Simple(Player):
         formation = places(spot, self.setup.pitch, self._reach, max(1, len(candidates)))
         role = share_places(candidates, formation).get(me, Role.DEFENDER)
         return role, dict(formation)[role]
+
+    def _find_role_alone(self, field: list[str], spot: Point) -> tuple[Role, Point]:
+        """The role without a radio: the ball in its own part of the pitch, or the place that its number has."""
+        me, plays = self.briefing.robot, self.briefing.robot if self._role is Role.STRIKER else None
+        owner = owner_of(spot, field, self.setup.pitch, plays)
+        if owner == me:
+            return Role.STRIKER, self._before_own_goal(spot)
+        others = [name for name in field if name != owner]
+        return places(spot, self.setup.pitch, self._reach, len(others))[others.index(me)]
 
     def _field_mates(self, belief: WorldBelief) -> dict[str, Teammate]:
         return {name: mate for name, mate in belief.mates.items() if name != self.keeper}

@@ -174,15 +174,15 @@ def test_at_their_restart_no_robot_goes_for_the_ball_even_after_start(squad, set
 
 @pytest.mark.parametrize("team", TEAMS)
 def test_after_a_kick_the_dribbler_lets_go_so_that_a_soft_kick_leaves(squad, team):
-    made = squad(team, {1: (-10.5, 0.0, 0.0), 2: (-0.35, 0.0, 0.0)})
+    made = squad(team, {1: (-10.5, 0.0, 0.0), 3: (-0.35, 0.0, 0.0)})
     kick = {"ball": (0.0, 0.0), "phase": TeamPhase.OUR_FREE_KICK, "spot": Point(x=0.0, y=0.0)}
     for _ in range(100):
         commands = made.act(holding=True, **kick)
-        made.poses["cyan2"] = (-0.35, 0.0, made.poses["cyan2"][2] + 0.02 * commands["cyan2"].drive.omega)
-        if commands["cyan2"].kick is not None:
+        made.poses["cyan3"] = (-0.35, 0.0, made.poses["cyan3"][2] + 0.02 * commands["cyan3"].drive.omega)
+        if commands["cyan3"].kick is not None:
             break
-    assert commands["cyan2"].kick is not None
-    after = [made.act(**kick)["cyan2"].dribble for _ in range(40)]
+    assert commands["cyan3"].kick is not None
+    after = [made.act(**kick)["cyan3"].dribble for _ in range(40)]
     assert not any(after[:15])
     assert after[-1]
 
