@@ -10,8 +10,18 @@ from schemas.config.sections import Pitch
 
 Point = tuple[float, float]
 
-KICK_OFF_TO = (-1.6, 1.9)
-"""m; target of a kick-off without a free teammate."""
+KICK_OFF_TO = (0.8, 3.0)
+"""m; target of a kick-off: ahead, so that the taker waits behind the ball in its own half."""
+KICK_OFF_ARRIVING = 1.0
+"""m/s on arrival; the ball waits there for its receiver, which stands in its own half until START."""
+
+
+def kick_off(mates: Mapping[str, Body]) -> Pass | None:
+    """The kick-off: to the teammate that is nearest to the target or to its mirror image; None without teammates."""
+    x, y = KICK_OFF_TO
+    ways = [(math.dist(body[:2], (x, side * y)), name, side) for name, body in mates.items() for side in (1.0, -1.0)]
+    _, name, side = min(ways, default=(0.0, "", 1.0))
+    return Pass(name, (x, side * y), 1.0, 0.0) if name else None
 
 
 def best_restart(

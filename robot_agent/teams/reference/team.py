@@ -21,7 +21,7 @@ from robot_agent.teams.reference.parameters import PARAMETERS, Parameters
 from robot_agent.teams.reference.passing import Pass, chance
 from robot_agent.teams.reference.recovery import BackOut, home
 from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
-from robot_agent.teams.reference.set_pieces import KICK_OFF_TO, best_restart
+from robot_agent.teams.reference.set_pieces import KICK_OFF_ARRIVING, KICK_OFF_TO, best_restart, kick_off
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from robot_agent.world_model import WorldBelief, places_of
 from schemas.game import TeamPhase
@@ -80,6 +80,8 @@ class Reference(Player):
         self._held = self._held + belief.dt if belief.holding else 0.0
         self._waited = self._waited + belief.dt if belief.game.running and belief.game.phase.ours else 0.0
         self._promised = promise_after(self._promised, belief)
+        if belief.game.phase.theirs or belief.game.phase is TeamPhase.DROP_BALL:
+            self._chosen = None
         if belief.ball is None:
             self._arrival = math.inf
             return Action(self._role, "wait", Drive())
@@ -251,11 +253,15 @@ class Reference(Player):
             waited = self._waited if belief.game.running else math.inf
             steps_in = belief.game.running and math.dist(belief.me[:2], spot) < _STEPPED_IN
             best = self._chosen if steps_in else None
+            if phase is TeamPhase.OUR_KICK_OFF:
+                is_chosen = self._chosen is not None and self._chosen.target[0] == KICK_OFF_TO[0]
+                best = self._chosen if is_chosen else kick_off(mates)
             best = best or best_restart(spot, mates, belief.opponents, chosen, waited, pitch, self.parameters)
             self._chosen = best or self._chosen
             target = best.target if best is not None else KICK_OFF_TO
             receiver = best.receiver if best is not None else None
-            speed = pass_speed(math.dist(spot, target), self.setup, self.parameters.pass_arriving)
+            arriving = KICK_OFF_ARRIVING if phase is TeamPhase.OUR_KICK_OFF else self.parameters.pass_arriving
+            speed = pass_speed(math.dist(spot, target), self.setup, arriving)
             error = self.parameters.pass_error
             if best is None and belief.game.running and self._waited < self.parameters.restart_wait:
                 motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)

@@ -77,3 +77,13 @@ def test_a_keeper_on_its_line_is_in_the_way_of_a_lob(scene):
 def test_two_equal_scenes_are_played_alike(scene):
     chains = [scene(FIELD | THEIRS, (-1.0, 0.0)).play(0.5).match.simulation.now.applied["chain"] for _ in range(2)]
     assert all(one == other for one, other in pairwise(chains))
+
+
+def test_before_the_own_kick_off_everyone_is_in_the_own_half_and_the_ball_goes_to_a_teammate(scene):
+    played = scene(FIELD | THEIRS, (0.0, 0.0), "kick_off", "cyan")
+    played.play(7.0, lambda played: played.match.simulation.state.running)
+    world = played.ticks[-1].world["robots"]
+    assert all(world[name]["x"] < 0.3 for name in FIELD)
+    played.play(6.0, lambda played: played.match.simulation.state.phase == "play")
+    assert played.match.simulation.state.phase == "play"
+    assert sum(len(played.kicks(name)) for name in FIELD) == 1
