@@ -2,7 +2,9 @@
 
     .venv/bin/python benchmarks/check_soak.py --minutes 10
 
-The first quarter of the time is warm-up, in which caches fill. Exit status 1 if a process grows beyond the limits.
+The first three minutes are warm-up: the histories of topics are full after 30 s, the record batches that a host keeps
+after 48 s, and the memory of a process stays the same a minute or two later. Exit status 1 if a process grows beyond
+the limits after that, or has ended.
 """
 
 import argparse
@@ -21,6 +23,10 @@ MB_A_MINUTE = 1.0
 """Most growth of a process's memory, by a line through its samples."""
 MORE_THREADS, MORE_FILES = 2, 4
 """Most that the newest counts exceed those after the warm-up."""
+WARM_UP_MINUTES = 3.0
+"""Wall time in which a process may grow."""
+LEAST_MINUTES = 2 * WARM_UP_MINUTES
+"""Shortest check: growth is judged over at least as much time as the warm-up."""
 SETTLE_S = 10.0
 """Wall time after which the processes that only start others have ended."""
 EVERY_S = 2.0
@@ -60,6 +66,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=10.0, help="wall time of the match")
     arguments = parser.parse_args()
+    if arguments.minutes < LEAST_MINUTES:
+        parser.error(f"--minutes is {arguments.minutes:g}; at least {LEAST_MINUTES:g}, half of them are warm-up")
     seconds = 60.0 * arguments.minutes
     with tempfile.TemporaryDirectory() as folder:
         words = ["touchline", "match", "--web", "--pace", "realtime", "--duration", str(round(2 * seconds + 600))]
@@ -81,7 +89,7 @@ def main() -> int:
             program.end()
     failed = False
     for name, all_of_it in samples.items():
-        settled = [one for one in all_of_it if one.minute >= arguments.minutes / 4]
+        settled = [one for one in all_of_it if one.minute >= WARM_UP_MINUTES]
         found = faults(settled)
         failed |= bool(found)
         first, last = settled[0], settled[-1]

@@ -79,12 +79,12 @@ RECORDINGS = "Recordings"
 PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
-app.command("series", rich_help_panel=PLAY)(series.series)
-app.command("drill", rich_help_panel=PLAY)(drill.drill)
 app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
-app.command("check", rich_help_panel=PLAY)(check.check)
 
 app.command("new", rich_help_panel=TEAMS)(new.new)
+app.command("check", rich_help_panel=TEAMS)(check.check)
+app.command("drill", rich_help_panel=TEAMS)(drill.drill)
+app.command("series", rich_help_panel=TEAMS)(series.series)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
 app.command("health", rich_help_panel=WATCH)(health.health)

@@ -18,6 +18,10 @@ MOST_WAITING = 400
 """Connections that wait at the same time; a browser opens six to load the page."""
 NEW_PER_S, NEW_AT_ONCE = 100.0, 1000.0
 """New connections of one network per s of wall time, and at once: a hundred browsers load the page at the same time."""
+MOST_HELD = 64
+"""Refused connections that are held at the same time; further ones are closed at once."""
+FLOOD_COSTS = 50.0
+"""Connections that one of its network counts for that was closed because it sent too much."""
 REQUESTS_PER_S, REQUESTS_AT_ONCE = 200.0, 6000.0
 """Files for one network per s of wall time, and at once; a page has about fifty."""
 
@@ -40,22 +44,38 @@ class Connection(Protocol):
         """Close it at once."""
 
 
+class NewConnection(Connection, Protocol):
+    """One that may be refused before anything is read."""
+
+    def hold(self) -> None:
+        """Read nothing, and close it a while later."""
+
+
 class Connections:
     """The open connections of a server."""
 
     def __init__(self, refusals: Refusals, clock: Clock) -> None:
         self.refusals, self.clock = refusals, clock
         self._open: dict[Connection, None] = {}
+        self._held: set[Connection] = set()
         self._new = NetworkLimits(NEW_PER_S, NEW_AT_ONCE)
         self._requests = NetworkLimits(REQUESTS_PER_S, REQUESTS_AT_ONCE)
 
     def __len__(self) -> int:
         return len(self._open)
 
-    def admit(self, connection: Connection) -> bool:
-        """Take in a new connection, and close another one if too many wait; returns False beyond the rate limit."""
+    def admit(self, connection: NewConnection) -> bool:
+        """Take in a new connection, and close another one if too many wait; returns False beyond the rate limit.
+
+        Some beyond it are held for a while: a client that waits for their end comes back later.
+        """
         if not self._new.allow(connection.network, self.clock.now()):
-            self.refuse(connection, "connections")
+            if len(self._held) >= MOST_HELD:
+                self.refuse(connection, "connections")
+                return False
+            self.refusals.note("connections", connection.network, self.clock.now())
+            self._held.add(connection)
+            connection.hold()
             return False
         self.enter(connection)
         waiting = list(self._waiting())
@@ -72,12 +92,22 @@ class Connections:
     def remove(self, connection: Connection) -> None:
         """Forget a closed connection."""
         self._open.pop(connection, None)
+        self._held.discard(connection)
 
     def refuse(self, connection: Connection, kind: str) -> None:
         """Count a refusal, and close the connection."""
         self.refusals.note(kind, connection.network, self.clock.now())
         self.remove(connection)
         connection.cut()
+
+    def note_flood(self, connection: Connection, kind: str, reason: str = "") -> None:
+        """Count a client that is being closed because it sends too much, or breaks the protocol."""
+        self.refusals.note(kind, connection.network, self.clock.now(), reason)
+        self.penalize(connection)
+
+    def penalize(self, connection: Connection) -> None:
+        """Let a network that has flooded open fewer connections: else it would be back at once."""
+        self._new.count(connection.network, self.clock.now(), FLOOD_COSTS)
 
     def is_within_limit(self, connection: Connection) -> bool:
         """Whether a network may have one more file."""

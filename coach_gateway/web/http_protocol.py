@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 REQUEST_S = 5.0
 """s of wall time from the connection, or from the response before, to the end of a request's headers."""
+HELD_S = 1.0
+"""s of wall time for which a connection is held that is refused for the rate of its network."""
 RESPONSE_S = 30.0
 """s of wall time for a response, to the last byte that the client reads."""
 
@@ -71,6 +73,11 @@ class HttpProtocol(H11Protocol):
     def is_serving(self) -> bool:
         """Whether a request is in progress."""
         return self.cycle is not None and not self.cycle.response_complete
+
+    def hold(self) -> None:
+        """Read nothing, and close it a while later."""
+        self.transport.pause_reading()
+        self._timer = self.loop.call_later(HELD_S, self.cut)
 
     def cut(self) -> None:
         """Close it at once."""

@@ -20,7 +20,7 @@ OPENED_PER_S, OPENED_AT_ONCE = 5.0, 300.0
 """Pages that one network may open per s of wall time, and at once: each is sent everything that is known."""
 TOO_LONG_WEIGHT = 50
 """Unreadable messages that one beyond the longest counts for."""
-_MOST_BAD = 500
+_MOST_BAD = 200
 """Unreadable or excess messages after which a page is disconnected."""
 _WRONG_TOKENS = 20
 """Unknown tokens after which a page is disconnected."""
@@ -32,6 +32,8 @@ _FAULTS = {
     "late": ("request that was not complete in time", "requests that were not complete in time"),
     "broken": ("connection that broke the protocol", "connections that broke the protocol"),
     "control frames": ("flood of control frames", "floods of control frames"),
+    "frames": ("flood of frames", "floods of frames"),
+    "bytes": ("flood of bytes", "floods of bytes"),
     "host": ("request for an unknown host name", "requests for an unknown host name"),
     "opened": ("page opened beyond the rate limit", "pages opened beyond the rate limit"),
     "foreign": ("page refused for its origin", "pages refused for their origin"),

@@ -99,12 +99,13 @@ class SocketEndpoint:
             await _close(socket, page.close_reason, _POLICY)
 
     async def _send(self, socket: WebSocket, page: Page) -> None:
-        """Send what waits, as fast as the page reads."""
+        """Send what waits, as fast as the page reads; everything else that is due takes a turn after each message."""
         while True:
             text = await page.queue.next()
             page.sending_since = self._clock.now()
             await socket.send({"type": "websocket.send", "text": text})
             page.sending_since = None
+            await asyncio.sleep(0)
 
     async def _read(self, socket: WebSocket, page: Page) -> None:
         """Read the page's messages until it leaves."""

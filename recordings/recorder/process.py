@@ -8,6 +8,7 @@ import threading
 from recordings.recorder.record import record
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
+from schemas.process.large_blocks import return_large_blocks
 from schemas.process.process_log import configure_log, log_line
 from schemas.process.scheduling import use_batch_scheduling
 
@@ -22,6 +23,7 @@ def run(settings: RecorderSettings) -> int:
         TouchlineError: no host answers, or the file cannot be written.
     """
     configure_log("recorder", settings.log_format)
+    return_large_blocks()
     use_batch_scheduling()  # no process waits for the recorder
     gc.freeze()
     gc.set_threshold(_GC_THRESHOLD)

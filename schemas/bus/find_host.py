@@ -55,6 +55,13 @@ def find_host(match: str | None, connect: str | None = None) -> HostAddress:
     return HostAddress(DEFAULT_ENDPOINT)
 
 
+def announced_credentials(endpoint: str, account: Account) -> Path | None:
+    """The file of an account's credentials that the running match at an endpoint has announced; None without one."""
+    folder = find_host(None, endpoint).credentials
+    file = account_file(folder, account) if folder is not None else None
+    return file if file is not None and file.exists() else None
+
+
 def _address(endpoint: str) -> str:
     """Host and port of an endpoint: clients with a root certificate use TLS where tcp is given."""
     return endpoint.partition("/")[2].replace("localhost:", "127.0.0.1:")

@@ -45,7 +45,8 @@ class Limits(Part):
     def breach(self, limit: str) -> str:
         """What a robot did that exceeded a limit, named by its field, and the remedy."""
         figure = getattr(self, limit)
-        return f"it {_BREACHES[limit].format(figure)}; raise [limits] {limit}"
+        option = limit.replace("_", "-")
+        return f"it {_BREACHES[limit].format(figure)}; raise [limits] {limit}, or --{option} of touchline team"
 
 
 _BREACHES = {

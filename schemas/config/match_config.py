@@ -194,6 +194,11 @@ class MatchConfig(Part):
         return tuple(side for side in Side if self.team(side).remote)
 
     @property
+    def local_sides(self) -> tuple[Side, ...]:
+        """The sides whose robots the launcher of the match starts."""
+        return tuple(side for side in Side if not self.team(side).remote)
+
+    @property
     def longest_attendance(self) -> float:
         """Longest wait for all robots before the first tick, in s of wall time."""
         return self.patience.remote if self.remote_sides else self.patience.attendance

@@ -9,7 +9,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from coach_gateway.access import token_checks
-from coach_gateway.web import door, pages, socket_endpoint, socket_protocol
+from coach_gateway.web import connections, door, http_protocol, pages, socket_endpoint, socket_protocol
 from coach_gateway.web.protocol import MAX_BYTES
 from coach_gateway.web.settings import WebSettings
 from support.fake_host import FakeHost
@@ -24,7 +24,8 @@ PING, TEXT, CONTINUED = 9, 1, 0
 @pytest.fixture
 def gateway(gateway_of: Callable[..., Gateway], host: FakeHost, monkeypatch: pytest.MonkeyPatch) -> Gateway:
     """Addresses of loopback stand for those of other machines."""
-    monkeypatch.setattr(socket_endpoint, "client_network", lambda address: address)
+    for module in (http_protocol, socket_protocol, socket_endpoint):
+        monkeypatch.setattr(module, "client_network", lambda address: address)
     return gateway_of(pages=20, pages_per_address=10)
 
 
@@ -75,7 +76,8 @@ def test_many_small_messages_that_inflate_are_inflated_one_after_the_other(
     eventually(lambda: raw.is_closed)
     sending.join(SOON)
     assert 0 < most <= socket_protocol.PIECE_BYTES // len(bomb) + 2  # and the end
-    assert 11 <= gateway.pages.counts["bad"] <= 30  # formerly all 1500
+    assert gateway.pages.counts["bad"] <= socket_protocol.BYTES_AT_ONCE // 250_000
+    assert gateway.pages.counts["bytes"] == 1
 
 
 def test_pings_without_end_are_not_answered_without_end(gateway: Gateway, raw: RawClient, other: Visitor) -> None:
@@ -85,6 +87,48 @@ def test_pings_without_end_are_not_answered_without_end(gateway: Gateway, raw: R
             break
     eventually(lambda: raw.is_closed)
     assert gateway.pages.counts["control frames"] == 1
+
+
+FLOODS = {
+    "control frames": (frame(b"p", PING) * 100, "more than 2 pings and pongs a second"),
+    "frames": (frame(b"{}") * 30, "more than 0.001 frames a second"),
+    "bytes": (frame(b"x" * 200) * 10, "more than 1e-06 kB a second"),
+}
+
+
+@pytest.mark.parametrize("kind", FLOODS)
+def test_a_client_that_sends_more_than_pages_do_is_closed_with_a_reason_and_the_rest_is_not_read(
+    gateway: Gateway, other: Visitor, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    monkeypatch.setattr(socket_protocol, "FRAMES_PER_S", 0.001)
+    monkeypatch.setattr(socket_protocol, "FRAMES_AT_ONCE", 20.0)
+    monkeypatch.setattr(socket_protocol, "BYTES_PER_S", 0.001)
+    monkeypatch.setattr(socket_protocol, "BYTES_AT_ONCE", 1000.0)
+    flood, reason = FLOODS[kind]
+    client = RawClient(gateway.port, "127.0.0.2")
+    client.upgrade(gateway.origin)
+    client.send(flood)
+    assert client.receive_all().endswith(reason.encode())
+    assert gateway.pages.counts[kind] == 1
+    assert gateway.pages.counts["bad"] <= 20
+    client.close()
+
+
+def test_a_client_that_was_closed_for_a_flood_is_not_back_at_once_and_others_are_let_in(
+    gateway: Gateway, other: Visitor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connections, "FLOOD_COSTS", 1e6)
+    client = RawClient(gateway.port, "127.0.0.2")
+    client.upgrade(gateway.origin)
+    client.send(frame(b"p", PING) * 100)
+    client.receive_all()
+    again = RawClient(gateway.port, "127.0.0.2")
+    eventually(lambda: again.is_closed)
+    assert gateway.pages.counts["connections"] == 1
+    elsewhere = Visitor(gateway.origin, source_address=("127.0.0.8", 0))
+    elsewhere.hear("welcome")
+    for one in (client, again, elsewhere):
+        one.close()
 
 
 def test_a_message_of_frames_without_end_ends_its_connection(gateway: Gateway, raw: RawClient, other: Visitor) -> None:

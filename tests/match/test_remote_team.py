@@ -1,6 +1,7 @@
 """A match whose magenta team is started by another command, as on another machine."""
 
 import signal
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -95,3 +96,26 @@ def test_ctrl_c_ends_a_match_that_waits_for_its_remote_team(run: Run) -> None:
     assert match.status() == 130
     assert "match interrupted" in match.err
     assert match.processes() == {}
+
+
+LINES = """
+import json, sys
+print("briefed", json.loads(sys.stdin.readline())["robot"], file=sys.stderr, flush=True)
+for line in sys.stdin:
+    print(json.dumps({"answers_tick": json.loads(line)["tick"]}), flush=True)
+"""
+
+
+def test_a_remote_team_may_be_a_program_of_lines(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "robot.py").write_text(LINES)
+    match = run("match", "cup.toml", "--no-record", "--duration", "1")
+    team = run("team", "magenta", "--connect", endpoint_of(match), "--stdio", f"{sys.executable} robot.py")
+    assert (match.status(), team.status()) == (0, 0), (match.err, team.err, team.out)
+    (log,) = tmp_path.glob("runs/cup-magenta-*/magenta1.log")
+    assert log.read_text() == "briefed magenta1\n"
+
+
+def test_a_program_of_lines_that_does_not_exist_is_one_line(run: Run) -> None:
+    team = run("team", "magenta", "--connect", "tcp/127.0.0.1:9", "--stdio", "nobody robot.py")
+    assert team.status() == 2
+    assert team.err.startswith('touchline: --stdio begins with "nobody", which is not a program here or in the current')

@@ -174,6 +174,11 @@ class HostRig:
                 self._give_turns()
             self.host.tick()
 
+    def read_all(self) -> None:
+        """Read, and forget, what the host has published."""
+        for listener in (self._applied, self._events, self._health):
+            listener.all()
+
     def inputs(self, robot: str) -> list[AppliedInput]:
         """The inputs of a robot in each tick since the last call."""
         return [message.inputs[robot] for message in self._applied.all() if message.inputs]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def drill(
-    scene: Annotated[str, typer.Argument(metavar="SCENE", help="A scene with a [drill], by name or path.")],
+    scene: Annotated[str, typer.Argument(metavar="SCENE", help="A scene with a table `drill`, by name or path.")],
     brain: Annotated[
         str, typer.Option(metavar="TEAM", help="Who practises: the name of a shipped team, or module:Class.")
     ] = "simple",
@@ -38,7 +38,7 @@ def drill(
 ) -> None:
     """Play a drill from many seeds in parallel, without a network, and print its score with an interval of 95 %.
 
-    Each seed has another start, within the scene's [[vary]], and other noise. Equal seeds give equal drills.
+    Each seed has another start, as its table `vary` allows, and other noise. Equal seeds give equal drills.
     `touchline scenes` lists the scenes. If a brain raises, its drill counts as not played, and the exit status is 1.
 
     Example: touchline drill one_against_keeper --brain simple --seeds 1-50

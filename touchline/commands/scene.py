@@ -86,6 +86,9 @@ def add(
 ) -> None:
     """Add a robot; it rests until its agent connects.
 
+    Agents join as robots of the match file, and as cyan1 to cyan11 and magenta1 to magenta11. A robot that is added
+    with another name has no agent: the page drives it, or it rests.
+
     Example: touchline scene add magenta6 magenta 5 -2 --type slow
     """
     robot = {"name": name, "side": side, "x": x, "y": y, "heading": heading, "type": type_, "agent": not still}

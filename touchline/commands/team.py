@@ -8,6 +8,9 @@ import typer
 
 from robot_agent.settings import AgentSettings
 from schemas.access.accounts import Account
+from schemas.config.confinement import Isolation, Limits
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import TeamConfig
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
@@ -27,14 +30,19 @@ def team(
         list[str] | None, typer.Option(help="Start this robot only; repeatable. By default all of the side.")
     ] = None,
     *,
+    isolation: Annotated[dict[str, Any], FieldsOf(MatchConfig, "isolate")],
+    limits: Annotated[dict[str, Any], FieldsOf(Limits)],
+    passed: Annotated[dict[str, Any], FieldsOf(TeamConfig, "pass_environment")],
     agent: Annotated[dict[str, Any], FieldsOf(AgentSettings, *_SHARED)],
 ) -> None:
     """Run the robots of a team until the match is over: one process each, started again after a crash.
 
     The host runs elsewhere, with `touchline host` or `touchline match --remote`. Logs are written under ./runs/.
+    Robots are limited and isolated from this machine as those of a match: docs/isolation.md.
 
     Example: touchline team magenta --connect tcp/192.168.1.5:7447 --brain my_team:Striker
     """
+    from schemas.bus.find_host import announced_credentials
     from schemas.bus.zenoh.bus import ZenohBus, open_client
     from schemas.bus.zenoh.waiting_client import open_when_there
     from schemas.process.clock import WallClock
@@ -44,8 +52,14 @@ def team(
 
     if [brain, command, stdio].count(None) != 2:
         raise TouchlineError("a team has a brain or a program; give --brain module:Class, --command or --stdio")
+    if brain is not None and ":" not in brain:
+        raise TouchlineError(f'--brain is "{brain}"; write it as module:Class')
     program = options.program_of(stdio)
     settings = from_options(AgentSettings, robot=f"{side}1", brain=brain or "", stdio=program, side=side, **agent)
+    own_program = shlex.split(command) if command is not None else None
+    own = from_options(TeamConfig, brain=brain, command=own_program, stdio=program or None, **passed)
+    isolate = Isolation(isolation.get("isolate", Isolation.NONE))
+    limited = from_options(Limits, **limits)
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:
@@ -65,11 +79,14 @@ def team(
     bus = open_when_there(connect, clock, settings.patience, report)
     assert bus is not None  # a wait that nothing stops
     with bus, screen_for(sys.stdout, clock) as screen:
+        credentials = settings.credentials or announced_credentials(bus.endpoint, Account.of_team(side))
         plan = TeamPlan(
             side=side,
             robots=robot or [],
-            agent=settings.model_copy(update={"connect": bus.endpoint}),
-            command=shlex.split(command) if command is not None else [],
-            folder=new_run_folder(f"{bus.match}-{side}", clock),
+            agent=settings.model_copy(update={"connect": bus.endpoint, "credentials": credentials}),
+            team=own,
+            folder=new_run_folder(f"{bus.match}-{side}", clock, isolate),
+            isolate=isolate,
+            limits=limited,
         )
         TeamRun(plan, bus, screen, clock).play()

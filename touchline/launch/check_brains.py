@@ -47,7 +47,7 @@ def check_teams(
     Raises:
         TouchlineError: a program does not exist, or a brain cannot be built; the message names its key.
     """
-    here = [side for side in Side if side not in config.remote_sides]
+    here = config.local_sides
     for side in here:
         team = config.team(side)
         if team.command is not None:

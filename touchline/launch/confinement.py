@@ -123,7 +123,7 @@ class Confinement:
 
 
 def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path) -> dict[Side, Confinement]:
-    """The confinement of both teams' robots, without their folders.
+    """The confinement of the robots of each side that is launched here, without their folders.
 
     `beside_match` is the folder of the match file, `runs` that of all runs.
 
@@ -135,9 +135,9 @@ def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path
     if config.isolate is Isolation.BUBBLEWRAP:
         check_bubblewrap()
     launcher_tasks = 0 if users or os.geteuid() == 0 else tasks_of_user(os.geteuid())  # the kernel does not limit root
-    robots = {side: len(config.robots(side)) for side in Side}
+    robots = {side: len(config.robots(side)) for side in config.local_sides}
     confinements = {}
-    for side in Side:
+    for side in config.local_sides:
         limits = config.limits_of(side)
         sharers = robots[side] if users else sum(robots.values())
         pattern = Confinement(
@@ -183,12 +183,21 @@ def isolation_note(config: MatchConfig, beside_match: Path | None, confinements:
             f"both teams' code is in {codes[Side.CYAN].folder}: each is kept from the other's module, but not from "
             "other files there; put each team into a folder of its own"
         )
-    for side in Side:
-        user = confinements[side].user
+    for side, confinement in confinements.items():
+        user = confinement.user
         for path in codes[side.opponent].own:
             if user is not None and user.can_read(path):
                 return f"{side.value}'s user {user.name} can read {path} of {side.opponent.value}; withdraw that right"
     return ""
+
+
+def team_isolation_note(config: MatchConfig, side: Side, beside: Path | None) -> str:
+    """What the robots of one team are not isolated from, in one sentence; empty for brains of this library."""
+    if config.isolate is not Isolation.NONE or not team_code(config, side, beside).own:
+        return ""
+    return (
+        "robots run as your user: they can read your files and signal your processes; --isolate bubblewrap prevents it"
+    )
 
 
 def _check_readable(config: MatchConfig, users: Mapping[Side, TeamUser], beside_match: Path | None) -> None:

@@ -236,7 +236,7 @@ def client_processes(plan: MatchPlan) -> list[Process]:
         )
         processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
     confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
-    for side in (side for side in Side if side not in config.remote_sides):
+    for side in config.local_sides:
         processes += [
             _robot_of(robot, side, plan, confinements[side].in_folder(folder / robot)) for robot in config.robots(side)
         ]
@@ -260,28 +260,37 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
     """The process of one robot of a match."""
     team = plan.config.team(side)
     program = team_program(plan.config, side, plan.brain_folder)
-    credentials = plan.credentials_of(Account.of_team(side))
-    if credentials is not None:
-        confinement = replace(confinement, credentials=credentials.absolute())
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
-        credentials=confinement.readable_credentials,
+        credentials=plan.credentials_of(Account.of_team(side)),
         robot=robot,
         brain=team.brain or "",
         stdio=list(program) if team.stdio else [],
         brain_folder=plan.brain_folder,
-        launch_folder=Path.cwd(),
         recording=plan.recording,
         reload=plan.reload and not team.stdio,
         launch_token=plan.launch_token,
     )
-    command = program if team.command else None
-    return replace(robot_process(settings, side, command, plan.folder), confinement=confinement)
+    return robot_process(settings, side, program if team.command else (), plan.folder, confinement)
 
 
-def robot_process(settings: AgentSettings, side: Side, command: Sequence[str] | None, folder: Path) -> Process:
-    """A robot's brain, or its team's own program, which reads what the settings say from its environment."""
+def robot_process(
+    settings: AgentSettings, side: Side, command: Sequence[str], folder: Path, confinement: Confinement
+) -> Process:
+    """A robot's brain, or its team's own program, which reads what the settings say from its environment.
+
+    Args:
+        settings: with paths that are valid in this process's folder; the robot works in that of its confinement.
+        command: the team's own program, with absolute paths; empty for a brain.
+    """
+    if settings.credentials is not None:
+        confinement = replace(confinement, credentials=settings.credentials.absolute())
+    found = {"credentials": confinement.readable_credentials, "launch_folder": settings.launch_folder or Path.cwd()}
+    return replace(_robot_process(settings.model_copy(update=found), side, command, folder), confinement=confinement)
+
+
+def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str], folder: Path) -> Process:
     credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
     environment = {
         **ROBOT_ENVIRONMENT,

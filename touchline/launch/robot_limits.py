@@ -6,7 +6,6 @@ from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_config import MatchConfig
 from schemas.process.clock import Clock
 from schemas.process.leash import adopt_orphans
-from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.control_groups import ControlGroups, control_groups
 from touchline.launch.processes import Process
@@ -24,7 +23,8 @@ class RobotLimits:
         self._groups: ControlGroups | None = None
         self._groups, self._why_no_groups = control_groups()
         self._is_asked = config.isolate is not Isolation.NONE or any(
-            part.model_fields_set for part in (config.limits, *(config.team(side).limits for side in Side))
+            part.model_fields_set
+            for part in (config.limits, *(config.team(side).limits for side in config.local_sides))
         )
         self._robots: dict[str, tuple[ProcessHandle, Limits]] = {}
         self._next_look = 0.0

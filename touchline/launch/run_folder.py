@@ -33,12 +33,7 @@ def prepare_run(
     """
     stem = f"{config.name}-{_moment(clock)}-seed{config.seed}"
     try:
-        if config.isolate is Isolation.USER:
-            os.umask(0o077)  # logs and recording are for none of the teams' users
-        folder = _new_folder(stem)
-        if config.isolate is Isolation.USER:
-            for one in (folder, folder.parent):
-                one.chmod(one.stat().st_mode | 0o011)  # robots enter their own folders in it
+        folder = _new_folder(stem, config.isolate)
         out = (recording or folder / RECORDING) if recorded else None
         refusal = _why_not_writable(out) if out is not None else ""
         if refusal:
@@ -50,14 +45,14 @@ def prepare_run(
     return plan
 
 
-def new_run_folder(name: str, clock: Clock) -> Path:
-    """A new folder of this name and the present moment.
+def new_run_folder(name: str, clock: Clock, isolate: Isolation = Isolation.NONE) -> Path:
+    """A new folder of this name and the present moment, for robots with this isolation.
 
     Raises:
         TouchlineError: the folder cannot be made.
     """
     try:
-        return _new_folder(f"{name}-{_moment(clock)}")
+        return _new_folder(f"{name}-{_moment(clock)}", isolate)
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; logs are written under ./{RUNS}") from None
 
@@ -102,8 +97,18 @@ def _why_not_writable(out: Path) -> str:
     return ""
 
 
-def _new_folder(stem: str) -> Path:
+def _new_folder(stem: str, isolate: Isolation) -> Path:
     """A new folder: two matches of the same second get different folders."""
+    if isolate is not Isolation.USER:
+        return _free_folder(stem)
+    os.umask(0o077)  # logs and recording are for none of the teams' users
+    folder = _free_folder(stem)
+    for one in (folder, folder.parent):
+        one.chmod(one.stat().st_mode | 0o011)  # robots enter their own folders in it
+    return folder
+
+
+def _free_folder(stem: str) -> Path:
     number = 1
     while True:
         folder = RUNS / (stem if number == 1 else f"{stem}-{number}")

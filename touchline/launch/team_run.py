@@ -9,16 +9,22 @@ from robot_agent.claim import Membership
 from robot_agent.runner import ask_setup
 from robot_agent.settings import AgentSettings
 from schemas.bus.contract import Bus
+from schemas.config.confinement import Isolation, Limits
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
 from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
+from touchline.launch.confinement import team_confinements, team_isolation_note
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.log_notes import LogNotes
 from touchline.launch.processes import ROBOT_ENVIRONMENT, Process, robot_process
+from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import AT_ONCE, Supervisor
+from touchline.launch.team_code import team_program
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
@@ -35,10 +41,14 @@ class TeamPlan:
     """Robots to launch; empty for all of the side."""
     agent: AgentSettings
     """Settings of each robot, but for its name."""
-    command: Sequence[str]
-    """The team's own program in place of a brain; empty for a brain."""
+    team: TeamConfig
+    """The brain, or the team's own program in place of it, and what its programs get of the environment."""
     folder: Path
-    """Holds settings and logs of the robots."""
+    """Holds settings, logs and working folders of the robots."""
+    isolate: Isolation
+    """What separates the robots from other programs of this machine."""
+    limits: Limits
+    """What each robot may use of this machine."""
 
 
 class TeamRun:
@@ -54,10 +64,15 @@ class TeamRun:
         setup = ask_setup(bus, plan.agent.patience)
         self._total = sum(len(team.robots) for team in setup.teams.values())
         self._robots = _chosen(plan, setup.teams[plan.side].robots)
+        self._config = _config_of(plan, setup.match, self._robots)
+        beside = plan.agent.brain_folder
+        self._confinement = team_confinements(self._config, beside, plan.folder.parent)[plan.side]
+        self._note = team_isolation_note(self._config, plan.side, beside)
         member = Membership(bus, self._robots[0], plan.agent.launch_token, plan.agent.match, plan.side)
         if not member.fits(setup):
             member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
         self._fork_server, self._log_limit, self._log_notes = ForkServer(), LogLimit(), LogNotes()
+        self._limits = RobotLimits(self._config, clock)
         self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
 
     def play(self) -> None:
@@ -69,14 +84,21 @@ class TeamRun:
         follower = MatchFollower(self._bus)
         with StopSignals() as stop:
             try:
-                self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                if self._plan.isolate is Isolation.NONE:
+                    self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                    self._limits.add_helpers()
+                for note in filter(None, (self._note, self._limits.note)):
+                    self._screen.warn(note)
                 self._supervisor.start()
                 self._screen.event(f"{', '.join(self._robots)} started; logs are in {self._plan.folder}", notable=True)
                 while stop.received is None and not self._has_ended(follower):
                     self._show(follower)
                     self._clock.sleep_until(self._clock.now() + _POLL_S)
             finally:
+                self._limits.look_before_the_end()
                 self._supervisor.end(AT_ONCE)
+                for sentence in self._limits.close():
+                    self._screen.warn(sentence)
         self._report_end(follower, interrupted=stop.received is not None)
 
     def _has_ended(self, follower: MatchFollower) -> bool:
@@ -90,6 +112,8 @@ class TeamRun:
             log = self._log_of(robot)
             for sentence in filter(None, (self._log_limit.check(log), *self._log_notes.update(log))):
                 self._screen.warn(sentence)
+        for sentence in self._limits.check():
+            self._screen.warn(sentence)
         for notice in self._supervisor.check():
             if self._supervisor.ended.get(notice.name) == 0 and follower.gone:
                 continue  # it has left with its host
@@ -114,21 +138,34 @@ class TeamRun:
 
     def _process(self, robot: str) -> Process:
         agent = self._plan.agent.model_copy(update={"robot": robot, "match": self._bus.match, "side": self._plan.side})
-        return robot_process(agent, self._plan.side, self._plan.command, self._plan.folder)
+        confinement = self._confinement.in_folder(self._plan.folder / robot)
+        program = team_program(self._config, self._plan.side, None) if self._plan.team.command else ()
+        return robot_process(agent, self._plan.side, program, self._plan.folder, confinement)
 
     def _log_of(self, robot: str) -> Path:
         return self._plan.folder / f"{robot}.log"
 
     def _launch(self, process: Process) -> ProcessHandle:
-        return self._fork_server.launch(process, self._log_of(process.name))
+        handle = self._fork_server.launch(self._limits.placed(process), self._log_of(process.name))
+        self._limits.launched(handle)
+        return handle
+
+
+def _config_of(plan: TeamPlan, match: str, robots: Sequence[str]) -> MatchConfig:
+    """The match as this machine launches it: one team, with its limits."""
+    own = plan.team.model_copy(update={"robots": list(robots)})
+    teams = {plan.side.value: own, plan.side.opponent.value: TeamConfig(remote=True)}
+    return MatchConfig(name=match, teams=TeamConfigs(**teams), isolate=plan.isolate, limits=plan.limits)
 
 
 def _chosen(plan: TeamPlan, robots: list[str]) -> list[str]:
     """The robots to launch.
 
     Raises:
-        TouchlineError: one of them is none of the side.
+        TouchlineError: one of them is none of the side, or the side has none.
     """
+    if not robots:
+        raise TouchlineError(f"no robots of {plan.side} take part in this match; ask for another match file")
     for robot in plan.robots:
         if robot not in robots:
             raise TouchlineError(

@@ -36,7 +36,7 @@ class TeamUser(NamedTuple):
 
 
 def team_users(config: MatchConfig) -> dict[Side, TeamUser]:
-    """The users of both teams.
+    """The users of the teams that are launched here.
 
     Raises:
         TouchlineError: this process may not change users, a user does not exist, or the teams share one.
@@ -46,10 +46,10 @@ def team_users(config: MatchConfig) -> dict[Side, TeamUser]:
             "--isolate user starts robots as other users, which only root may; "
             "run the match as root, or use --isolate bubblewrap"
         )
-    users = {side: _user(config, side) for side in Side}
-    first, second = users.values()
-    if first.user == second.user:
-        raise TouchlineError(f"isolate_users are both {first.name}; give each team a user of its own")
+    users = {side: _user(config, side) for side in config.local_sides}
+    if len({user.user for user in users.values()}) < len(users):
+        name = next(iter(users.values())).name
+        raise TouchlineError(f"isolate_users are both {name}; give each team a user of its own")
     return users
 
 

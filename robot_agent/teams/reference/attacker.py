@@ -27,6 +27,8 @@ _STEP = 2.0
 """m ahead that a dribble is judged by."""
 _WAYS = tuple(math.radians(angle) for angle in (0, 25, -25, 50, -50, 80, -80))
 """Directions of a dribble, from the kick axis's way to the goal."""
+_ENDS = 0.5
+"""Share of the speed near the end of the dribbling circle, where the robot has to be able to stop."""
 _TURN_RATE = 2.8
 """rad/s with the ball."""
 
@@ -69,7 +71,8 @@ def _best_pass(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters
     """The pass of the highest value; where a goal would not count, passes into the other half are worth more."""
     found = passes(ball, now.me.heading, now.mates, now.opponents, now.chosen, pitch, parameters)
     if not now.may_score:
-        found = [one._replace(value=one.value + 0.1 * one.chance * (one.target[0] > PREPARED)) for one in found]
+        bonus = parameters.pass_prepares
+        found = [one._replace(value=one.value + bonus * one.chance * (one.target[0] > PREPARED)) for one in found]
     return max(found, key=lambda one: one.value, default=None)
 
 
@@ -114,7 +117,7 @@ def _dribble(now: Situation, way: float, setup: Setup, limits: DriveLimits, para
     me, slow = now.me, limits.capped(parameters.dribble_speed, _TURN_RATE)
     blocked = circles(now.opponents, 2.0 * setup.robot.reach + setup.ball.radius + 0.2)
     ahead = max(0.25, math.cos(way - me.heading))
-    speed = parameters.dribble_speed * ahead
+    speed = parameters.dribble_speed * ahead * (_ENDS if now.must_pass else 1.0)
     vx, vy = steer(me, speed * math.cos(way), speed * math.sin(way), _STEP, blocked)
     facing = math.atan2(vy, vx)
     return Action(Role.ATTACKER, "dribble", drive(me, vx, vy, turn_rate(me, facing, slow), slow), dribble=True)

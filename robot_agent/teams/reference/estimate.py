@@ -49,7 +49,7 @@ class SharedEstimate(WorldModel):
         ball = sight.ball
         self.height = ball.z if ball is not None and ball.visible else None
         self.words = {
-            name: Words(float(received.extra.get("arrival", math.inf)) - received.age, received.age)
+            name: Words(arrival_in(received.extra) - received.age, received.age)
             for name, received in sight.radio.items()
             if received.age <= STALE
         }
@@ -79,6 +79,12 @@ def report(opponents: list[Point], me: Point, arrival: float) -> dict[str, float
     for index, (x, y) in enumerate(nearest):
         words[f"x{index}"], words[f"y{index}"] = round(x, 2), round(y, 2)
     return words
+
+
+def arrival_in(words: dict[str, float | int | bool | str]) -> float:
+    """When a teammate could be at the ball, in its words; infinite where they have no such number."""
+    arrival = words.get("arrival")
+    return float(arrival) if isinstance(arrival, float | int) else math.inf
 
 
 def reported(words: dict[str, float | int | bool | str]) -> list[Point]:

@@ -91,6 +91,7 @@ def _support(
             continue
         way = min(math.dist(place, robot) for robot in robots)
         value = 0.6 * chance(ball, place, opponents, parameters) + 1.2 * worth(place, opponents, pitch)
+        value += parameters.support_ahead * max(-3.0, min(3.0, place[0] - ball[0]))
         value -= parameters.support_sticks * min(way, 6.0)
         if value > most:
             best, most = place, value

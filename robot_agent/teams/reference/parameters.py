@@ -34,12 +34,20 @@ class Parameters:
     """m from the ball to a far supporter: a pass of 1.2 s."""
     support_apart: float = 3.0
     """m between two supporters, so that one opponent cannot cover both."""
-    support_sticks: float = 0.15
+    support_sticks: float = 0.08
     """Value of a place a metre that a robot does not have to drive: keeps the way of a match short."""
-    support_speed: float = 2.0
+    support_ahead: float = 0.06
+    """Value of a place a metre ahead of the ball: a goal needs a pass that is received in the other half."""
+    support_speed: float = 1.6
     """m/s; supporters walk: full speed would double their way and win nothing."""
-    settles: float = 1.3
+    settles: float = 2.0
     """m by which a place has to move before a robot follows it: the ball moves to and fro, robots need not."""
+    serves_near: float = 2.4
+    """m from ball and teammates, beyond which a supporter stays where a pass reaches it."""
+    serves_far: float = 7.5
+    """m from the ball, up to which it stays."""
+    serves_behind: float = 1.5
+    """m behind the ball, up to which it stays."""
     settles_close: float = 0.4
     """m of the same for a robot that blocks or marks."""
     guard_share: float = 0.42
@@ -77,6 +85,8 @@ class Parameters:
     """m ahead of a receiver that a through ball is played."""
     pass_bonus: float = 0.06
     """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
+    pass_prepares: float = 0.25
+    """Value of a pass into the other half, without which a goal would not count."""
     turn_cost: float = 0.04
     """Value a radian of turning: an opponent comes nearer meanwhile."""
     chosen_bonus: float = 0.06
@@ -95,13 +105,23 @@ class Parameters:
     """m of lane beyond the margin with which a shot is sure to score."""
     lob_nearest: float = 3.4
     """m; a nearer lob is still rising over the bar."""
-    lob_value: float = 0.55
-    """Share of lobs that score past a keeper on its line, by drill."""
+    lob_value: float = 0.9
+    """Share of lobs that score over a keeper before its line, by drill: 8 of 8 over `simple`'s, from 5 to 7 m."""
+    lob_on_line: float = 0.32
+    """Share of lobs that score past a keeper on its line, by drill: 2 of 7."""
+    off_line: float = 0.2
+    """m before the goal line, from where a keeper is too far out for a lob: hulls are 0.8 m high."""
+    keeper_unseen: float = 5.5
+    """m; from farther away a goal without a visible keeper is believed to have one: cameras reach 7 m."""
     lob_rises: float = 1.6
     """m after which a lob is above all hulls."""
     shot_worth: float = 0.3
     """Least chance of a goal for which a robot shoots."""
-    shot_error: float = 0.15
+    shot_closes: float = 0.075
+    """m that a keeper moves while a shot rolls a metre: 0.45 m in the 0.6 s of 6 m, at 2.5 m/s²."""
+    ground_range: float = 5.0
+    """m from which a ground shot passes a keeper, by drill: of 8 from 7 m none scored."""
+    shot_error: float = 0.08
     """m beside the target at most."""
 
     # Dribbling

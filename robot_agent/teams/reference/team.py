@@ -18,7 +18,7 @@ from robot_agent.teams.reference.estimate import SharedEstimate, report
 from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.keeper import fetches, guard
 from robot_agent.teams.reference.parameters import PARAMETERS, Parameters
-from robot_agent.teams.reference.passing import Pass
+from robot_agent.teams.reference.passing import Pass, chance
 from robot_agent.teams.reference.recovery import BackOut, home
 from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
 from robot_agent.teams.reference.set_pieces import KICK_OFF_TO, best_restart
@@ -216,12 +216,22 @@ class Reference(Player):
         """Hold the place; walk to it unless it defends."""
         defends = self._role in (Role.BLOCKER, Role.MARKER)
         near = self.parameters.settles_close if defends else self.parameters.settles
-        if self._place is None or math.dist(self._place, place) > near:
+        if self._place is None or (math.dist(self._place, place) > near and not self._still_serves(belief, spot)):
             self._place = place
         walks = not defends and belief.game.phase is TeamPhase.PLAY
         limits = self.limits.capped(self.parameters.support_speed) if walks else self.limits
         motion = stand(belief.me, self._place, belief.game, spot, belief.others, self.setup, limits)
         return Action(self._role, "hold", motion)
+
+    def _still_serves(self, belief: WorldBelief, ball: Point) -> bool:
+        """Whether a supporter can be passed to where it stands, so that it need not follow the ball."""
+        place = self._place
+        if self._role is not Role.SUPPORTER or place is None or belief.game.phase is not TeamPhase.PLAY:
+            return False
+        is_near = self.parameters.serves_near < math.dist(place, ball) < self.parameters.serves_far
+        is_free = all(math.dist(place, mate.body[:2]) > self.parameters.serves_near for mate in belief.mates.values())
+        is_ahead = place[0] > ball[0] - self.parameters.serves_behind
+        return is_near and is_free and is_ahead and chance(ball, place, belief.opponents, self.parameters) > 0.5
 
     def _before_own_goal(self, spot: Point) -> Point:
         """A place 1 m from the ball toward the own goal; the rules of the phase move it farther away."""

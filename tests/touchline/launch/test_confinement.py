@@ -6,14 +6,15 @@ from pathlib import Path
 import pytest
 
 from robot_agent.stdio.command_line import command_line
+from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.launch import team_user
 from touchline.launch.bubblewrap import bubblewrap
-from touchline.launch.confinement import Confinement, isolation_note, team_confinements
+from touchline.launch.confinement import Confinement, isolation_note, team_confinements, team_isolation_note
 from touchline.launch.robot_environment import robot_environment, server_environment
-from touchline.launch.team_user import TeamUser
+from touchline.launch.team_user import TeamUser, team_users
 
 
 @pytest.fixture
@@ -156,3 +157,23 @@ def test_a_missing_bubblewrap_is_named_with_the_command_that_installs_it(monkeyp
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(TouchlineError, match="needs the program bwrap; install it with: apt-get install bubblewrap"):
         team_confinements(load_match(None, {"isolate": "bubblewrap"}), None, Path("runs"))
+
+
+def test_a_side_that_another_machine_launches_needs_no_user_and_gets_no_confinement_here(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(team_user.os, "geteuid", lambda: 0)
+    config = load_match(None, {"teams.magenta.remote": True, "isolate_users": {"cyan": "nobody"}})
+    assert list(team_users(config)) == [Side.CYAN]
+    assert list(team_confinements(config, None, Path("runs"))) == [Side.CYAN]
+
+
+def test_a_team_of_its_own_gets_a_line_on_what_does_not_separate_it_from_the_machine(here: Path) -> None:
+    line = (
+        "robots run as your user: they can read your files and signal your processes; --isolate bubblewrap prevents it"
+    )
+    own, shipped = match_of("lions.brain:A", "robot_agent.teams.nubot:NuBot"), Side.MAGENTA
+    assert team_isolation_note(own, Side.CYAN, None) == line
+    assert team_isolation_note(own, shipped, None) == ""
+    isolated = own.model_copy(update={"isolate": Isolation.BUBBLEWRAP})
+    assert team_isolation_note(isolated, Side.CYAN, None) == ""

@@ -219,3 +219,16 @@ def test_a_recording_that_another_recorder_writes_is_left_to_it(
 def test_a_run_without_recording_has_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     assert prepare_run(load_match(None), "tcp/127.0.0.1:7447", None, SteppedClock(), recorded=False).recording is None
+
+
+def test_a_team_of_lines_has_agents_with_its_command_line_for_any_working_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "team").mkdir()
+    (tmp_path / "team" / "robot.js").touch()
+    whole = replace(plan(**{"teams.cyan": {"stdio": ["node", "robot.js", "--fast"]}}), brain_folder=Path("team"))
+    settings = by_name(whole)["cyan1"].settings
+    assert isinstance(settings, AgentSettings)
+    assert settings.stdio == ["node", str(tmp_path / "team" / "robot.js"), "--fast"]
+    assert settings.brain == ""

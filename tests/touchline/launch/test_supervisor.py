@@ -10,7 +10,7 @@ from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock, WallClock
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.processes import Process, ProcessKind
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, NEVER_BEGUN, Supervisor
 
 
 class Actor:
@@ -193,6 +193,20 @@ def test_an_abandoned_match_ends_its_host_first_and_gives_the_recorder_time() ->
     stage.supervisor.end(ABANDONED, should_abort=lambda: stage.clock.now() > 20.0)
     assert stage.cast["host"][-1].heard[0] == (0.0, signal.SIGTERM)
     assert stage.cast["recorder"][-1].heard == []
+
+
+def test_a_match_that_never_began_waits_two_seconds_for_its_recorder_which_may_wait_for_a_host() -> None:
+    stage = Stage(page=True)
+    stage.supervisor.end(NEVER_BEGUN)
+    heard = {name: launches[-1].heard for name, launches in stage.cast.items()}
+    assert heard.pop("recorder") == [(2.0, signal.SIGTERM)]
+    assert heard == {name: [(0.0, signal.SIGTERM)] for name in ("host", "cyan1", "magenta1", "page")}
+
+
+def test_a_match_that_never_began_ends_whatever_ignores_its_signal() -> None:
+    stage = Stage(deaf_to=frozenset({signal.SIGTERM}))
+    stage.supervisor.end(NEVER_BEGUN)
+    assert all(launches[-1].heard[-1][1] is signal.SIGKILL for launches in stage.cast.values())
 
 
 def test_a_process_without_restarts_is_reported_and_not_launched_again() -> None:

@@ -13,9 +13,21 @@ LIMITS = Limits(memory=2.0, processes=64, cpu_time=60.0)
     ("usage", "limit", "sentence"),
     [
         (Usage(2_000_000_000, 64, 60.0), None, ""),
-        (Usage(2_000_000_001, 64, 60.0), "memory", "it used more than 2 GB of memory; raise [limits] memory"),
-        (Usage(1, 65, 0.0), "processes", "it had more than 64 processes and threads; raise [limits] processes"),
-        (Usage(1, 1, 60.1), "cpu_time", "it used more than 60 s of CPU time; raise [limits] cpu_time"),
+        (
+            Usage(2_000_000_001, 64, 60.0),
+            "memory",
+            "it used more than 2 GB of memory; raise [limits] memory, or --memory of touchline team",
+        ),
+        (
+            Usage(1, 65, 0.0),
+            "processes",
+            "it had more than 64 processes and threads; raise [limits] processes, or --processes of touchline team",
+        ),
+        (
+            Usage(1, 1, 60.1),
+            "cpu_time",
+            "it used more than 60 s of CPU time; raise [limits] cpu_time, or --cpu-time of touchline team",
+        ),
     ],
 )
 def test_a_robot_may_use_its_limits_and_no_more(usage: Usage, limit: str | None, sentence: str) -> None:

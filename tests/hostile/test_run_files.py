@@ -1,0 +1,112 @@
+"""Files of a run: those with secrets are for their owner alone, whatever the umask of the shell allows."""
+
+import json
+import os
+import stat
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from coach_gateway.access.tokens import read_or_make
+from schemas.access.accounts import Account
+from schemas.access.credentials import account_file, credential_files, new_credentials, write_credentials
+from schemas.bus.announcement import Announcement, announced
+from schemas.config.confinement import Isolation
+from schemas.config.match_config import load_match
+from schemas.process.clock import WallClock
+from touchline.launch.child_process import write_settings_of
+from touchline.launch.processes import client_processes, host_process
+from touchline.launch.run_folder import new_run_folder, prepare_credentials, prepare_run
+
+NOBODY = 65534
+"""User and group without rights."""
+as_root = pytest.mark.skipif(os.geteuid() != 0, reason="only root can read files as another user")
+
+
+@pytest.fixture
+def folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder that every user may enter, and a shell that lets every user read new files."""
+    before = os.umask(0)
+    with tempfile.TemporaryDirectory(prefix="touchline-test-") as name:
+        Path(name).chmod(0o755)
+        monkeypatch.chdir(name)
+        yield Path(name)
+    os.umask(before)
+
+
+def mode(path: Path) -> int:
+    return stat.S_IMODE(path.stat().st_mode)
+
+
+def can_be_read_by_others(path: Path) -> bool:
+    read = subprocess.run(
+        ["cat", str(path)], user=NOBODY, group=NOBODY, extra_groups=[], capture_output=True, check=False
+    )
+    return read.returncode == 0
+
+
+def test_no_file_of_a_run_that_holds_a_secret_can_be_read_by_others(folder: Path) -> None:
+    """Settings of all processes, credentials and tokens; without credentials the secret of the launch."""
+    plan = prepare_run(load_match(None), "tcp/127.0.0.1:7447", None, WallClock())
+    protected = prepare_credentials(plan, tls=True)
+    for each in (plan, protected):
+        for process in (host_process(each), *client_processes(each)):
+            write_settings_of(replace(process, confinement=None))
+        for account in Account:
+            file = each.credentials_of(account)
+            assert file is None or mode(file) == 0o600
+    assert protected.credentials is not None
+    secrets = [json.loads(account_file(protected.credentials, one).read_text())["password"] for one in Account]
+    holders = [
+        path
+        for path in plan.folder.rglob("*")
+        if path.is_file() and any(word in path.read_text() for word in (*secrets, plan.launch_token or "-"))
+    ]
+    assert len(holders) > len(Account)
+    assert {mode(path) for path in holders} == {0o600}
+
+
+@as_root
+def test_another_user_reads_neither_credentials_nor_tokens_nor_settings(folder: Path) -> None:
+    plan = prepare_credentials(prepare_run(load_match(None), None, None, WallClock()), tls=False)
+    host = host_process(plan)
+    write_settings_of(host)
+    read_or_make(plan.tokens)
+    assert plan.credentials is not None and host.settings_file is not None
+    for path in (*credential_files(plan.credentials), plan.tokens, host.settings_file):
+        assert path.exists() and not can_be_read_by_others(path), path
+    (plan.folder / "host.log").touch()
+    assert can_be_read_by_others(plan.folder / "host.log")  # so the check can fail
+
+
+@as_root
+def test_a_run_with_users_of_its_own_is_closed_to_all_others(folder: Path) -> None:
+    """Robots enter their own folders in it, and list neither it nor that of all runs."""
+    run = new_run_folder("cup", WallClock(), Isolation.USER)
+    (run / "host.log").touch()
+    assert (mode(run), mode(run.parent)) == (0o711, 0o711)
+    assert not can_be_read_by_others(run / "host.log")
+
+
+def test_credentials_that_replace_readable_ones_are_for_their_owner_alone(tmp_path: Path) -> None:
+    folder = tmp_path / "credentials"
+    folder.mkdir()
+    for path in credential_files(folder):
+        path.touch(0o644)
+    write_credentials(folder, new_credentials())
+    assert {mode(path) for path in credential_files(folder)} == {0o600}
+
+
+def test_a_new_folder_of_credentials_is_closed_to_others(folder: Path) -> None:
+    write_credentials(folder / "credentials", new_credentials())
+    assert mode(folder / "credentials") == 0o700
+
+
+def test_the_announcement_of_a_host_and_its_folder_are_for_their_owner_alone(folder: Path) -> None:
+    path = folder / "hosts" / "1.json"
+    with announced(Announcement.of("friendly", "tcp/127.0.0.1:7447"), path):
+        assert (mode(path), mode(path.parent)) == (0o600, 0o700)

@@ -1,0 +1,28 @@
+import subprocess
+import sys
+
+import pytest
+
+FREED = """
+from schemas.process.large_blocks import return_large_blocks
+
+return_large_blocks() if {wanted} else None
+large, small = [], []
+for _ in range(2000):
+    large.append(b"x" * 60_000)
+    small.append(bytes(2_000))  # stays, so that the heap cannot shrink
+del large
+with open("/proc/self/statm") as file:
+    print(int(file.read().split()[1]) * 4096)
+"""
+
+
+def resident_mb(*, wanted: bool) -> float:
+    """Memory of a process that has freed 120 MB of large blocks between small ones."""
+    program = subprocess.run([sys.executable, "-c", FREED.format(wanted=wanted)], capture_output=True, check=True)
+    return int(program.stdout) / 1e6
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="glibc alone has the setting")
+def test_large_blocks_that_are_freed_between_small_ones_go_back_to_the_system() -> None:
+    assert resident_mb(wanted=False) - resident_mb(wanted=True) > 60.0
