@@ -55,7 +55,7 @@ def test_a_team_that_is_no_brain_in_python_is_refused() -> None:
 
 
 def test_each_shipped_team_is_known_by_its_name() -> None:
-    assert {"simple", "nubot"} <= set(shipped_teams())
+    assert {"simple", "nubot", "random"} <= set(shipped_teams())
     assert brain_of("nubot") == "robot_agent.teams.nubot:NuBot"
     assert brain_of("my_team:Striker") == "my_team:Striker"
     with pytest.raises(TouchlineError, match="did you mean"):
