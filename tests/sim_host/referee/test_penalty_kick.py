@@ -264,6 +264,14 @@ def sides(rig):
     )
 
 
+def test_people_may_count_a_penalty_of_the_shoot_out_for_the_side_that_takes_it_and_no_other(shoot_out):
+    side = shoot_out.state.side
+    (refused,) = shoot_out.ask("goal", side=side.opponent).replies
+    assert not refused.accepted and "is not taking a penalty" in refused.reason
+    (accepted,) = shoot_out.ask("goal", side=side).replies
+    assert accepted.accepted and shoot_out.state.shoot_out.goals.of(side) == 1
+
+
 @pytest.mark.parametrize("who", [0, 1])
 def test_an_attempt_that_misses_is_repeated_if_a_defender_left_its_place(shoot_out, who):
     side = shoot_out.state.side
