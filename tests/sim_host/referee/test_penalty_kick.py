@@ -264,6 +264,19 @@ def sides(rig):
     )
 
 
+@pytest.mark.parametrize("first", [True, False])
+def test_at_a_penalty_of_the_shoot_out_nobody_else_waits_beyond_the_halfway_line_at_either_end(shoot_out, first):
+    if not first:
+        attempt(shoot_out, scores=True)
+        wait(shoot_out)
+    side, state = shoot_out.state.side, shoot_out.state
+    end, restart = state.attack(side), state.restart
+    assert not position_faults(shoot_out.constants, state, restart, shoot_out.snapshot())
+    shoot_out.robots[f"{side}4"] = (0.5 * end, 4.0)
+    faults = position_faults(shoot_out.constants, state, restart, shoot_out.snapshot())
+    assert [fault.robot for fault in faults] == [f"{side}4"]
+
+
 def test_people_may_count_a_penalty_of_the_shoot_out_for_the_side_that_takes_it_and_no_other(shoot_out):
     side = shoot_out.state.side
     (refused,) = shoot_out.ask("goal", side=side.opponent).replies

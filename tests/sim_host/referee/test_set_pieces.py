@@ -72,7 +72,9 @@ def test_the_taker_may_touch_again_once_the_ball_is_in_play(rig, rolled, is_foul
     rig.tick(rig.ball, ["cyan2"])
     assert [foul.rule for foul in fouls(rig)] == (["double_touch"] if is_foul else [])
     if is_foul:
-        assert fouls(rig)[0].measured == pytest.approx(rolled)
+        (foul,) = fouls(rig)
+        assert foul.measured == pytest.approx(rolled)
+        assert (foul.place.x, foul.place.y) == pytest.approx(rig.ball[:2])
         assert rig.state.pending.side is MAGENTA
 
 

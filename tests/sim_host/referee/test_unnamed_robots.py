@@ -174,6 +174,18 @@ def test_a_default_that_has_left_meanwhile_is_replaced(box: RefereeRig) -> None:
     assert away(box) == {"cyan5": OffField.RED_CARD, "cyan4": OffField.REPAIR}
 
 
+def test_a_question_for_which_no_robot_is_left_is_closed_with_the_reason(box: RefereeRig) -> None:
+    for robot in ("cyan2", "cyan4"):
+        say(box, "repair", robot=robot)
+    say(box, "enter", CYAN)
+    for robot in ("cyan2", "cyan4"):
+        say(box, "enter", robot=robot)
+    box.run(10.1)
+    event = next(event for event in box.events if event.text.startswith("no enter for cyan"))
+    assert (event.rule, event.side, event.robot) == ("enter", CYAN, None)
+    assert not published(box).questions
+
+
 def test_a_question_ends_with_the_match(box: RefereeRig) -> None:
     say(box, "yellow_card", CYAN)
     say(box, "end_game")
