@@ -14,15 +14,13 @@ FIRST_SIGHT_FAILED = 3
 """Exit status of an agent whose brain failed at its first sight: it would fail again."""
 
 
-class AgentSettings(ClientSettings, LogSettings):
-    """One robot's process: its match, its name and its brain."""
+class AgentOptions(ClientSettings, LogSettings):
+    """One robot's process: its match, its name and its brain. Each field is an option of `touchline agent`."""
 
     robot: Annotated[Name, CommandLine(environment="TOUCHLINE_ROBOT")]
     """Name of the robot: cyan1, magenta3, …"""
     brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")] = ""
     """module:Class, or module:function of a plain act(sight)."""
-    stdio: list[str] = Field(default_factory=list)
-    """Command line of a program that reads sights and writes commands as lines of JSON, in place of a brain."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory; a match uses that of its file."""
     launch_folder: Path | None = None
@@ -37,3 +35,10 @@ class AgentSettings(ClientSettings, LogSettings):
     """Secret of the host that the agent joins; by default none."""
     patience: Annotated[float, Field(ge=0)] = 10.0
     """s of wall time to wait for a host that is not there."""
+
+
+class AgentSettings(AgentOptions):
+    """One robot's process, with a brain or a program."""
+
+    stdio: list[str] = Field(default_factory=list)
+    """Command line of a program that reads sights and writes commands as lines of JSON, in place of a brain."""

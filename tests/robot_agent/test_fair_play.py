@@ -101,8 +101,8 @@ def play(robot, sight_of, way, **seen):
     return command
 
 
-@pytest.mark.parametrize(("way", "lets_go"), [(1.9, False), (2.1, True)])
-def test_a_metre_before_the_circle_ends_the_ball_is_let_go(league, sight_of, way, lets_go):
+@pytest.mark.parametrize(("way", "lets_go"), [(1.6, False), (1.8, True)])
+def test_1_3_m_before_the_circle_ends_the_ball_is_let_go(league, sight_of, way, lets_go):
     robot = Simple(Briefing.of("cyan2", league))
     command = play(robot, sight_of, way)
     assert (command.kick is not None) is lets_go

@@ -51,7 +51,7 @@ def test_a_truncated_file_is_readable_up_to_the_cut(make_rig, share):
     rig = make_rig()
     rig.begin()
     clock = rig.recorder_bus.clock
-    for tick in range(600):
+    for tick in range(1200):
         rig.host.play(tick)
         clock.sleep_until(clock.now() + 0.02)
         rig.recorder.pump()
@@ -150,7 +150,7 @@ def test_what_a_later_version_added_to_the_manifest_is_passed_over(recorded, tmp
 
 def test_damage_inside_a_finished_file_is_reported_and_not_skipped(recorded):
     data = bytearray(recorded.path.read_bytes())
-    middle = data.rindex(b"zstd", 0, len(data) // 2) + 200
+    middle = data.index(b"zstd") + 200
     data[middle : middle + 40] = bytes(40)
     recorded.path.write_bytes(data)
     with pytest.raises(TouchlineError, match="damaged inside"):

@@ -189,6 +189,8 @@ def test_it_ends_with_its_input_and_otherwise_by_signal(bench) -> None:
 def test_it_has_no_secrets_of_the_network_in_its_environment(
     briefing: Briefing, sight_of, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    for name in [name for name in os.environ if name.startswith("TOUCHLINE_")]:
+        monkeypatch.delenv(name)
     monkeypatch.setenv("TOUCHLINE_LAUNCH_TOKEN", "secret")
     monkeypatch.setenv("TOUCHLINE_CREDENTIALS", "cyan.json")
     monkeypatch.setenv("TOUCHLINE_ROBOT", "cyan2")

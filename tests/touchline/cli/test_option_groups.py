@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from recordings.recorder.settings import RecorderSettings
-from robot_agent.settings import AgentSettings
+from robot_agent.settings import AgentOptions
 from schemas.bus.settings import ClientSettings, ListenSettings
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import RecordingConfig
@@ -25,7 +25,7 @@ from touchline.command_line import app as touchline
 
 COMMANDS: dict[str, tuple[type[Settings], ...]] = {
     "host": (HostSettings,),
-    "agent": (AgentSettings,),
+    "agent": (AgentOptions,),
     "record": (RecorderSettings,),
     "coach serve": (GatewaySettings,),
     "coach bridge": (ClientSettings, BridgeOptions),
