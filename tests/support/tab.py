@@ -67,7 +67,11 @@ class Tab:
 
     def wait_for_log(self, text: str) -> None:
         """Until the newest line of the log has this text."""
-        self.until(f"document.querySelector('#log li')?.textContent.includes({json.dumps(text)})")
+        try:
+            self.until(f"document.querySelector('#log li')?.textContent.includes({json.dumps(text)})")
+        except AssertionError:
+            log = self.ask("[...document.querySelectorAll('#log li')].slice(0, 5).map((line) => line.textContent)")
+            raise AssertionError(f"{text!r} is not the newest line of {log}") from None
 
     def at(self, x: float, y: float) -> tuple[float, float]:
         """Where a point of the field is in the window, in pixels."""
