@@ -60,6 +60,14 @@ class Tab:
     def button(self, action: str, side: str = "") -> Locator:
         return self.page.locator(f'[data-action="{action}"][data-side="{side}"]')
 
+    def press(self, action: str, side: str = "") -> None:
+        """Press a button once it is enabled. A host that is silent for a moment disables it: a click then is lost."""
+        found = json.dumps(f'[data-action="{action}"][data-side="{side}"]')
+        self.until(
+            f"(() => {{ const button = document.querySelector({found}); if (button.disabled) return false; "
+            "button.click(); return true; })()"
+        )
+
     def logged(self) -> str:
         """The newest line of the log, without its time."""
         line: str = self.page.locator("#log li").first.evaluate("(line) => line.lastChild.textContent.trim()")

@@ -29,7 +29,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
         tab.wait_for_log("Stop accepted")
         assert tab.page.locator("#layer-roles").is_checked()  # it had the focus, and was not switched
         tab.open("match")
-        tab.button("drop_ball").click()
+        tab.press("drop_ball")
         tab.wait_for_log("Drop ball accepted")
         tab.open("settings")
     assert "Corner" not in tab.page.locator("#log").inner_text()
@@ -38,7 +38,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
 def test_buttons_show_why_the_referee_has_refused(match, visit) -> None:
     tab = visit(match, "referee")
     tab.button("enter").page.locator("[data-robot=cyan1] .who").click()
-    tab.button("enter").click()
+    tab.press("enter")
     tab.until("document.querySelector('.verdict.refused')?.textContent.includes('cyan1 is on the field')")
     button, verdict = tab.button("enter").bounding_box(), tab.page.locator(".verdict").bounding_box()
     assert button and verdict
@@ -50,20 +50,20 @@ def test_buttons_show_why_the_referee_has_refused(match, visit) -> None:
 def test_every_restart_can_be_given_to_either_side(match, visit, side: Side) -> None:
     tab = visit(match, "referee")
     for phase in (Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW_IN, Phase.CORNER, Phase.PENALTY):
-        tab.button(phase.value, side.value).click()
+        tab.press(phase.value, side.value)
         match.until(lambda phase=phase: match.state.phase is phase and match.state.side is side)
-    tab.button("drop_ball").click()
+    tab.press("drop_ball")
     match.until(lambda: match.state.phase is Phase.DROP_BALL)
     tab.until_seen("ball", match.state.spot.x, match.state.spot.y)
-    tab.button("start").click()
+    tab.press("start")
     match.until(lambda: match.state.running)
 
 
 def test_goals_are_given_and_taken_back(match, visit) -> None:
     tab = visit(match, "referee")
-    tab.button("goal", "cyan").click()
+    tab.press("goal", "cyan")
     match.until(lambda: match.state.score.cyan == 1)
-    tab.button("cancel_goal", "cyan").click()
+    tab.press("cancel_goal", "cyan")
     match.until(lambda: match.state.score.cyan == 0)
 
 
@@ -72,14 +72,14 @@ def test_cards_repair_and_substitution_are_for_the_robot_that_is_chosen(match, v
     assert tab.button("yellow_card").is_disabled()
     assert tab.button("yellow_card").get_attribute("title") == "choose a robot first"
     tab.page.locator("#robot").select_option("magenta2")
-    tab.button("yellow_card").click()
+    tab.press("yellow_card")
     match.until(lambda: standing(match, "magenta2").yellow == 1)
-    tab.button("stop").click()
+    tab.press("stop")
     match.until(lambda: match.state.phase is Phase.STOPPED)
-    tab.button("substitute").click()
+    tab.press("substitute")
     match.until(lambda: standing(match, "magenta2").off_field == "substitution")
     tab.page.locator("#robot").select_option("cyan2")
-    tab.button("red_card").click()
+    tab.press("red_card")
     match.until(lambda: standing(match, "cyan2").red == 1)
 
 
@@ -87,10 +87,10 @@ def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
     match = match_of(still=True, referee={"mode": "mixed", "proposal": 60.0})
     tab = visit(match, "referee")
     match.until(lambda: match.state.phase is not Phase.PRE_GAME)
-    tab.button("drop_ball").click()
+    tab.press("drop_ball")
     match.until(lambda: match.state.phase in (Phase.DROP_BALL, Phase.PLAY))
     tab.until_seen("ball", 0.0, 0.0)
-    tab.button("start").click()
+    tab.press("start")
     match.until(lambda: match.state.phase is Phase.PLAY)
     tab.open("settings")
     tab.page.locator("#freely").check()
@@ -131,12 +131,12 @@ def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> No
 def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(resting, visit) -> None:
     match = resting
     tab = visit(match, "referee")
-    tab.button("start").click()
+    tab.press("start")
     tab.until("window.touchline.match.state?.running")
     ball = match.world["ball"]
     tab.drag((ball["x"], ball["y"]), (3.0, 2.0))
     tab.wait_for_log("the game is running; stop it first")
-    tab.button("drop_ball").click()
+    tab.press("drop_ball")
     match.until(lambda: match.state.phase is Phase.DROP_BALL)
     spot = match.state.spot
     assert spot is not None
@@ -150,7 +150,7 @@ def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(resting, vis
 def test_a_robot_is_moved_by_dragging_while_the_game_is_stopped(resting, visit) -> None:
     match = resting
     tab = visit(match, "referee")
-    tab.button("start").click()
+    tab.press("start")
     tab.until("window.touchline.match.state?.running")
     tab.drag(match.where("cyan1"), (-6.0, 5.0))
     tab.wait_for_log("Move cyan1 refused: the game is running")
@@ -166,7 +166,7 @@ def test_a_robot_is_moved_by_dragging_while_the_game_is_stopped(resting, visit) 
 
 def test_a_body_is_set_down_by_numbers_too(match, visit) -> None:
     tab = visit(match, "referee")
-    tab.button("stop").click()
+    tab.press("stop")
     match.until(lambda: match.state.phase is Phase.STOPPED)
     tab.open("settings")
     tab.page.locator("#place").click()
@@ -325,7 +325,7 @@ def test_while_a_referee_box_commands_all_buttons_are_locked_but_stop(match, vis
     box.declare_alive("refbox", "cyan")
     tab.until("document.querySelector('[data-action=corner]').disabled")
     assert "the referee box commands the match" in (tab.button("corner", "cyan").get_attribute("title") or "")
-    tab.button("stop").click()
+    tab.press("stop")
     match.until(lambda: match.state.phase is Phase.STOPPED)
     tab.wait_for_log("Stop accepted")
     box.close()
@@ -337,16 +337,16 @@ def test_a_page_takes_over_from_another_referee_and_leaves_the_seat(match, visit
     with match.medium.open_bus("friendly", WallClock()) as bus:
         other = HostClient(bus)
         assert other.act(RefereeAction(action=ActionName.DROP_BALL, source="another page")).accepted
-        tab.button("corner", "cyan").click()
+        tab.press("corner", "cyan")
         tab.wait_for_log(f"Corner, cyan refused: another page (gateway_{bus.name}) officiates; press Take over")
-        tab.button("take_seat").click()
+        tab.press("take_seat")
         tab.wait_for_log("Take over accepted")
-        tab.button("goal_kick", "cyan").click()  # another button: a second press right after the first does not count
+        tab.press("goal_kick", "cyan")  # another button: a second press right after the first does not count
         tab.wait_for_log("Goal kick, cyan accepted")
         match.until(lambda: match.state.phase is Phase.GOAL_KICK)
         refused = other.act(RefereeAction(action=ActionName.DROP_BALL, source="another page"))
         assert refused.reason.startswith("referee's page (gateway_")
-        tab.button("leave_seat").click()
+        tab.press("leave_seat")
         tab.wait_for_log("Leave accepted")
         assert other.act(RefereeAction(action=ActionName.DROP_BALL, source="another page")).accepted
 
