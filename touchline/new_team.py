@@ -8,7 +8,7 @@ from pathlib import Path
 from schemas.errors import TouchlineError
 
 TEMPLATE = "touchline.team_template"
-FILES = ("team_name.py", "match.toml", "test_team_name.py", "README.md")
+FILES = ("team_name.py", "match.toml", "test_team_name.py", "pytest.ini", "README.md")
 """The files of a team."""
 
 

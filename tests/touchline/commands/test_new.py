@@ -33,6 +33,7 @@ def test_its_files_bear_the_name_of_the_team(tmp_path: Path) -> None:
     assert sorted(file.name for file in folder.iterdir()) == [
         "README.md",
         "match.toml",
+        "pytest.ini",
         "red_devils.py",
         "test_red_devils.py",
     ]
