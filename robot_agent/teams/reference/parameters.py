@@ -153,8 +153,6 @@ class Parameters:
     """s of the stuck flag after which a robot backs out."""
     stuck_out: float = 0.7
     """s that it backs out."""
-    lost_after: float = 1.5
-    """s without a sight of the ball after which the nearest robot looks where it should be."""
 
 
 PARAMETERS = Parameters()

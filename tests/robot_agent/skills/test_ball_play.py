@@ -8,6 +8,7 @@ from robot_agent.bodies import Ball, Body
 from robot_agent.skills.dribble_to import SPEED, TURN_RATE, dribble_to
 from robot_agent.skills.intercept import meet, meeting_time, way_of
 from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.kick_on_the_run import kick_on_the_run
 from robot_agent.skills.line_up import behind, line_up
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_speed
 from robot_agent.skills.receive import receive
@@ -170,3 +171,15 @@ def test_a_ball_at_rest_that_was_expected_is_faced(limits):
     demand = receive(Body(0.0, 0.0, 0.0), Ball(0.0, 2.0), limits)
     assert (demand.vx, demand.vy) == (0.0, 0.0)
     assert demand.omega > 0.0
+
+
+def test_a_kick_on_the_run_keeps_the_speed_and_kicks_once_the_ball_passes_the_target(limits):
+    demand, kick = kick_on_the_run(Body(0.0, 0.0, 0.0, 2.0, 0.0), (8.0, 0.1), 9.0, 0.2, (2.0, 0.0), limits)
+    assert demand.vx == pytest.approx(2.0, abs=0.01)
+    assert kick is not None and kick.speed == 9.0
+
+
+def test_a_kick_on_the_run_slows_down_and_turns_while_the_target_is_beside_the_kick_axis(limits):
+    demand, kick = kick_on_the_run(Body(0.0, 0.0, 0.0, 2.0, 0.0), (4.0, 4.0), 9.0, 0.2, (2.0, 0.0), limits)
+    assert kick is None
+    assert math.hypot(demand.vx, demand.vy) < 1.4 and demand.omega > 0.0
