@@ -12,10 +12,11 @@ from robot_agent.skills.pass_to import pass_speed
 from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.action import Action
 from robot_agent.teams.reference.parameters import Parameters
-from robot_agent.teams.reference.passing import Pass, chance, cost_of_loss, passes, worth
+from robot_agent.teams.reference.passing import Pass, cost_of_loss, keeps_ball, passes, worth
 from robot_agent.teams.reference.roles import Role
 from robot_agent.teams.reference.shooting import Shot, best_shot
 from schemas.config.sections import Pitch
+from schemas.frames import wrap
 from schemas.messages.command import KickMode
 from schemas.messages.setup import Setup
 
@@ -48,23 +49,38 @@ class Situation(NamedTuple):
     must_pass: bool
 
 
-def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Parameters) -> tuple[Action, Pass | None]:
-    """One tick with the ball, and the pass that is aimed at."""
+class Choice(NamedTuple):
+    """What the robot with the ball does, and why."""
+
+    action: Action
+    aimed: Pass | None
+    """The pass that it aims at."""
+    weighed: dict[str, float]
+    """Chance of the best shot, values of the best pass and of the best dribble."""
+
+
+def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Choice:
+    """One tick with the ball."""
     me, pitch = now.me, setup.pitch
     gap = setup.dribble.gap
     ball = me.x + gap * math.cos(me.heading), me.y + gap * math.sin(me.heading)
     shot = best_shot(ball, me.heading, now.opponents, pitch, parameters) if now.may_score else None
     best = _best_pass(now, ball, pitch, parameters)
     way, dribble_worth = _best_dribble(now, ball, pitch, parameters)
+    weighed = {
+        "shot": shot.chance if shot is not None else 0.0,
+        "pass": best.value if best is not None else 0.0,
+        "dribble": dribble_worth,
+    }
     is_late = now.held > parameters.patience or now.must_pass
     nearest = min((math.dist(ball, opponent) for opponent in now.opponents), default=math.inf)
     least = parameters.shot_worth if nearest < parameters.shot_pressed else parameters.shot_waits
     least = parameters.shot_late if is_late else least
     if shot is not None and shot.chance > least and (best is None or shot.chance >= best.value - 0.1):
-        return _shoot(me, shot, setup, limits, parameters), None
+        return Choice(_shoot(me, shot, setup, limits, parameters), None, weighed)
     if best is not None and (best.value > dribble_worth or (is_late and best.chance > 0.2)):
-        return _pass(now, ball, best, setup, limits, parameters), best
-    return _dribble(now, way, setup, limits, parameters), None
+        return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
+    return Choice(_dribble(now, way, setup, limits, parameters), None, weighed)
 
 
 def _best_pass(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters) -> Pass | None:
@@ -80,15 +96,16 @@ def _best_dribble(now: Situation, ball: Point, pitch: Pitch, parameters: Paramet
     """The best direction to carry the ball, rad, and its value."""
     to_goal = math.atan2(-ball[1], pitch.goal_line - 1.5 - ball[0])
     best, most = to_goal, -math.inf
+    came = parameters.presses * _STEP / parameters.dribble_speed
     pressed = min((math.dist(ball, opponent) for opponent in now.opponents), default=9.0) < parameters.pressed
     for turn in _WAYS:
         way = to_goal + turn
         end = ball[0] + _STEP * math.cos(way), ball[1] + _STEP * math.sin(way)
         if abs(end[1]) > pitch.touch_line - 0.6 or end[0] > pitch.goal_line - 1.2:
             continue
-        sure = chance(ball, end, now.opponents, parameters)
-        value = sure * worth(end, now.opponents, pitch) - (1.0 - sure) * cost_of_loss(end, pitch, parameters)
-        value -= 0.02 * abs(turn)
+        sure = keeps_ball(ball, end, now.opponents, parameters)
+        value = sure * worth(end, now.opponents, pitch, came) - (1.0 - sure) * cost_of_loss(end, pitch, parameters)
+        value -= parameters.dribble_turn * abs(wrap(way - now.me.heading))
         if value > most:
             best, most = way, value
     return best, most - (0.1 if pressed else 0.0)

@@ -64,6 +64,9 @@ class Parameters:
     marks_before: float = -1.0
     """m; opponents without the ball are marked once the ball is behind this x."""
 
+    attack_lasts: float = 0.8
+    """s for which the places of an attack stay after the ball is contested or between two holders."""
+
     # Passes
     pass_least: float = 1.6
     """m; a shorter pass does not roll the metre that counts."""
@@ -71,8 +74,8 @@ class Parameters:
     """m; a longer pass takes over 2 s."""
     pass_arriving: float = 2.6
     """m/s when it arrives: the dribbler keeps it, and opponents have little time."""
-    pass_error: float = 0.2
-    """m beside the receiver at most: half a dribbler's reach by moving."""
+    pass_error: float = 0.35
+    """m beside the receiver at most: it moves as far while the ball rolls, and a kick that waits is lost."""
     intercept_reach: float = 0.45
     """m beside a lane within which an opponent has the ball without moving: hull, ball and noise."""
     intercept_speed: float = 1.3
@@ -83,13 +86,19 @@ class Parameters:
     """m of margin with which a pass is sure to arrive."""
     lead: float = 1.2
     """m ahead of a receiver that a through ball is played."""
-    pass_bonus: float = 0.06
+    pass_bonus: float = 0.16
     """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
     pass_prepares: float = 0.25
     """Value of a pass into the other half, without which a goal would not count."""
+    pass_mean_speed: float = 3.6
+    """m/s of a pass that arrives at `pass_arriving`, over its way."""
+    receiver_runs: float = 2.0
+    """m/s of a receiver that moves into a pass."""
+    turns: float = 2.6
+    """rad/s at which a robot turns with the ball, with its beginning and its end."""
     turn_cost: float = 0.04
-    """Value a radian of turning: an opponent comes nearer meanwhile."""
-    chosen_bonus: float = 0.06
+    """Value a radian of turning, beside the time for which opponents come nearer."""
+    chosen_bonus: float = 0.15
     """Value in favour of what was decided before: two equal choices would alternate with the noise."""
     chosen_near: float = 1.5
     """m; a target this close to the chosen one is the same: more than `lead`."""
@@ -139,6 +148,15 @@ class Parameters:
     # Dribbling
     dribble_speed: float = 2.2
     """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
+    contest: float = 0.6
+    """m from an opponent's centre to the ball at which it is contested: hull, ball, and a reach of the dribbler."""
+    presses: float = 2.4
+    """m/s at which an opponent comes to a robot that carries the ball."""
+    dribble_turn: float = 0.07
+    """Value a radian between the heading and a dribble's direction: a robot that turns away from its teammates cannot
+    pass any more."""
+    carry_sure: float = 0.8
+    """m of room beside a carried ball with which it is surely kept."""
     pressed: float = 1.1
     """m to an opponent ahead that presses."""
     patience: float = 3.0
