@@ -12,11 +12,10 @@ from robot_agent.skills.pass_to import pass_speed
 from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.action import Action
 from robot_agent.teams.reference.parameters import Parameters
-from robot_agent.teams.reference.passing import Pass, cost_of_loss, keeps_ball, passes, worth
+from robot_agent.teams.reference.passing import Pass, chance, cost_of_loss, passes, worth
 from robot_agent.teams.reference.roles import Role
 from robot_agent.teams.reference.shooting import Shot, best_shot
 from schemas.config.sections import Pitch
-from schemas.frames import wrap
 from schemas.messages.command import KickMode
 from schemas.messages.setup import Setup
 
@@ -96,16 +95,15 @@ def _best_dribble(now: Situation, ball: Point, pitch: Pitch, parameters: Paramet
     """The best direction to carry the ball, rad, and its value."""
     to_goal = math.atan2(-ball[1], pitch.goal_line - 1.5 - ball[0])
     best, most = to_goal, -math.inf
-    came = parameters.presses * _STEP / parameters.dribble_speed
     pressed = min((math.dist(ball, opponent) for opponent in now.opponents), default=9.0) < parameters.pressed
     for turn in _WAYS:
         way = to_goal + turn
         end = ball[0] + _STEP * math.cos(way), ball[1] + _STEP * math.sin(way)
         if abs(end[1]) > pitch.touch_line - 0.6 or end[0] > pitch.goal_line - 1.2:
             continue
-        sure = keeps_ball(ball, end, now.opponents, parameters)
-        value = sure * worth(end, now.opponents, pitch, came) - (1.0 - sure) * cost_of_loss(end, pitch, parameters)
-        value -= parameters.dribble_turn * abs(wrap(way - now.me.heading))
+        sure = chance(ball, end, now.opponents, parameters)
+        value = sure * worth(end, now.opponents, pitch) - (1.0 - sure) * cost_of_loss(end, pitch, parameters)
+        value -= 0.02 * abs(turn)
         if value > most:
             best, most = way, value
     return best, most - (0.1 if pressed else 0.0)

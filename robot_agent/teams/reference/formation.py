@@ -36,8 +36,6 @@ def places(
     """
     front = pitch.goal_line - pitch.penalty_area_depth - inset - 0.2
     found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))]
-    if attacks:
-        found.insert(0, Place(Role.SUPPORTER, _support(ball, [], opponents, robots, pitch, front, inset, parameters)))
     if not attacks and ball[0] < parameters.blocks_before:
         found.insert(0, Place(Role.BLOCKER, _before_goal(ball, parameters.block_distance, pitch, front)))
     if not attacks and ball[0] < parameters.marks_before:

@@ -86,19 +86,13 @@ class Parameters:
     """m of margin with which a pass is sure to arrive."""
     lead: float = 1.2
     """m ahead of a receiver that a through ball is played."""
-    pass_bonus: float = 0.16
+    pass_bonus: float = 0.06
     """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
     pass_prepares: float = 0.25
     """Value of a pass into the other half, without which a goal would not count."""
-    pass_mean_speed: float = 3.6
-    """m/s of a pass that arrives at `pass_arriving`, over its way."""
-    receiver_runs: float = 2.0
-    """m/s of a receiver that moves into a pass."""
-    turns: float = 2.6
-    """rad/s at which a robot turns with the ball, with its beginning and its end."""
     turn_cost: float = 0.04
-    """Value a radian of turning, beside the time for which opponents come nearer."""
-    chosen_bonus: float = 0.15
+    """Value a radian of turning: an opponent comes nearer meanwhile."""
+    chosen_bonus: float = 0.06
     """Value in favour of what was decided before: two equal choices would alternate with the noise."""
     chosen_near: float = 1.5
     """m; a target this close to the chosen one is the same: more than `lead`."""
@@ -148,15 +142,6 @@ class Parameters:
     # Dribbling
     dribble_speed: float = 2.2
     """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
-    contest: float = 0.6
-    """m from an opponent's centre to the ball at which it is contested: hull, ball, and a reach of the dribbler."""
-    presses: float = 2.4
-    """m/s at which an opponent comes to a robot that carries the ball."""
-    dribble_turn: float = 0.07
-    """Value a radian between the heading and a dribble's direction: a robot that turns away from its teammates cannot
-    pass any more."""
-    carry_sure: float = 0.8
-    """m of room beside a carried ball with which it is surely kept."""
     pressed: float = 1.1
     """m to an opponent ahead that presses."""
     patience: float = 3.0
