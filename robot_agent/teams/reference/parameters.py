@@ -140,7 +140,7 @@ class Parameters:
     """m beside the target at most."""
 
     # Dribbling
-    dribble_speed: float = 2.2
+    dribble_speed: float = 3.0
     """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
     pressed: float = 1.1
     """m to an opponent ahead that presses."""
