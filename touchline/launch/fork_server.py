@@ -22,7 +22,7 @@ from touchline.launch.child_process import (
     make_folder_of,
     write_settings_of,
 )
-from touchline.launch.processes import Process
+from touchline.launch.process_table import Process
 from touchline.launch.python_process import module_path_environment
 from touchline.launch.robot_environment import server_environment
 from touchline.launch.robot_fork import ROBOTS, RobotProcess

@@ -26,18 +26,13 @@ from touchline.launch.log_notes import LogNotes
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.page_probe import AddressLines
-from touchline.launch.processes import (
-    ROBOT_ENVIRONMENT,
-    MatchPlan,
-    Process,
-    ProcessKind,
-    client_processes,
-    host_process,
-)
+from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.processes import MatchPlan, client_processes, host_process
 from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
 from touchline.launch.robot_limits import RobotLimits
+from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, NEVER_BEGUN, EndStep, Supervisor
 from touchline.watch.screen import Screen

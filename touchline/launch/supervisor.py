@@ -13,7 +13,7 @@ from robot_agent.settings import FIRST_SIGHT_FAILED
 from schemas.config.settings_file import WRONG
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
-from touchline.launch.processes import Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
 
 
 class RunningProcess(Protocol):

@@ -23,7 +23,8 @@ from schemas.process.clock import WallClock
 from schemas.topics import SETUP
 from touchline.launch.child_process import ChildProcess, ProcessHandle
 from touchline.launch.fork_server import ForkedRobot, ForkServer
-from touchline.launch.processes import MatchPlan, Process, ProcessKind, client_processes
+from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.processes import MatchPlan, client_processes
 from touchline.series.processes import run_in_processes
 
 pytestmark = [
@@ -225,7 +226,8 @@ SUPERVISOR = """
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import ProcessKind, MatchPlan, Process, client_processes
+from touchline.launch.process_table import ProcessKind, Process
+from touchline.launch.processes import MatchPlan, client_processes
 from robot_agent.settings import AgentSettings
 folder, server = Path(sys.argv[1]), ForkServer()
 for name in sys.argv[2:]:
@@ -282,7 +284,7 @@ from pathlib import Path
 from robot_agent.settings import AgentSettings
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
 for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
     signal.signal(number, signal.SIG_IGN)
 folder = Path(sys.argv[1])

@@ -9,7 +9,7 @@ from robot_agent.settings import FIRST_SIGHT_FAILED, AgentSettings
 from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock, WallClock
 from touchline.launch.child_process import ChildProcess
-from touchline.launch.processes import Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, NEVER_BEGUN, Supervisor
 
 
@@ -353,7 +353,7 @@ def test_a_child_dies_with_a_supervisor_that_was_killed(tmp_path: Path) -> None:
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.child_process import ChildProcess
-from touchline.launch.processes import ProcessKind, Process
+from touchline.launch.process_table import ProcessKind, Process
 child = ChildProcess(Process("cyan1", ProcessKind.AGENT, ("sleep", "600"), {{}}), Path({str(tmp_path / "sleep.log")!r}))
 while b"sleep" not in Path(f"/proc/{{child.pid}}/cmdline").read_bytes().split(b"\\0")[:1]:
     pass
