@@ -8,7 +8,6 @@ from playwright.sync_api import BrowserContext, Locator, Page
 
 from support.page_gateway import SOON, TOKENS
 
-
 _APART_S = 0.5
 """Above `APART_MS` of `coach_gateway/web/page/presses.js`, s."""
 
