@@ -23,8 +23,8 @@ from schemas.process import leash
 from schemas.process.leash import adopt_orphans
 from schemas.side import Side
 from touchline.launch.confinement import Confinement, team_confinements
-from touchline.launch.processes import ROBOT_ENVIRONMENT
 from touchline.launch.python_process import PYTHON, module_path_environment
+from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.run_folder import RUNS
 from touchline.launch.usage_watch import UsageWatch
 

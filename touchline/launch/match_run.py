@@ -26,20 +26,15 @@ from touchline.launch.log_notes import LogNotes
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.page_probe import AddressLines
-from touchline.launch.processes import (
-    ROBOT_ENVIRONMENT,
-    MatchPlan,
-    Process,
-    ProcessKind,
-    client_processes,
-    host_process,
-)
+from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.processes import MatchPlan, client_processes, host_process
 from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
 from touchline.launch.robot_limits import RobotLimits
+from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, NEVER_BEGUN, EndStep, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor
 from touchline.watch.screen import Screen
 
 if TYPE_CHECKING:
@@ -119,10 +114,8 @@ class MatchRun:
                 self._end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                is_over = self._supervisor.host_status is not None
+                is_over = self._supervisor.host_status == 0
                 steps, keep = (AFTER_THE_MATCH, _AFTER_THE_RESULT) if is_over else (ABANDONED, _NONE)
-                if follower.state is None and self._supervisor.host_status != 0:
-                    steps, keep = NEVER_BEGUN, _NONE
                 self._end(steps, should_abort=lambda: stop.received is not None, keep=keep)
             if follower is None or empty is not None or stop.received is not None:
                 self._end(AT_ONCE)  # the remaining processes
