@@ -35,6 +35,7 @@ from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor
+from touchline.launch.team_error import TeamLeftError
 from touchline.watch.screen import Screen
 
 if TYPE_CHECKING:
@@ -99,7 +100,8 @@ class MatchRun:
 
         Raises:
             InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
-            MatchFailedError: the host ended before full time, or a team has no robot left.
+            TeamLeftError: a team has no robot left.
+            MatchFailedError: the host ended before full time.
             TouchlineError: the host could not start; the message is the host's.
         """
         with StopSignals() as stop:
@@ -123,7 +125,7 @@ class MatchRun:
             raise InterruptedMatchError(stop.received)
         try:
             if empty is not None:
-                raise MatchFailedError(self._abandonment(empty, follower))
+                raise TeamLeftError(empty, self._abandonment(empty, follower))
             return self._outcome(follower)
         except BaseException:
             self._supervisor.end(AT_ONCE)
