@@ -19,7 +19,10 @@ _LARGE_BYTES = 32_768
 
 def mapped(data: bytes) -> memoryview:
     """A copy of data, not empty, in a mapping of its own."""
-    block = mmap.mmap(-1, len(data))
+    if sys.platform == "win32":
+        block = mmap.mmap(-1, len(data))
+    else:  # half the time of a shared mapping, the default
+        block = mmap.mmap(-1, len(data), mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
     block.write(data)
     return memoryview(block)
 
