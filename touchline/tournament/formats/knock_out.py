@@ -33,6 +33,8 @@ class Bracket:
     fixtures: list[Fixture] = field(default_factory=list)
     """All fixtures whose teams are known."""
     third_place: Fixture | None = None
+    third: Place = Vacancy.OPEN
+    """The winner of the match for third place."""
     winner: Place = Vacancy.OPEN
 
 
@@ -96,6 +98,8 @@ def knock_out(
                 THIRD_PLACE, THIRD_PLACE, number + 1, (losers[0], losers[1]), best_of, decisive=True
             )
             bracket.fixtures.append(bracket.third_place)
+            result = results.get(THIRD_PLACE)
+            bracket.third = winner_of(result, earlier) if result is not None and result.is_over else Vacancy.OPEN
         line = winners
     bracket.winner = line[0]
     return bracket
