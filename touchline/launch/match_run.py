@@ -68,6 +68,15 @@ class InterruptedMatchError(Exception):
         self.number = number
 
 
+class EmptySideError(MatchFailedError):
+    """No robot of a side is left, or has come; `began` tells whether the match had begun."""
+
+    def __init__(self, text: str, side: Side, *, began: bool) -> None:
+        super().__init__(text)
+        self.side = side
+        self.began = began
+
+
 class MatchRun:
     """One match from launch to result."""
 
@@ -130,7 +139,8 @@ class MatchRun:
             raise InterruptedMatchError(stop.received)
         try:
             if empty is not None:
-                raise MatchFailedError(self._abandonment(empty, follower))
+                began = follower is not None and follower.state is not None
+                raise EmptySideError(self._abandonment(empty, follower), empty, began=began)
             return self._outcome(follower)
         except BaseException:
             self._supervisor.end(AT_ONCE)

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.match_parts import DEFAULT_SIZE
 from schemas.config.roster import MAX_ROBOTS
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
@@ -28,6 +29,8 @@ REMEDIES = {
 """Key → remedy for an invalid value."""
 _OWN_KEYS = ("teams", "seed", "name", "pace", "record")
 """Keys of a match file that a cup decides itself."""
+IN_PROCESS, PROCESSES = "in process", "processes"
+"""Ways to play a match."""
 _PROGRAMS = ("brain", "command", "stdio")
 MOST_TEAMS = 64
 
@@ -56,8 +59,6 @@ class TeamEntry(Part):
     """The team's robots are started on another machine."""
     version: str = ""
     """Version of the team, for display."""
-    folder: str = ""
-    """The folder of its code, beside the cup file or absolute; empty for that of the cup file."""
     challenge: float = 0.0
     """Points of the technical challenge, a tie-break."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] | None = None
@@ -142,6 +143,10 @@ class CupConfig(Part):
     """Seed from which those of all matches follow, and of lots."""
     way: Literal["in process", "processes"] = "in process"
     """How matches are played: brains in Python and stdio programs in one process, or each robot in a process."""
+    size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
+    """Number of robots of each team."""
+    hang: Annotated[float, Field(ge=1, le=3600)] = 20.0
+    """Wall time in s for one decision of a brain, or for building it, after which its team forfeits."""
     format: FormatConfig = FormatConfig()
     """The format."""
     table: TableConfig = TableConfig()
@@ -163,9 +168,9 @@ class CupConfig(Part):
         if own is not None:
             raise ValueError(f"match.{own} is decided by the cup; leave it out")
         for team in self.teams:
-            if self.way == "in process" and (team.remote or team.command is not None):
+            if self.way == IN_PROCESS and (team.remote or team.command is not None):
                 kind = "remote" if team.remote else "a program on the network"
-                raise ValueError(f'team "{team.name}" is {kind}; write way = "processes"')
+                raise ValueError(f'team "{team.name}" is {kind}; write way = "{PROCESSES}"')
         if problem := _format_problem(self.format, len(names)):
             raise ValueError(problem)
         if self.until_significant is not None and self.format.kind is not FormatKind.ROUND_ROBIN:
