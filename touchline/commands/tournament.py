@@ -54,9 +54,9 @@ def tournament(
     if folder is not None:
         raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
     from touchline.series.processes import cores
-    from touchline.series.progress import progress_of
     from touchline.tournament.cup_config import SignificanceConfig, load_cup
     from touchline.tournament.playing.run_cup import CupRun
+    from touchline.tournament.progress import progress_of
     from touchline.tournament.ratings import need_scipy
     from touchline.tournament.serve import served
 
@@ -74,12 +74,11 @@ def tournament(
         if web:
             typer.echo(f"pages  {stack.enter_context(served(place, port))}", err=json)
         state, interrupted = run.state, False
-        over = sum(one.ended is not None for one in state.matches)
         try:
-            with progress_of(len(state.matches) - over, cup.title or cup.name) as report:
+            with progress_of(state) as report:
 
-                def ended(_: "CupState", slot: "Slot", end: "Ended") -> None:
-                    report(_sentence(slot, end))
+                def ended(now: "CupState", slot: "Slot", end: "Ended") -> None:
+                    report(now, _sentence(slot, end))
 
                 state = run.play(jobs or cores(), ended)
         except KeyboardInterrupt:

@@ -10,10 +10,13 @@ from typing import Self
 from recordings.reading.recording import Recording, open_recording
 from schemas.access.accounts import Account
 from schemas.bus.outcome_file import read_outcome
+from schemas.config.match_config import MatchConfig
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.messages.health import Health, RobotHealth
 from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import HEALTH
+from sim_host.server.account_limits import CUT_OFF, OVER_RATE
 from touchline.launch.check_brains import check_teams
 from touchline.launch.confinement import team_confinements
 from touchline.launch.match_run import EmptySideError, MatchRun
@@ -25,6 +28,10 @@ from touchline.tournament.playing.planned_match import PlannedMatch
 
 _SIGN_S = 0.5
 """Wall time between two signs of life."""
+_SILENT_TICKS = 50
+"""Sights in a row that no robot of a side has answered after which the side counts as hung."""
+_BREACHES = (OVER_RATE, CUT_OFF)
+"""Reasons for dropped messages of which one is enough: more than 250 useless messages in a quarter of a second."""
 _NOTES = "launch.log"
 
 
@@ -99,25 +106,42 @@ def _launched(planned: PlannedMatch, plan: MatchPlan, notes: _Notes) -> Outcome:
         return _kept(planned, notes, plan.folder, Outcome.failed(kind, error.side, str(error)))
     except (TouchlineError, MatchFailedError) as error:
         return _kept(planned, notes, plan.folder, Outcome.failed(FailureKind.WORKER, None, str(error)))
-    recording = open_recording(planned.recording)
-    for side in Side:
-        breach = breach_of(recording, side)
-        if breach is not None:
-            notes.warn(breach)
-            return _kept(planned, notes, plan.folder, Outcome.failed(FailureKind.BROKE_ACCESS_RULES, side, breach))
+    recording, config = open_recording(planned.recording), planned.config
+    health = last_health(recording)
+    for kind, reason_of in ((FailureKind.BROKE_ACCESS_RULES, breach_of), (FailureKind.HUNG, silence_of)):
+        for side in Side:
+            reason = reason_of(health, config, side)
+            if reason is not None:
+                return _kept(planned, notes, plan.folder, Outcome.failed(kind, side, reason))
     return recorded_outcome(recording)
 
 
-def breach_of(recording: Recording, side: Side) -> str | None:
-    """How the account of a side broke the access rules of the bus, by the host's last report; None if it did not."""
+def last_health(recording: Recording) -> Health | None:
+    """The host's last report on its clients; None without one."""
     last = None
     for _, health in recording.decoded(HEALTH.key):
         last = health
-    account = last.accounts.get(Account.of_team(side).value) if last is not None else None
-    if account is None or not account.cut_off:
+    return last
+
+
+def breach_of(health: Health | None, _: MatchConfig, side: Side) -> str | None:
+    """How the account of a side broke the limits of the bus; None if it did not.
+
+    Messages on keys that it has no right to are no breach: they never pass the router.
+    """
+    account = health.accounts.get(Account.of_team(side).value) if health is not None else None
+    dropped = {reason: account.dropped.get(reason, 0) for reason in _BREACHES} if account is not None else {}
+    counts = ", ".join(f"{count} messages were dropped: {reason}" for reason, count in dropped.items() if count)
+    return f"account {side.value}: {counts}" if counts else None
+
+
+def silence_of(health: Health | None, config: MatchConfig, side: Side) -> str | None:
+    """Since when no robot of a side answers; None if one does."""
+    robots = [health.robots.get(name, RobotHealth()) for name in config.robots(side)] if health is not None else []
+    missed = min((one.missed_in_a_row for one in robots), default=0)
+    if missed < _SILENT_TICKS:
         return None
-    dropped = ", ".join(f"{count} {reason}" for reason, count in account.dropped.items())
-    return f"account {side.value} was cut off: it went on above its limit of messages ({dropped} were dropped)"
+    return f"none of its robots has answered the last {missed} sights"
 
 
 def _kind(culprit: Side | None) -> FailureKind:
