@@ -55,8 +55,6 @@ class TeamEntry(Part):
     """Command line of a program in any language, which joins on the network."""
     stdio: list[str] | None = None
     """Command line of a program that reads sights and writes commands as lines."""
-    remote: bool = False
-    """The team's robots are started on another machine."""
     version: str = ""
     """Version of the team, for display."""
     challenge: float = 0.0
@@ -67,9 +65,9 @@ class TeamEntry(Part):
     @model_validator(mode="after")
     def _check_one_program(self) -> "TeamEntry":
         given = [kind for kind in _PROGRAMS if getattr(self, kind) is not None]
-        if len(given) + self.remote != 1:
-            found = " and ".join(given + ["remote"] * self.remote) or "none"
-            raise ValueError(f'"{self.name}" has {found}; give one of brain, command, stdio and remote')
+        if len(given) != 1:
+            found = " and ".join(given) or "none"
+            raise ValueError(f'"{self.name}" has {found}; give one of brain, command and stdio')
         return self
 
 
@@ -168,9 +166,8 @@ class CupConfig(Part):
         if own is not None:
             raise ValueError(f"match.{own} is decided by the cup; leave it out")
         for team in self.teams:
-            if self.way == IN_PROCESS and (team.remote or team.command is not None):
-                kind = "remote" if team.remote else "a program on the network"
-                raise ValueError(f'team "{team.name}" is {kind}; write way = "{PROCESSES}"')
+            if self.way == IN_PROCESS and team.command is not None:
+                raise ValueError(f'team "{team.name}" is a program on the network; write way = "{PROCESSES}"')
         if problem := _format_problem(self.format, len(names)):
             raise ValueError(problem)
         if self.until_significant is not None and self.format.kind is not FormatKind.ROUND_ROBIN:

@@ -92,6 +92,5 @@ def _team(entry: TeamEntry, cup: CupConfig) -> TeamConfig:
         brain=brain,
         command=entry.command,
         stdio=entry.stdio,
-        remote=entry.remote,
         size=entry.size or cup.size,
     )

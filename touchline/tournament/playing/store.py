@@ -34,6 +34,7 @@ class CupStore:
             try:
                 fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
+                self._lock.close()
                 raise TouchlineError(f"{folder}: another process plays this cup; wait for it, or end it") from None
         elif not path.exists():
             raise TouchlineError(f"{folder}: has no {DATABASE}; give the folder of a cup")

@@ -73,6 +73,6 @@ def _progress(state: CupState, *, running: bool) -> str:
 def _teams(state: CupState) -> str:
     rows = []
     for team in state.cup.teams:
-        program = team.brain or " ".join(team.command or team.stdio or ["remote"])
+        program = team.brain or " ".join(team.command or team.stdio or [])
         rows.append((team_link(team.name), escape(team.version), escape(program)))
     return table(("team", "version", "program"), rows, "teams")

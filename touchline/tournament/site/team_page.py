@@ -11,7 +11,7 @@ from touchline.tournament.site.markup import page, section
 
 def team_page(state: CupState, team: TeamEntry, digest: str | None, rated: Ratings | None, *, running: bool) -> str:
     """The page; `digest` is that of its files."""
-    program = team.brain or " ".join(team.command or team.stdio or ["remote"])
+    program = team.brain or " ".join(team.command or team.stdio or [])
     facts = [("program", program), ("version", team.version), ("digest of its files", digest or "")]
     for stage, rows in state.schedule.tables.items():
         row = next((one for one in rows if one.team == team.name), None)
