@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 from recordings.stats.figures import MatchFigures, SideFigures
-from schemas.game import Card
 from touchline.series.plan import PlannedMatch
 
 
@@ -24,12 +23,6 @@ class TeamRow:
     """Robots without the goalkeeper."""
     field_distance: float
     """Sum of their ways while the game clock ran, in m."""
-    penalties: int | None = None
-    """Goals of the penalty shoot-out; None without one."""
-    yellows: int = 0
-    """Yellow cards."""
-    reds: int = 0
-    """Red cards."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +92,4 @@ def _team_row(figures: MatchFigures, side: SideFigures) -> TeamRow:
         possession_s=side.possession_s or 0.0,
         field_robots=len(field),
         field_distance=sum(robot.clock_distance for robot in field),
-        penalties=side.shoot_out,
-        yellows=side.cards.get(Card.YELLOW.value, 0),
-        reds=side.cards.get(Card.RED.value, 0),
     )
