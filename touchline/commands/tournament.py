@@ -53,7 +53,7 @@ def tournament(
         return
     if folder is not None:
         raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
-    from touchline.series.processes import cores
+    from touchline.scheduling.child_processes import cores
     from touchline.tournament.cup_config import SignificanceConfig, load_cup
     from touchline.tournament.playing.run_cup import CupRun
     from touchline.tournament.progress import progress_of
@@ -111,7 +111,7 @@ def _print(state: "CupState", folder: Path, *, json: bool) -> None:
 
 
 def _verify(folder: Path, jobs: int, sample: int, *, json: bool) -> None:
-    from touchline.series.processes import cores
+    from touchline.scheduling.child_processes import cores
     from touchline.tournament.playing.verify_cup import verify_cup
 
     faults, checked = verify_cup(folder, jobs or cores(), sample)

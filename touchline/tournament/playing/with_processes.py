@@ -19,9 +19,10 @@ from schemas.topics import HEALTH
 from sim_host.server.account_limits import CUT_OFF, OVER_RATE
 from touchline.launch.check_brains import check_teams
 from touchline.launch.confinement import team_confinements
-from touchline.launch.match_run import EmptySideError, MatchRun
+from touchline.launch.match_run import MatchRun
 from touchline.launch.processes import MatchPlan
 from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run
+from touchline.launch.team_error import TeamLeftError
 from touchline.tournament.playing.in_process import Poll, Report, recorded_outcome
 from touchline.tournament.playing.outcome import FailureKind, Outcome
 from touchline.tournament.playing.planned_match import PlannedMatch
@@ -32,6 +33,8 @@ _SILENT_TICKS = 50
 """Sights in a row that no robot of a side has answered after which the side counts as hung."""
 _BREACHES = (OVER_RATE, CUT_OFF)
 """Reasons for dropped messages of which one is enough: more than 250 useless messages in a quarter of a second."""
+_BEFORE = "before it began"
+"""Part of the reason of a match that a side left before its first state."""
 _NOTES = "launch.log"
 
 
@@ -101,8 +104,8 @@ def _play(planned: PlannedMatch) -> Outcome:
 def _launched(planned: PlannedMatch, plan: MatchPlan, notes: _Notes) -> Outcome:
     try:
         MatchRun(plan, notes, WallClock(), lambda _: {}, lambda one: read_outcome(one.outcome)).play()
-    except EmptySideError as error:
-        kind = FailureKind.CRASHED if error.began else FailureKind.DID_NOT_START
+    except TeamLeftError as error:
+        kind = FailureKind.DID_NOT_START if _BEFORE in str(error) else FailureKind.CRASHED
         return _kept(planned, notes, plan.folder, Outcome.failed(kind, error.side, str(error)))
     except (TouchlineError, MatchFailedError) as error:
         return _kept(planned, notes, plan.folder, Outcome.failed(FailureKind.WORKER, None, str(error)))
