@@ -10,13 +10,12 @@ A match of 600 s is 2 × 5 minutes, by the rules `msl` with the default noise an
 import argparse
 import itertools
 import sys
-from contextlib import closing
 
 from schemas.config.match_config import load_match
-from touchline.series.match_row import FailedMatch, MatchRow
+from touchline.scheduling.child_processes import cores
+from touchline.series.match_row import FailedMatch, MatchRow, Row
 from touchline.series.plan import SeriesPlan, plan_series
-from touchline.series.play_planned import play_all
-from touchline.series.processes import cores
+from touchline.series.play_series import play_series
 from touchline.series.summary import summary_of
 from touchline.series.table import figure_rows
 from touchline.series.team_names import brain_of, shipped_teams
@@ -72,14 +71,13 @@ def main() -> int:
     columns = ["team", "against", "matches", "won–drawn–lost", *ROWS.values()]
     print(f"| {' | '.join(columns)} |\n|{' --- |' * len(columns)}")
     for first, second in itertools.combinations(teams, 2):
-        plan, rows = plan_of(first, second, options), []
-        with closing(play_all(plan.matches, options.jobs or cores())) as outcomes:
-            for outcome in outcomes:
-                if isinstance(outcome, FailedMatch):
-                    failures.append(outcome)
-                    print(f"{first} – {second}, seed {outcome.seed}: {outcome.reason}", file=sys.stderr)
-                else:
-                    rows.append(outcome)
+        plan, ended = plan_of(first, second, options), list[Row]()
+        play_series(plan, options.jobs or cores(), ended.append)
+        rows = [row for row in ended if isinstance(row, MatchRow)]
+        for row in ended:
+            if isinstance(row, FailedMatch):
+                failures.append(row)
+                print(f"{first} – {second}, seed {row.seed}: {row.reason}", file=sys.stderr)
         if rows:
             print("\n".join(lines_of(plan, rows)), flush=True)
     played = f"{options.matches} matches of {options.duration:g} s a pairing, sides swapped"

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from recordings.container.key_selection import KeySelection
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
@@ -35,7 +36,8 @@ class MatchRecording:
         self._clock = WallClock()
         host, recorder = (medium.open_bus(config.name, clock) for clock in (self._clock, WallClock()))
         loss_counts = LossCounts()
-        self._sink = open_sink(path, recorder.clock, config.name, loss_counts)
+        wanted = config.record
+        self._sink = open_sink(path, recorder.clock, config.name, loss_counts, viz=wanted.viz)
         host.declare_alive(PresenceKind.HOST, "host")
         setup = host.serve(SETUP)
         self._batches = BatchPublisher(host)
@@ -43,7 +45,13 @@ class MatchRecording:
         self._sent = host.subscribe(COMMAND)
         self._debug, self._state = DebugPublisher(self._batches, simulation.profile.time.tick), simulation.state
         self._robots = {name: host.publisher(COMMAND, robot=name) for name in simulation.roster.names}
-        self._recorder = Recorder(recorder, self._sink, loss_counts, config=config)
+        self._recorder = Recorder(
+            recorder,
+            self._sink,
+            loss_counts,
+            selection=KeySelection(tuple(wanted.include), tuple(wanted.exclude)),
+            config=config,
+        )
         self._recorder.pump()  # asks for the setup
         while (query := setup.receive()) is not None:
             query.reply(simulation.setup())

@@ -38,6 +38,14 @@ class MatchOutcome:
     events: list[GameEvent] = field(default_factory=list)
 
 
+class RobotNotStartedError(TouchlineError):
+    """The brain or the program of a robot cannot be started."""
+
+    def __init__(self, robot: str, reason: str) -> None:
+        super().__init__(reason)
+        self.robot = robot
+
+
 class InProcessMatch:
     """One match laid out in one process: brains around a simulation, stepped by hand."""
 
@@ -47,7 +55,8 @@ class InProcessMatch:
         """Brains by robot; the others are those of the match file, looked for in `brain_folder` first.
 
         Raises:
-            TouchlineError: a brain cannot be loaded, or is for a robot that is not in the match.
+            RobotNotStartedError: a brain cannot be loaded.
+            TouchlineError: a brain is for a robot that is not in the match.
         """
         self.acting: str | None = None
         """The robot whose brain acts; after an exception, the robot whose brain raised it."""
@@ -62,9 +71,13 @@ class InProcessMatch:
         teams = {name: config.team(side) for side in Side for name in config.robots(side)}
         if unknown := next((name for name in given if name not in teams), None):
             raise TouchlineError(f"{unknown} is no robot with a brain in this match; {did_you_mean(unknown, teams)}")
-        self.brains = {
-            name: _start(given.get(name, team), Briefing.of(name, setup), brain_folder) for name, team in teams.items()
-        }
+        self.brains: dict[str, Brain] = {}
+        for name, team in teams.items():
+            try:
+                self.brains[name] = _start(given.get(name, team), Briefing.of(name, setup), brain_folder)
+            except TouchlineError as error:
+                self.close()
+                raise RobotNotStartedError(name, str(error)) from error
 
     def close(self) -> None:
         """Free the engine, and end the programs that were started for the match."""

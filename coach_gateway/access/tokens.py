@@ -4,13 +4,13 @@ import hmac
 import json
 import os
 import secrets
-import stat
 import tempfile
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Self
 
 from coach_gateway.access.roles import Role
+from schemas.access.private_file import check_private
 from schemas.errors import TouchlineError
 
 _MIN_LENGTH = 8
@@ -100,14 +100,12 @@ def _make(path: Path) -> Tokens:
 def _read(path: Path) -> Tokens:
     try:
         with path.open("rb") as file:
-            open_to = stat.S_IMODE(os.fstat(file.fileno()).st_mode)
+            check_private("--tokens", path, file)
             content = json.loads(file.read())
     except OSError as error:
         raise TouchlineError(f"--tokens {path} cannot be read ({error.strerror}); name another file") from None
     except ValueError:
         raise TouchlineError(f"--tokens {path} is not JSON; delete it, and it is created again") from None
-    if open_to & 0o077:
-        raise TouchlineError(f"--tokens {path} may be read by others (mode {open_to:o}); chmod 600 {path}")
     names = [field.name for field in fields(Tokens)]
     given = [content.get(name) for name in names] if isinstance(content, dict) else []
     tokens = [token for token in given if isinstance(token, str) and len(token) >= _MIN_LENGTH]

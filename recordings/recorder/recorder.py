@@ -89,7 +89,10 @@ class Recorder:
         self._control_service = ControlService(bus, name, sink)
 
     def run(self, should_stop: Callable[[], bool]) -> RecordingSummary:
-        """Record until the host has left or `should_stop()` is true, read the last messages, and finish."""
+        """Record until the host has left or `should_stop()` is true, read the last messages, and finish.
+
+        A recorder that is stopped while its host is gone has waited for its return: it ends as without one.
+        """
         stopped = False
 
         def poll() -> bool:
@@ -101,6 +104,8 @@ class Recorder:
             return stopped
 
         run_in_idle_time(poll)
+        self._host.update()
+        stopped = stopped and self._host.is_reachable()
         self.drain(_QUIET_S if stopped else _DRAIN_S)
         return self.finish(stopped)
 

@@ -40,6 +40,8 @@ class MatchTick:
     """Bodies that were placed by hand before this tick."""
     kick: Kick | None = None
     """The commanded kick of the robot whose kick was carried out."""
+    chain: str | None = None
+    """The hash chain after this tick; None if its inputs are missing."""
 
     @property
     def dt(self) -> float:
@@ -104,14 +106,15 @@ def match_ticks(setup: Setup, messages: Iterable[tuple[int, Any]]) -> Iterator[M
             before = None
         if last is not None:
             yield last
-        last = MatchTick(world, before, newest, state, lineup, tuple(events), frozenset(placed), _kick(world, applied))
+        chain, kick = (applied.chain, _kick(world, applied)) if applied is not None else (None, None)
+        last = MatchTick(world, before, newest, state, lineup, tuple(events), frozenset(placed), kick, chain)
         before, state, events = world, newest, []
         placed.clear()
     if last is not None:
         yield replace(last, state=newest, events=(*last.events, *events))
 
 
-def _kick(world: World, applied: Applied | None) -> Kick | None:
-    if world.kicked is None or applied is None or world.kicked not in applied.inputs:
+def _kick(world: World, applied: Applied) -> Kick | None:
+    if world.kicked is None or world.kicked not in applied.inputs:
         return None
     return applied.inputs[world.kicked].kick

@@ -16,6 +16,7 @@ from pydantic import Field, ValidationError
 
 from schemas.access.accounts import Account
 from schemas.access.certificates import Certificate
+from schemas.access.private_file import check_private
 from schemas.errors import TouchlineError
 from schemas.wire.message import Part
 
@@ -106,7 +107,7 @@ def read_credentials(path: Path) -> Credentials:
     """The credentials of an account.
 
     Raises:
-        TouchlineError: the file cannot be read, or is no file of an account.
+        TouchlineError: the file cannot be read, is no file of an account, or other users may read it.
     """
     return _read(Credentials, path, "an account's file, such as cyan.json")
 
@@ -115,7 +116,7 @@ def read_host_credentials(path: Path) -> HostCredentials:
     """The credentials of a host.
 
     Raises:
-        TouchlineError: the file cannot be read, or is not the file of a host.
+        TouchlineError: the file cannot be read, is not the file of a host, or other users may read it.
     """
     credentials = _read(HostCredentials, path, f"the host's file, {HOST_FILE}")
     missing = [account.value for account in Account if account not in credentials.passwords]
@@ -129,7 +130,9 @@ _REMEDY = "`touchline credentials new` writes such files"
 
 def _read(model: type[C], path: Path, what: str) -> C:
     try:
-        content = json.loads(path.read_text("utf-8"))
+        with path.open("rb") as file:
+            check_private("--credentials", path, file)
+            content = json.loads(file.read())
     except OSError as error:
         raise TouchlineError(f"--credentials {path}: {error.strerror}; {_REMEDY}") from None
     except ValueError:

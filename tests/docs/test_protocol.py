@@ -19,7 +19,8 @@ from schemas.protocol.page import page
 from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server import agent_stats, pace
-from touchline.launch.processes import MatchPlan, ProcessKind, client_processes
+from touchline.launch.process_table import ProcessKind
+from touchline.launch.processes import MatchPlan, client_processes
 from touchline.launch.supervisor import AFTER_THE_MATCH
 
 MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))

@@ -26,8 +26,8 @@ robots = ["magenta1", "magenta2"]
 """
 
 
-def play(start, folder, endpoint):
-    (folder / "match.toml").write_text(MATCH)
+def play(start, folder, endpoint, changes=""):
+    (folder / "match.toml").write_text(changes + MATCH)
     words = ("match.toml", "--seed", "7", "--record", "m.mcap", "--json", "--listen", endpoint)
     return start("touchline", "match", *words, folder=folder)
 
@@ -37,7 +37,7 @@ def worlds(recording):
 
 
 def test_a_match_whose_disk_is_full_has_its_result_and_names_what_is_left(start, tmp_path, endpoint):
-    program = play(start, tmp_path, endpoint)
+    program = play(start, tmp_path, endpoint, "patience.recorder = 1.0")
     resource.prlimit(program.popen.pid, resource.RLIMIT_FSIZE, (FULL, FULL))  # before its processes, which inherit it
     assert program.status() == 1
     result = json.loads(program.out)

@@ -36,8 +36,15 @@ class Match:
                         waiting.discard(robot)
             return None if waiting else log.tick
 
-        tick: int = self.log.until(playing, f"commands of {robots}")
+        try:
+            tick: int = self.log.until(playing, f"commands of {robots}")
+        except AssertionError as error:
+            raise AssertionError("\n".join([str(error), *map(self._state_of, sorted(waiting))])) from None
         return tick
+
+    def _state_of(self, robot: str) -> str:
+        program = self.field.programs[robot]
+        return f"{robot}: status {program.popen.poll()}, stderr: {program.err}"
 
     def listen_again(self) -> None:
         """Receive from the host that plays now."""

@@ -8,6 +8,9 @@ from playwright.sync_api import BrowserContext, Locator, Page
 
 from support.page_gateway import SOON, TOKENS
 
+_APART_S = 0.5
+"""Above `APART_MS` of `coach_gateway/web/page/presses.js`, s."""
+
 
 class Tab:
     """The page in a browser, with its errors."""
@@ -17,6 +20,7 @@ class Tab:
         self.page: Page = context.new_page()
         self.faults: list[str] = []
         self.requests: list[str] = []
+        self._pressed: dict[tuple[str, str], float] = {}
         self.loses_its_server = False
         """Whether errors about a missing server are expected."""
         self.origin = origin
@@ -61,12 +65,12 @@ class Tab:
         return self.page.locator(f'[data-action="{action}"][data-side="{side}"]')
 
     def press(self, action: str, side: str = "") -> None:
-        """Press a button once it is enabled. A host that is silent for a moment disables it: a click then is lost."""
-        found = json.dumps(f'[data-action="{action}"][data-side="{side}"]')
-        self.until(
-            f"(() => {{ const button = document.querySelector({found}); if (button.disabled) return false; "
-            "button.click(); return true; })()"
-        )
+        """Press a button; not so soon after its last press that the page takes both for a double click."""
+        apart = self._pressed.get((action, side), -_APART_S) + _APART_S - time.monotonic()
+        if apart > 0:
+            self.page.wait_for_timeout(1000 * apart)
+        self.button(action, side).click()
+        self._pressed[action, side] = time.monotonic()
 
     def logged(self) -> str:
         """The newest line of the log, without its time."""

@@ -45,8 +45,8 @@ def drill(
     """
     options.need_pybullet()
     from touchline.drill.play_drill import play_drills
-    from touchline.series.processes import cores
-    from touchline.series.progress import progress_of
+    from touchline.scheduling.child_processes import cores
+    from touchline.scheduling.progress import progress_of
 
     if jobs < 0:
         raise TouchlineError(f"--jobs is {jobs}; give a number of drills at a time, or 0 for one per core")

@@ -2,8 +2,6 @@
 
 import shutil
 import sys
-from collections import Counter
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -25,7 +23,6 @@ from touchline.cli.option_groups import FieldsOf, with_option_groups
 if TYPE_CHECKING:
     import socket
 
-    from schemas.bus.contract import ReceivedMessage
     from schemas.process.clock import Clock
     from touchline.launch.processes import MatchPlan, Page
     from touchline.launch.result import MatchResult
@@ -180,12 +177,13 @@ def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
 
     With a page it returns when the page with the result is closed.
     """
+    from touchline.launch.match_files import losses_of, published_by
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
     from touchline.watch.screen import screen_for
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
-            run = MatchRun(plan, screen, clock, _losses, _published)
+            run = MatchRun(plan, screen, clock, losses_of, published_by)
             result = run.play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
@@ -207,23 +205,3 @@ def _print_result(result: "MatchResult", *, json: bool) -> None:
     from touchline.cli.console import console
 
     console().print(result.render())
-
-
-def _published(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
-    """Events and the last state of the game, as the host has left them."""
-    from schemas.bus.outcome_file import read_outcome
-
-    return read_outcome(plan.outcome)
-
-
-def _losses(plan: "MatchPlan") -> dict[str, int]:
-    """Key → number of messages missing in the recording; keys without loss are left out."""
-    if plan.recording is None:
-        return {}
-    from recordings.inspection.recording_facts import facts_of
-    from recordings.reading.recording import open_recording
-
-    losses: Counter[str] = Counter()
-    for file in plan.recording_files:
-        losses.update({key.key: key.lost for key in facts_of(open_recording(file)).keys if key.lost})
-    return dict(losses)

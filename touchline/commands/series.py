@@ -3,7 +3,6 @@
 import dataclasses
 import json as json_text
 import signal
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,9 +16,8 @@ from touchline.cli.errors import FAILED
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
-    from touchline.series.match_row import FailedMatch, MatchRow
+    from touchline.series.match_row import FailedMatch, MatchRow, Row
     from touchline.series.plan import SeriesPlan
-    from touchline.series.play_planned import Outcome
     from touchline.series.summary import Summary
 
 _TEAM_HELP = "The team in {}: the name of a shipped team, or module:Class; by default that of the match file."
@@ -58,10 +56,10 @@ def series(
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
     options.need_pybullet()
+    from touchline.scheduling.child_processes import cores
+    from touchline.scheduling.progress import progress_of
     from touchline.series.plan import plan_series, with_brains
-    from touchline.series.play_planned import play_all
-    from touchline.series.processes import cores
-    from touchline.series.progress import progress_of
+    from touchline.series.play_series import play_series
     from touchline.series.seeds import seeds_of
     from touchline.series.table import sentence_of
     from touchline.series.team_names import brain_of
@@ -80,19 +78,19 @@ def series(
         config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None, record=record
     )
     _check(plan)
-    outcomes: list[Outcome] = []
+    rows: list[Row] = []
     interrupted = False
     try:
-        with (
-            closing(play_all(plan.matches, jobs or cores())) as played,
-            progress_of(len(plan.matches), " – ".join(plan.teams)) as report,
-        ):
-            for outcome in played:
-                outcomes.append(outcome)
-                report(sentence_of(outcome, plan))
+        with progress_of(len(plan.matches), " – ".join(plan.teams)) as report:
+
+            def add(row: "Row") -> None:
+                rows.append(row)
+                report(sentence_of(row, plan))
+
+            play_series(plan, jobs or cores(), add)
     except KeyboardInterrupt:
         interrupted = True
-    failed = _print(plan, outcomes, json=json)
+    failed = _print(plan, rows, json=json)
     if interrupted:
         raise typer.Exit(128 + signal.SIGINT)
     if failed:
@@ -104,19 +102,19 @@ def _check(plan: "SeriesPlan") -> None:
     from touchline.play import InProcessMatch
 
     for swapped in (False, True):
-        planned = next((one for one in plan.matches if one.swapped is swapped), None)
-        if planned is not None:
-            InProcessMatch(planned.config, brain_folder=planned.brain_folder).close()
+        match = next((one for one in plan.matches if one.swapped is swapped), None)
+        if match is not None:
+            InProcessMatch(match.config, brain_folder=match.planned.brain_folder).close()
 
 
-def _print(plan: "SeriesPlan", outcomes: "list[Outcome]", *, json: bool) -> bool:
+def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
     """Print the figures; returns whether a match has failed."""
     from touchline.series.match_row import FailedMatch, MatchRow
     from touchline.series.summary import summary_of
     from touchline.series.table import sentence_of
 
-    rows = sorted((one for one in outcomes if isinstance(one, MatchRow)), key=lambda one: one.number)
-    failed = sorted((one for one in outcomes if isinstance(one, FailedMatch)), key=lambda one: one.number)
+    rows = sorted((one for one in ended if isinstance(one, MatchRow)), key=lambda one: one.number)
+    failed = sorted((one for one in ended if isinstance(one, FailedMatch)), key=lambda one: one.number)
     summary = summary_of(rows)
     if json:
         parts = {"summary": summary, "matches": rows, "failed": failed}

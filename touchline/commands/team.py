@@ -10,7 +10,7 @@ from robot_agent.settings import AgentSettings
 from schemas.access.accounts import Account
 from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_config import MatchConfig
-from schemas.config.match_parts import TeamConfig
+from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
@@ -39,6 +39,7 @@ def team(
 
     The host runs elsewhere, with `touchline host` or `touchline match --remote`. Logs are written under ./runs/.
     Robots are limited and isolated from this machine as those of a match: docs/isolation.md.
+    With --reload, brains that were edited play on from the next episode.
 
     Example: touchline team magenta --connect tcp/192.168.1.5:7447 --brain my_team:Striker
     """
@@ -46,6 +47,7 @@ def team(
     from schemas.bus.zenoh.bus import ZenohBus, open_client
     from schemas.bus.zenoh.waiting_client import open_when_there
     from schemas.process.clock import WallClock
+    from touchline.launch.check_brains import check_reload
     from touchline.launch.run_folder import new_run_folder
     from touchline.launch.team_run import TeamPlan, TeamRun
     from touchline.watch.screen import screen_for
@@ -60,6 +62,9 @@ def team(
     own = from_options(TeamConfig, brain=brain, command=own_program, stdio=program or None, **passed)
     isolate = Isolation(isolation.get("isolate", Isolation.NONE))
     limited = from_options(Limits, **limits)
+    if settings.reload:
+        teams = TeamConfigs(**{side.value: own, side.opponent.value: TeamConfig(remote=True)})
+        check_reload(MatchConfig(teams=teams, isolate=isolate))
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:

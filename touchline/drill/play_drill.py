@@ -11,8 +11,8 @@ from touchline.drill.judge import Verdict
 from touchline.drill.occurrences import OccurrenceTracker
 from touchline.drill.scene_run import run_scene
 from touchline.play import InProcessMatch
-from touchline.series.play_planned import reason_of
-from touchline.series.processes import DiedProcess, run_in_processes
+from touchline.scheduling.child_processes import DiedProcessError, run_in_processes
+from touchline.scheduling.in_process import reason_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,4 +58,4 @@ def play_drills(drills: Iterable[PlannedDrill], jobs: int) -> Generator[DrillRow
     """Play drills in up to `jobs` processes at a time; yields each as it ends. Closing it ends the processes."""
     with closing(run_in_processes(play_drill, drills, jobs)) as results:
         for planned, result in results:
-            yield DrillRow(planned.seed, None, result.reason) if isinstance(result, DiedProcess) else result
+            yield DrillRow(planned.seed, None, str(result)) if isinstance(result, DiedProcessError) else result

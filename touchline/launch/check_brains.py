@@ -9,8 +9,8 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Mapping
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
@@ -23,9 +23,10 @@ from schemas.process import leash
 from schemas.process.leash import adopt_orphans
 from schemas.side import Side
 from touchline.launch.confinement import Confinement, team_confinements
-from touchline.launch.processes import ROBOT_ENVIRONMENT
 from touchline.launch.python_process import PYTHON, module_path_environment
+from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.run_folder import RUNS
+from touchline.launch.team_error import TeamError
 from touchline.launch.usage_watch import UsageWatch
 
 NOTICE_S = 3.0
@@ -45,15 +46,17 @@ def check_teams(
     """Check both teams; `report` receives a line if that takes long. Brains are confined as those of the match.
 
     Raises:
-        TouchlineError: a program does not exist, or a brain cannot be built; the message names its key.
+        TeamError: a program does not exist, or a brain cannot be built; the message names its key.
+        TouchlineError: this machine cannot isolate the teams as the match file asks.
     """
     here = config.local_sides
     for side in here:
         team = config.team(side)
-        if team.command is not None:
-            check_command_line(f"teams.{side.value}.command", team.command)
-        if team.stdio is not None:
-            check_command_line(f"teams.{side.value}.stdio", team.stdio, brain_folder)
+        with _blamed_on(side):
+            if team.command is not None:
+                check_command_line(f"teams.{side.value}.command", team.command)
+            if team.stdio is not None:
+                check_command_line(f"teams.{side.value}.stdio", team.stdio, brain_folder)
     confinements = confinements or team_confinements(config, brain_folder, RUNS)
     adopt_orphans()
     with ExitStack() as running:
@@ -65,7 +68,16 @@ def check_teams(
             checks.append(_BuildCheck(config, side, brain_folder, log, confinements[side].in_folder(folder)))
             running.callback(checks[-1].end)
         for check in checks:
-            check.wait(report)
+            with _blamed_on(check.side):
+                check.wait(report)
+
+
+@contextmanager
+def _blamed_on(side: Side) -> Iterator[None]:
+    try:
+        yield
+    except TouchlineError as error:
+        raise TeamError(side, str(error)) from None
 
 
 def check_reload(config: MatchConfig) -> None:
@@ -87,6 +99,7 @@ class _BuildCheck:
         self, config: MatchConfig, side: Side, brain_folder: Path | None, log: BinaryIO, confinement: Confinement
     ) -> None:
         """The process writes into `log`."""
+        self.side = side
         self._key = f"teams.{side.value}.brain"
         self._brain = config.team(side).brain
         robots = len(config.robots(side))

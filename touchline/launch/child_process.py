@@ -16,8 +16,8 @@ from schemas.process import leash
 from schemas.process.leash import OwnConfinement
 from schemas.process.process_log import message_of
 from touchline.launch.control_groups import end_group, killed_for_memory
+from touchline.launch.process_table import Process
 from touchline.launch.process_tree import tree_of
-from touchline.launch.processes import Process
 
 _TAIL_BYTES = 8192
 _SIGNAL_IN_BUBBLEWRAP = 128

@@ -1,21 +1,19 @@
-"""Launches robots with the standard library's fork server, which has the common modules imported.
+"""Launches robots with a fork server of the standard library, which has the common modules imported.
 
 A robot is launched by its command line instead if the kernel is not Linux, if the robot has its own program, or if it
 is restarted after a crash, or if it is isolated.
 """
 
-import multiprocessing
 import os
 import signal
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from multiprocessing import forkserver, resource_tracker
+from multiprocessing import Pipe, resource_tracker
 from multiprocessing.connection import Connection
-from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 
-from robot_agent.forked import PRELOAD, SAFE_PATH, run_forked
+from robot_agent.forked import SAFE_PATH, run_forked
 from robot_agent.settings import AgentSettings
 from touchline.launch.child_process import (
     ChildProcess,
@@ -24,9 +22,10 @@ from touchline.launch.child_process import (
     make_folder_of,
     write_settings_of,
 )
-from touchline.launch.processes import Process
+from touchline.launch.process_table import Process
 from touchline.launch.python_process import module_path_environment
 from touchline.launch.robot_environment import server_environment
+from touchline.launch.robot_fork import ROBOTS, RobotProcess
 
 _PATIENCE_S = 2.0
 """Wall time for a forked robot to lead its process group; normally a few milliseconds."""
@@ -35,9 +34,7 @@ _PATIENCE_S = 2.0
 class ForkedRobot(ProcessHandle):
     """A robot from the fork server: a child of that server, which reports its exit status."""
 
-    def __init__(
-        self, process: Process, log: Path, begin: int, robot: ForkServerProcess, group_ready: Connection
-    ) -> None:
+    def __init__(self, process: Process, log: Path, begin: int, robot: RobotProcess, group_ready: Connection) -> None:
         """`group_ready` closes as soon as the robot group_ready its process group."""
         super().__init__(process, log, begin)
         self._robot, self._group_ready = robot, group_ready
@@ -60,7 +57,7 @@ class ForkServer:
     """Launches robots; the server starts with the first robot and ends with this process."""
 
     def __init__(self) -> None:
-        self._context = multiprocessing.get_context("forkserver") if sys.platform == "linux" else None
+        self._can_fork = sys.platform == "linux"
         self._launched: set[str] = set()
 
     def launch(self, process: Process, log: Path) -> ProcessHandle:
@@ -75,34 +72,33 @@ class ForkServer:
 
     def prepare(self, environment: Mapping[str, str]) -> None:
         """Start the server, which imports what robots need while this process goes on."""
-        if self._context is None:
+        if not self._can_fork:
             return
-        self._context.set_forkserver_preload(list(PRELOAD))
         safe = {**server_environment(environment), **module_path_environment(), SAFE_PATH: "1"}
         try:
             with _environment(safe):
                 resource_tracker.ensure_running()  # when it starts, it unblocks the signal
                 with _blocked(signal.SIGINT):
-                    forkserver.ensure_running()
+                    ROBOTS.ensure_running()
         except OSError:
-            self._context = None
+            self._can_fork = False
 
     def _fork(self, process: Process, settings: AgentSettings, log: Path) -> ForkedRobot | None:
         """The robot; None without a fork server."""
         self.prepare(process.environment)
-        if self._context is None:
+        if not self._can_fork:
             return None
         write_settings_of(process)
         make_folder_of(process)
         with log.open("ab") as out:
             begin = out.tell()
-        group_ready, held = self._context.Pipe(duplex=False)
-        robot = self._context.Process(target=run_forked, args=(settings, *confinement_of(process), str(log), held))
+        group_ready, held = Pipe(duplex=False)
+        robot = RobotProcess(target=run_forked, args=(settings, *confinement_of(process), str(log), held))
         try:
             with held:
                 robot.start()
         except (OSError, EOFError):
-            self._context = None
+            self._can_fork = False
             return None
         return ForkedRobot(process, log, begin, robot, group_ready)
 

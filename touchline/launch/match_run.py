@@ -26,20 +26,16 @@ from touchline.launch.log_notes import LogNotes
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.page_probe import AddressLines
-from touchline.launch.processes import (
-    ROBOT_ENVIRONMENT,
-    MatchPlan,
-    Process,
-    ProcessKind,
-    client_processes,
-    host_process,
-)
+from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.processes import MatchPlan, client_processes, host_process
 from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
 from touchline.launch.robot_limits import RobotLimits
+from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, NEVER_BEGUN, EndStep, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor
+from touchline.launch.team_error import TeamLeftError
 from touchline.watch.screen import Screen
 
 if TYPE_CHECKING:
@@ -104,7 +100,8 @@ class MatchRun:
 
         Raises:
             InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
-            MatchFailedError: the host ended before full time, or a team has no robot left.
+            TeamLeftError: a team has no robot left.
+            MatchFailedError: the host ended before full time.
             TouchlineError: the host could not start; the message is the host's.
         """
         with StopSignals() as stop:
@@ -119,10 +116,8 @@ class MatchRun:
                 self._end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                is_over = self._supervisor.host_status is not None
+                is_over = self._supervisor.host_status == 0
                 steps, keep = (AFTER_THE_MATCH, _AFTER_THE_RESULT) if is_over else (ABANDONED, _NONE)
-                if follower.state is None and self._supervisor.host_status != 0:
-                    steps, keep = NEVER_BEGUN, _NONE
                 self._end(steps, should_abort=lambda: stop.received is not None, keep=keep)
             if follower is None or empty is not None or stop.received is not None:
                 self._end(AT_ONCE)  # the remaining processes
@@ -130,7 +125,7 @@ class MatchRun:
             raise InterruptedMatchError(stop.received)
         try:
             if empty is not None:
-                raise MatchFailedError(self._abandonment(empty, follower))
+                raise TeamLeftError(empty, self._abandonment(empty, follower))
             return self._outcome(follower)
         except BaseException:
             self._supervisor.end(AT_ONCE)

@@ -1,12 +1,9 @@
-"""The processes of a match: the table of kinds, and the programs to launch for a match file."""
+"""The processes of a match: the programs to launch for a match file."""
 
 import socket
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from enum import StrEnum
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any
 
 from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
@@ -16,47 +13,13 @@ from schemas.access.accounts import Account
 from schemas.access.credentials import HOST_FILE, account_file
 from schemas.bus.endpoint import is_loopback, local_endpoint
 from schemas.config.match_config import MatchConfig
-from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
 from touchline.launch.confinement import Confinement, team_confinements
-from touchline.launch.python_process import PYTHON, module_path_environment
+from touchline.launch.process_table import Process, ProcessKind, library_process
+from touchline.launch.robot_process import robot_process
 from touchline.launch.team_code import team_program
-
-
-class ProcessKind(StrEnum):
-    """The role of a process."""
-
-    HOST = "host"
-    RECORDER = "recorder"
-    AGENT = "agent"
-    PAGE = "page"
-    """The coach gateway that serves the match's page."""
-    BRIDGES = "bridges"
-    """The coach gateway with the match's other bridges."""
-
-
-@dataclass(frozen=True, slots=True)
-class ProcessRow:
-    """One kind of process."""
-
-    module: str
-    """Started as `python -P -m MODULE --settings FILE`."""
-    restarts: int = 0
-    """Maximum number of restarts after crashes."""
-    on_restart: Mapping[str, Any] = field(default_factory=dict)
-    """Settings of a restarted process that differ from those of the first."""
-
-
-PROCESSES: dict[ProcessKind, ProcessRow] = {
-    ProcessKind.HOST: ProcessRow("sim_host"),
-    ProcessKind.RECORDER: ProcessRow("recordings", restarts=3, on_restart={"resume": True}),
-    ProcessKind.AGENT: ProcessRow("robot_agent", restarts=3),
-    ProcessKind.PAGE: ProcessRow("coach_gateway", restarts=3),
-    ProcessKind.BRIDGES: ProcessRow("coach_gateway", restarts=3),
-}
-"""ProcessKind → its row, in the order they are launched."""
 
 OUTCOME = "outcome.json"
 """The file of a match's result, in the folder of its run."""
@@ -66,43 +29,6 @@ ANNOUNCEMENT = "endpoint.json"
 """The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
 """The file of a run's tokens, in its folder."""
-
-COMMON_ENVIRONMENT = {
-    "PYTHONUNBUFFERED": "1",
-    # A dozen processes share the machine; their matrices are too small to profit from threads.
-    "OPENBLAS_NUM_THREADS": "1",
-    "OMP_NUM_THREADS": "1",
-}
-"""Environment of every process of a match."""
-
-# A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
-ROBOT_ENVIRONMENT = {**COMMON_ENVIRONMENT, "PYTHONHASHSEED": "0"}
-"""Environment of every robot, without its own name."""
-
-
-@dataclass(frozen=True, slots=True)
-class Process:
-    """One program to launch."""
-
-    name: str
-    """Name in messages and of the log file: `host`, `recorder`, or the robot's name."""
-    kind: ProcessKind
-    command: tuple[str, ...]
-    environment: dict[str, str]
-    """Added to the supervisor's environment, or to what the confinement leaves of it."""
-    restarts: int = 0
-    settings: Settings | None = None
-    """The content of `settings_file`; None for a team's own program."""
-    settings_file: Path | None = None
-    sockets: tuple[socket.socket, ...] = ()
-    """Bound sockets that it inherits, also when it is started again."""
-    confinement: Confinement | None = None
-    """How a robot's program is confined; None for the programs of this library, which are not."""
-
-    def restarted(self) -> "Process":
-        """The process as it is launched after a crash."""
-        changes = PROCESSES[self.kind].on_restart
-        return replace(self, settings=self.settings.model_copy(update=dict(changes))) if self.settings else self
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +143,7 @@ def host_process(plan: MatchPlan) -> Process:
         announcement=plan.announcement,
         outcome=plan.outcome,
     )
-    return _process("host", ProcessKind.HOST, host, plan.folder)
+    return library_process("host", ProcessKind.HOST, host, plan.folder)
 
 
 def client_processes(plan: MatchPlan) -> list[Process]:
@@ -234,7 +160,7 @@ def client_processes(plan: MatchPlan) -> list[Process]:
             record=config.record,
             config=config,
         )
-        processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
+        processes.append(library_process("recorder", ProcessKind.RECORDER, recorder, folder))
     confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
     for side in config.local_sides:
         processes += [
@@ -247,13 +173,13 @@ def client_processes(plan: MatchPlan) -> list[Process]:
         processes.append(page_process(settings, plan.page.listener, folder))
     if plan.bridges.wanted:
         bridges = gateway.model_copy(update={"bridges": plan.bridges})
-        processes.append(_process("bridges", ProcessKind.BRIDGES, bridges, folder, sockets=plan.bridge_sockets))
+        processes.append(library_process("bridges", ProcessKind.BRIDGES, bridges, folder, sockets=plan.bridge_sockets))
     return processes
 
 
 def page_process(settings: GatewaySettings, listener: socket.socket, folder: Path) -> Process:
     """The program that serves the page of a match, or of a replay."""
-    return _process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
+    return library_process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
 def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
@@ -273,50 +199,3 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
         launch_token=plan.launch_token,
     )
     return robot_process(settings, side, program if team.command else (), plan.folder, confinement)
-
-
-def robot_process(
-    settings: AgentSettings, side: Side, command: Sequence[str], folder: Path, confinement: Confinement
-) -> Process:
-    """A robot's brain, or its team's own program, which reads what the settings say from its environment.
-
-    Args:
-        settings: with paths that are valid in this process's folder; the robot works in that of its confinement.
-        command: the team's own program, with absolute paths; empty for a brain.
-    """
-    if settings.credentials is not None:
-        confinement = replace(confinement, credentials=settings.credentials.absolute())
-    found = {"credentials": confinement.readable_credentials, "launch_folder": settings.launch_folder or Path.cwd()}
-    return replace(_robot_process(settings.model_copy(update=found), side, command, folder), confinement=confinement)
-
-
-def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str], folder: Path) -> Process:
-    credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
-    environment = {
-        **ROBOT_ENVIRONMENT,
-        "TOUCHLINE_CONNECT": settings.connect,
-        "TOUCHLINE_MATCH": settings.match,
-        "TOUCHLINE_ROBOT": settings.robot,
-        "TOUCHLINE_SIDE": side.value,
-        "TOUCHLINE_LAUNCH_TOKEN": settings.launch_token,
-        "TOUCHLINE_CREDENTIALS": credentials,
-    }
-    given = {name: value for name, value in environment.items() if value is not None}
-    if command:
-        restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(settings.robot, ProcessKind.AGENT, tuple(command), given, restarts)
-    return _process(settings.robot, ProcessKind.AGENT, settings, folder, given)
-
-
-def _process(
-    name: str,
-    kind: ProcessKind,
-    settings: Settings,
-    folder: Path,
-    environment: Mapping[str, str] = MappingProxyType({}),
-    sockets: tuple[socket.socket, ...] = (),
-) -> Process:
-    row, file = PROCESSES[kind], folder / f"{name}.json"
-    command = (*PYTHON, "-m", row.module, "--settings", str(file))
-    whole = {**COMMON_ENVIRONMENT, **module_path_environment(), **environment}
-    return Process(name, kind, command, whole, row.restarts, settings, file, sockets)

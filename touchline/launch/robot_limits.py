@@ -8,7 +8,7 @@ from schemas.process.clock import Clock
 from schemas.process.leash import adopt_orphans
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.control_groups import ControlGroups, control_groups
-from touchline.launch.processes import Process
+from touchline.launch.process_table import Process
 from touchline.launch.usage_watch import PERIOD_S, UsageWatch
 
 

@@ -13,7 +13,7 @@ from robot_agent.settings import FIRST_SIGHT_FAILED
 from schemas.config.settings_file import WRONG
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
-from touchline.launch.processes import Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
 
 
 class RunningProcess(Protocol):
@@ -48,6 +48,8 @@ class EndStep:
     after: float
     kinds: frozenset[ProcessKind]
     number: signal.Signals
+    since_host: bool = False
+    """The time counts from the end of the host, not from the beginning of the shutdown."""
 
 
 _ALL = frozenset(ProcessKind)
@@ -63,15 +65,13 @@ AFTER_THE_MATCH = (
 )
 """The host has ended by itself: processes that would wait for its return are signalled; the recorder may finish."""
 
-ABANDONED = (EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM), *AFTER_THE_MATCH)
-"""The match cannot go on: the host ends after its tick, the others as after a match."""
-
-NEVER_BEGUN = (
-    *ABANDONED[:3],
-    EndStep(2.0, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
-    ABANDONED[-1],
+ABANDONED = (
+    EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
+    EndStep(1.0, frozenset({ProcessKind.RECORDER}), signal.SIGTERM, since_host=True),
+    *AFTER_THE_MATCH,
 )
-"""The match has ended before its first tick: the recorder may still be waiting for a host, which will not return."""
+"""The match cannot go on, or its host has failed: the recorder has what the host published, and is not left to wait for
+its return. The host ends after its tick, the others as after a match."""
 
 AT_ONCE = (
     EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
@@ -156,12 +156,16 @@ class Supervisor:
 
         Processes of the kinds `keep` go on.
         """
-        began = self._clock.now()
+        began, host_ended = self._clock.now(), float("inf")
         waiting = list(steps)
         while self._still_running(keep) and not should_abort():
-            elapsed = self._clock.now() - began
-            while waiting and waiting[0].after <= elapsed:
-                self._signal(waiting.pop(0), keep)
+            now = self._clock.now()
+            if self.host_status is not None:
+                host_ended = min(host_ended, now)
+            due = [step for step in waiting if step.after <= now - (host_ended if step.since_host else began)]
+            waiting = [step for step in waiting if step not in due]
+            for step in due:
+                self._signal(step, keep)
             self._clock.sleep_until(self._clock.now() + _POLL)
 
     def _still_running(self, keep: frozenset[ProcessKind]) -> bool:

@@ -20,8 +20,9 @@ from touchline.launch.confinement import team_confinements, team_isolation_note
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.log_notes import LogNotes
-from touchline.launch.processes import ROBOT_ENVIRONMENT, Process, robot_process
+from touchline.launch.process_table import Process
 from touchline.launch.robot_limits import RobotLimits
+from touchline.launch.robot_process import ROBOT_ENVIRONMENT, robot_process
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import AT_ONCE, Supervisor
 from touchline.launch.team_code import team_program

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from recordings.stats.figures import MatchFigures, SideFigures
-from touchline.series.plan import PlannedMatch
+from touchline.scheduling.outcome import Failed, Outcome, Played
+from touchline.series.plan import SeriesMatch
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,21 +59,31 @@ class FailedMatch:
     """One line that names robot, tick, file and line where they are known."""
 
 
-def row_of(planned: PlannedMatch, figures: MatchFigures, playing_time: float, chain: str) -> MatchRow:
-    """The row of a match with these figures."""
-    first, second = (_team_row(figures, figures.sides[side]) for side in planned.sides)
+Row = MatchRow | FailedMatch
+
+
+def row_of(match: SeriesMatch, outcome: Outcome) -> Row:
+    """The row of a match that ended so."""
+    if isinstance(outcome, Failed):
+        return FailedMatch(match.number, outcome.identity, match.seed, match.swapped, outcome.reason)
+    return _played_row(match, outcome)
+
+
+def _played_row(match: SeriesMatch, played: Played) -> MatchRow:
+    figures = played.figures
+    first, second = (_team_row(figures, figures.sides[side]) for side in match.sides)
     return MatchRow(
-        number=planned.number,
-        identity=planned.identity,
-        seed=planned.seed,
-        swapped=planned.swapped,
+        number=match.number,
+        identity=played.identity,
+        seed=match.seed,
+        swapped=match.swapped,
         teams=(first, second),
-        playing_time=playing_time,
+        playing_time=played.playing_time,
         in_play_s=figures.in_play_s or 0.0,
         crowded_s=figures.crowded_s or 0.0,
         longest_crowd_s=figures.longest_crowd_s or 0.0,
         longest_stuck_s=max((robot.longest_stuck_s for robot in figures.robots), default=0.0),
-        chain=chain,
+        chain=played.chain,
     )
 
 

@@ -1,6 +1,5 @@
 """The plan of a series: its matches, each with all that determines it."""
 
-import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,42 +8,38 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
 from schemas.side import Side
+from touchline.scheduling.planned_match import PlannedMatch
 
 
 @dataclass(frozen=True, slots=True)
-class PlannedMatch:
+class SeriesMatch:
     """One match of a series."""
 
     number: int
     """Place in the series, from 1."""
-    config: MatchConfig
+    planned: PlannedMatch
     sides: tuple[Side, Side]
     """The sides that the first and the second team play on."""
-    brain_folder: Path | None = None
-    """Where brains are looked for first."""
-    record: Path | None = None
-    """The folder that gets its recording; None for none."""
 
     @property
-    def recording(self) -> Path | None:
-        """The recording that it leaves."""
-        name = f"seed_{self.seed}{'_swapped' if self.swapped else ''}.mcap"
-        return self.record / name if self.record is not None else None
+    def identity(self) -> str:
+        """A digest of all that determines the match but the programs: equal for equal configurations."""
+        return self.planned.identity
+
+    @property
+    def config(self) -> MatchConfig:
+        """The whole match."""
+        return self.planned.config
 
     @property
     def seed(self) -> int:
         """Seed of all random numbers of the match."""
-        return self.config.seed
+        return self.planned.seed
 
     @property
     def swapped(self) -> bool:
         """Whether the teams have changed sides: the first plays in magenta."""
         return self.sides[0] is Side.MAGENTA
-
-    @property
-    def identity(self) -> str:
-        """A digest of all that determines the match but the programs: equal for equal configurations."""
-        return hashlib.blake2b(self.config.model_dump_json().encode(), digest_size=16).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +48,12 @@ class SeriesPlan:
 
     teams: tuple[str, str]
     """Names of the first team, in cyan unless sides are swapped, and of the second."""
-    matches: tuple[PlannedMatch, ...]
+    matches: tuple[SeriesMatch, ...]
+
+    @property
+    def by_identity(self) -> dict[str, SeriesMatch]:
+        """Identity → match."""
+        return {one.identity: one for one in self.matches}
 
 
 def plan_series(
@@ -83,10 +83,23 @@ def plan_series(
         pairs.append((with_sides_swapped(config), (Side.MAGENTA, Side.CYAN)))
     numbered = enumerate(((seed, one, sides) for seed in seeds for one, sides in pairs), start=1)
     matches = (
-        PlannedMatch(number, one.model_copy(update={"seed": seed}), sides, brain_folder, record)
+        SeriesMatch(number, _planned(one.model_copy(update={"seed": seed}), sides, brain_folder, record), sides)
         for number, (seed, one, sides) in numbered
     )
     return SeriesPlan(team_names(config), tuple(matches))
+
+
+def _planned(
+    config: MatchConfig, sides: tuple[Side, Side], brain_folder: Path | None, record: Path | None
+) -> PlannedMatch:
+    swapped = sides[0] is Side.MAGENTA
+    name = f"seed_{config.seed}{'_swapped' if swapped else ''}.mcap"
+    return PlannedMatch(
+        config,
+        brain_folder=brain_folder,
+        recording=record / name if record is not None else None,
+        label=f"seed {config.seed}{', sides swapped' if swapped else ''}",
+    )
 
 
 def with_brains(config: MatchConfig, brains: Mapping[Side, str]) -> MatchConfig:

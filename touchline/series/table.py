@@ -3,32 +3,31 @@
 from collections.abc import Sequence
 
 from touchline.series.intervals import Estimate
-from touchline.series.match_row import FailedMatch, MatchRow
+from touchline.series.match_row import FailedMatch, MatchRow, Row
 from touchline.series.plan import SeriesPlan
-from touchline.series.play_planned import Outcome
 from touchline.series.summary import Figure, Longest, Summary, Value
 
 UNKNOWN = "–"
 """Stands for a figure without a sample, such as the share of completed passes without a pass."""
 
-Row = tuple[str, ...]
+Cells = tuple[str, ...]
 
 
-def sentence_of(outcome: Outcome, plan: SeriesPlan) -> str:
+def sentence_of(row: Row, plan: SeriesPlan) -> str:
     """One match in one line, the first team first."""
     first, second = plan.teams
-    head = f"seed {outcome.seed}{', sides swapped' if outcome.swapped else ''}: "
-    if isinstance(outcome, FailedMatch):
-        return f"{head}failed: {outcome.reason}"
-    return f"{head}{first} {outcome.teams[0].goals} : {outcome.teams[1].goals} {second}"
+    head = f"seed {row.seed}{', sides swapped' if row.swapped else ''}: "
+    if isinstance(row, FailedMatch):
+        return f"{head}failed: {row.reason}"
+    return f"{head}{first} {row.teams[0].goals} : {row.teams[1].goals} {second}"
 
 
-def figure_rows(figures: Sequence[Figure]) -> list[Row]:
+def figure_rows(figures: Sequence[Figure]) -> list[Cells]:
     """One row for each figure: its name, and one cell for each value."""
     return [(one.name, *(_cell(value, percent=one.percent) for value in one.values)) for one in figures]
 
 
-def aligned(heading: Row, rows: Sequence[Row]) -> list[str]:
+def aligned(heading: Cells, rows: Sequence[Cells]) -> list[str]:
     """Lines in which the columns of all rows are aligned, below a heading."""
     widths = [max(map(len, column)) for column in zip(heading, *rows, strict=True)]
     return [

@@ -491,6 +491,17 @@ def test_the_recording_ends_when_the_host_leaves_early(rig):
     assert rig.leave().result.ended is EndReason.HOST_GONE
 
 
+def test_a_recorder_that_waits_for_its_host_to_return_ends_on_request_as_without_a_host(rig):
+    clock = rig.recorder_bus.clock
+    rig.play(range(10))
+    rig.host.batches.send()
+    rig.host.bus.close()
+    summary = rig.recorder.run(lambda: clock.now() >= 1.0)
+    assert clock.now() < 2.0
+    assert summary.result.ended is EndReason.HOST_GONE
+    assert len(list(rig.read().messages("world"))) == 10
+
+
 def test_a_recorder_polls_at_once_when_it_is_asked_something_and_when_the_match_is_over(rig):
     """Otherwise five times a second: a look costs more than what it finds."""
     clock, recorder, looks = rig.recorder_bus.clock, rig.recorder, []

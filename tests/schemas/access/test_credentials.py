@@ -1,6 +1,7 @@
 """Files of credentials: who may read them, what is in them, and what is wrong with others."""
 
 import json
+import os
 import stat
 from pathlib import Path
 
@@ -72,6 +73,7 @@ def test_a_wrong_file_is_one_line_with_the_remedy_and_without_the_password(case:
     text, words = WRONG[case]
     path = tmp_path / "cyan.json"
     if text is not None:
+        path.touch(0o600)
         path.write_text(text)
     with pytest.raises(TouchlineError) as error:
         read_credentials(path)
@@ -79,11 +81,37 @@ def test_a_wrong_file_is_one_line_with_the_remedy_and_without_the_password(case:
     assert words in line and str(path) in line and "\n" not in line and "secret" not in line
 
 
+@pytest.mark.parametrize("mode", [0o644, 0o640, 0o604, 0o620, 0o602])
+def test_a_file_that_other_users_may_read_or_change_is_refused_with_its_mode_and_the_remedy(
+    mode: int, tmp_path: Path
+) -> None:
+    write_credentials(tmp_path, new_credentials())
+    for name, read in (("cyan.json", read_credentials), (HOST_FILE, read_host_credentials)):
+        path = tmp_path / name
+        path.chmod(mode)
+        with pytest.raises(TouchlineError) as error:
+            read(path)
+        assert str(error.value) == f"--credentials {path} may be read by others (mode {mode:o}); chmod 600 {path}"
+        path.chmod(0o400)
+        read(path)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="root alone can give a file to another user")
+def test_a_file_of_another_user_is_read_as_ssh_reads_it(tmp_path: Path) -> None:
+    """Secrets that are mounted into a container are files of root that a group may read."""
+    write_credentials(tmp_path, new_credentials())
+    path = account_file(tmp_path, Account.CYAN)
+    os.chown(path, 65534, 65534)
+    path.chmod(0o444)
+    assert read_credentials(path).user is Account.CYAN
+
+
 def test_a_host_needs_the_passwords_of_all_accounts(tmp_path: Path) -> None:
     made = new_credentials()
     content = json.loads(made.model_dump_json())
     del content["passwords"]["viewer"]
     path = tmp_path / HOST_FILE
+    path.touch(0o600)
     path.write_text(json.dumps(content))
     with pytest.raises(TouchlineError, match="no password for viewer"):
         read_host_credentials(path)

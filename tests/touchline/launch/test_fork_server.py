@@ -1,5 +1,6 @@
 """Robots that are forked by the fork server, against those that are launched by their command lines: they act alike."""
 
+import operator
 import os
 import signal
 import subprocess
@@ -22,7 +23,9 @@ from schemas.process.clock import WallClock
 from schemas.topics import SETUP
 from touchline.launch.child_process import ChildProcess, ProcessHandle
 from touchline.launch.fork_server import ForkedRobot, ForkServer
-from touchline.launch.processes import MatchPlan, Process, ProcessKind, client_processes
+from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.processes import MatchPlan, client_processes
+from touchline.scheduling.child_processes import run_in_processes
 
 pytestmark = [
     pytest.mark.processes,
@@ -159,30 +162,55 @@ class Brain:
 """
 
 
-def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of_sets(
-    launch: Callable[[Process], ProcessHandle], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The seed of Python's hashes is taken when an interpreter begins, so the fork server's own has to have it."""
+@pytest.fixture
+def cyan1(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Process, Callable[[], None]]]:
+    """A robot whose brain prints what it was started with, and a function by which its host answers it once."""
     (tmp_path / "mind.py").write_text(BRAIN)
     monkeypatch.chdir(tmp_path)
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    process = client_processes(
-        MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None)
-    )[0]
-    said = []
+    plan = MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None)
     with open_host("friendly", WallClock(), endpoint) as host:
         server = host.serve(SETUP)
-        for kind in (ForkedRobot, ChildProcess):
-            launched = launch(process)
-            assert isinstance(launched, kind)
+
+        def answer() -> None:
             query = server.receive(_LIMIT_S)
             assert query is not None
             query.reply(Setup.of(load_match(None), load_profile("msl"), load_rule_book("friendly")))
-            assert end_of(launched) == 7, launched.last_lines()
-            said.append(launched.last_lines())
+
+        yield client_processes(plan)[0], answer
+
+
+def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of_sets(
+    launch: Callable[[Process], ProcessHandle], cyan1: tuple[Process, Callable[[], None]], tmp_path: Path
+) -> None:
+    """The seed of Python's hashes is taken when an interpreter begins, so the fork server's own has to have it."""
+    process, answer = cyan1
+    said = []
+    for kind in (ForkedRobot, ChildProcess):
+        launched = launch(process)
+        assert isinstance(launched, kind)
+        answer()
+        assert end_of(launched) == 7, launched.last_lines()
+        said.append(launched.last_lines())
     assert said[0] == said[1]
     assert said[0][0].startswith("cyan 1 0 ")
     assert said[0][1] == f"False {tmp_path} {tmp_path / 'cyan1'} False"
+
+
+def test_robots_have_a_fork_server_of_their_own_after_a_series_in_the_same_process(
+    launch: Callable[[Process], ProcessHandle], cyan1: tuple[Process, Callable[[], None]]
+) -> None:
+    """That of `multiprocessing` has the environment and the modules of whatever started it first."""
+    ((_, result),) = run_in_processes(operator.is_, [1], jobs=1)
+    assert result is False
+    process, answer = cyan1
+    launched = launch(process)
+    assert isinstance(launched, ForkedRobot)
+    answer()
+    assert end_of(launched) == 7
+    first, second = launched.last_lines()
+    assert first.startswith("cyan 1 0 ")
+    assert second.startswith("False ")
 
 
 def test_other_programs_are_launched_by_their_command_lines(
@@ -198,7 +226,8 @@ SUPERVISOR = """
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import ProcessKind, MatchPlan, Process, client_processes
+from touchline.launch.process_table import ProcessKind, Process
+from touchline.launch.processes import MatchPlan, client_processes
 from robot_agent.settings import AgentSettings
 folder, server = Path(sys.argv[1]), ForkServer()
 for name in sys.argv[2:]:
@@ -255,7 +284,7 @@ from pathlib import Path
 from robot_agent.settings import AgentSettings
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
 for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
     signal.signal(number, signal.SIG_IGN)
 folder = Path(sys.argv[1])

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from touchline.launch.child_process import ProcessHandle
-from touchline.launch.processes import Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
 
 LINE = (
     '{"time": "2026-01-01T00:00:00.000Z", "process": "agent", "level": "error", "message": "act failed\\nkick: no"}\n'

@@ -17,7 +17,8 @@ from schemas.process.clock import WallClock
 from schemas.topics import EVENT, STATE
 from touchline.launch import match_run
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
-from touchline.launch.processes import MatchPlan, Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.processes import MatchPlan
 from touchline.launch.recording_outcome import NO_RECORDING
 from touchline.launch.result import MatchResult
 from touchline.watch.screen import PlainScreen

@@ -10,7 +10,7 @@ import pytest
 from schemas.errors import TouchlineError
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.page import Page, open_page
-from touchline.launch.processes import Process, ProcessKind
+from touchline.launch.process_table import Process, ProcessKind
 
 SERVES = """
 from coach_gateway.ports import InheritedSockets

@@ -17,16 +17,8 @@ from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
-from touchline.launch.processes import (
-    PROCESSES,
-    MatchPlan,
-    Page,
-    Process,
-    ProcessKind,
-    check_robot_names,
-    client_processes,
-    host_process,
-)
+from touchline.launch.process_table import PROCESSES, Process, ProcessKind
+from touchline.launch.processes import MatchPlan, Page, check_robot_names, client_processes, host_process
 from touchline.launch.run_folder import prepare_run
 
 JOINED = {"connect": "tcp/127.0.0.1:7447", "match": "friendly"}

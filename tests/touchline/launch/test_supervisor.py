@@ -9,8 +9,8 @@ from robot_agent.settings import FIRST_SIGHT_FAILED, AgentSettings
 from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock, WallClock
 from touchline.launch.child_process import ChildProcess
-from touchline.launch.processes import Process, ProcessKind
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, NEVER_BEGUN, Supervisor
+from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 
 
 class Actor:
@@ -195,17 +195,26 @@ def test_an_abandoned_match_ends_its_host_first_and_gives_the_recorder_time() ->
     assert stage.cast["recorder"][-1].heard == []
 
 
-def test_a_match_that_never_began_waits_two_seconds_for_its_recorder_which_may_wait_for_a_host() -> None:
+def test_the_recorder_of_an_abandoned_match_finishes_a_second_after_its_host_has_ended() -> None:
+    """Without a signal it would wait for the host to return."""
     stage = Stage(page=True)
-    stage.supervisor.end(NEVER_BEGUN)
+    stage.supervisor.end(ABANDONED)
     heard = {name: launches[-1].heard for name, launches in stage.cast.items()}
-    assert heard.pop("recorder") == [(2.0, signal.SIGTERM)]
+    assert heard.pop("recorder") == [(pytest.approx(1.0, abs=0.05), signal.SIGTERM)]
     assert heard == {name: [(0.0, signal.SIGTERM)] for name in ("host", "cyan1", "magenta1", "page")}
 
 
-def test_a_match_that_never_began_ends_whatever_ignores_its_signal() -> None:
+def test_the_recorder_of_a_host_that_failed_is_not_left_to_wait_for_its_return() -> None:
+    stage = Stage()
+    stage.end("host", 3)
+    stage.supervisor.end(ABANDONED)
+    assert stage.cast["host"][-1].heard == []
+    assert stage.cast["recorder"][-1].heard == [(pytest.approx(1.0, abs=0.05), signal.SIGTERM)]
+
+
+def test_an_abandoned_match_ends_whatever_ignores_its_signal() -> None:
     stage = Stage(deaf_to=frozenset({signal.SIGTERM}))
-    stage.supervisor.end(NEVER_BEGUN)
+    stage.supervisor.end(ABANDONED)
     assert all(launches[-1].heard[-1][1] is signal.SIGKILL for launches in stage.cast.values())
 
 
@@ -353,7 +362,7 @@ def test_a_child_dies_with_a_supervisor_that_was_killed(tmp_path: Path) -> None:
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.child_process import ChildProcess
-from touchline.launch.processes import ProcessKind, Process
+from touchline.launch.process_table import ProcessKind, Process
 child = ChildProcess(Process("cyan1", ProcessKind.AGENT, ("sleep", "600"), {{}}), Path({str(tmp_path / "sleep.log")!r}))
 while b"sleep" not in Path(f"/proc/{{child.pid}}/cmdline").read_bytes().split(b"\\0")[:1]:
     pass

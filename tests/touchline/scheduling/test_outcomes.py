@@ -1,0 +1,119 @@
+"""How planned matches end, and whose fault it is if they do not."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.side import Side
+from touchline.scheduling.code_digest import code_digest
+from touchline.scheduling.in_process import play_in_process
+from touchline.scheduling.inputs_only import with_inputs_only
+from touchline.scheduling.measurement import measured
+from touchline.scheduling.outcome import Failed, FailureKind, Played, from_json, to_json
+from touchline.scheduling.planned_match import PlannedMatch, Way
+from touchline.scheduling.play import play
+from touchline.verify.resimulate import verify
+
+MatchOf = Callable[..., MatchConfig]
+
+
+def test_a_match_has_the_same_outcome_each_time_and_as_json(match_of: MatchOf, folder: Path) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder)
+    first, again = play(planned), play(planned)
+    assert isinstance(first, Played)
+    assert to_json(first) == to_json(again)
+    assert from_json(to_json(first)) == first
+
+
+def test_the_identity_depends_on_configuration_and_code_alone(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder)
+    assert (
+        replace(planned, label="final", recording=tmp_path / "a.mcap", way=Way.PROCESSES).identity == planned.identity
+    )
+    assert replace(planned, config=match_of(seed=2)).identity != planned.identity
+    assert replace(planned, config=match_of(**{"radio.loss": 0.5})).identity != planned.identity
+    assert replace(planned, code={Side.CYAN: "0" * 32}).identity != planned.identity
+
+
+@pytest.mark.parametrize(
+    ("brain", "kind", "words"),
+    [
+        ("Raises", FailureKind.CRASHED, "magenta1, tick 10: ValueError: no idea"),
+        ("Hangs", FailureKind.HUNG, "no answer within 0.5 s"),
+        ("NotBuilt", FailureKind.DID_NOT_START, "raised RuntimeError: no plan"),
+    ],
+)
+def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
+    match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, words: str
+) -> None:
+    outcome = play_in_process(
+        PlannedMatch(match_of(magenta=brain), brain_folder=folder, logs=tmp_path / "logs"), hang_s=0.5
+    )
+    assert isinstance(outcome, Failed)
+    assert (outcome.kind, outcome.culprit) == (kind, Side.MAGENTA)
+    assert words in outcome.reason
+    if kind is not FailureKind.DID_NOT_START:
+        assert outcome.evidence is not None
+        assert "planned_brains.py" in Path(outcome.evidence).read_text()
+
+
+def test_a_recording_of_inputs_alone_is_smaller_and_can_be_simulated_again(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    whole = PlannedMatch(match_of(), brain_folder=folder, recording=tmp_path / "whole.mcap")
+    inputs = replace(whole, config=with_inputs_only(whole.config), recording=tmp_path / "inputs.mcap")
+    assert whole.recording is not None
+    assert inputs.recording is not None
+    played, again = play(whole), play(inputs)
+    assert isinstance(played, Played)
+    assert isinstance(again, Played)
+    assert played.chain == again.chain
+    assert inputs.recording.stat().st_size < whole.recording.stat().st_size
+    assert verify(inputs.recording).identical
+
+
+def test_what_is_measured_while_a_match_is_played_is_what_its_recording_shows(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder, recording=tmp_path / "match.mcap")
+    assert measured(tmp_path / "match.mcap", play(planned).identity) == replace(
+        play(planned), recording=str(tmp_path / "match.mcap")
+    )
+
+
+def test_changed_files_of_a_team_are_not_played(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    config = match_of()
+    (tmp_path / "planned_brains.py").write_text((folder / "planned_brains.py").read_text())
+    digest = code_digest(config, Side.CYAN, tmp_path)
+    assert digest == code_digest(config, Side.CYAN, folder)
+    (tmp_path / "planned_brains.py").write_text("# changed\n" + (folder / "planned_brains.py").read_text())
+    outcome = play(PlannedMatch(config, {Side.CYAN: digest}, brain_folder=tmp_path))
+    assert isinstance(outcome, Failed)
+    assert "the files of Forward are not those of the plan" in outcome.reason
+
+
+@pytest.mark.processes
+def test_processes_and_one_process_play_the_same_match(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder)
+    over_zenoh = replace(planned, way=Way.PROCESSES, recording=tmp_path / "match.mcap", logs=tmp_path / "logs")
+    here, there = play(planned), play(over_zenoh)
+    assert isinstance(here, Played)
+    assert isinstance(there, Played), there
+    assert there.chain == here.chain
+    assert there.goals == here.goals
+    assert verify(tmp_path / "match.mcap").identical
+
+
+@pytest.mark.processes
+def test_a_team_that_does_not_start_is_named_with_processes_too(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    outcome = play(
+        PlannedMatch(match_of(magenta="NotBuilt"), way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
+    )
+    assert isinstance(outcome, Failed)
+    assert (outcome.kind, outcome.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
+    assert outcome.evidence == str(tmp_path / "logs")

@@ -1,0 +1,198 @@
+"""Plans that are played to their end, whatever happens meanwhile."""
+
+import multiprocessing
+import os
+import random
+import signal
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
+from touchline.scheduling.child_processes import ChildProcesses
+from touchline.scheduling.executors.this_process import ThisProcess
+from touchline.scheduling.outcome import Failed, FailureKind, Outcome, Played, to_json
+from touchline.scheduling.plan import ListPlan
+from touchline.scheduling.planned_match import PlannedMatch
+from touchline.scheduling.run import Remote, run_plan
+from touchline.scheduling.store import MemoryStore, RunStore
+from touchline.scheduling.verify import verify_run
+
+MatchOf = Callable[..., MatchConfig]
+
+
+@dataclass
+class Log:
+    """Notes which matches have ended."""
+
+    ended_labels: list[str] = field(default_factory=list)
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del outcome
+        self.ended_labels.append(planned.label)
+
+
+def matches(match_of: MatchOf, folder: Path, number: int, recordings: Path | None = None) -> list[PlannedMatch]:
+    return [
+        PlannedMatch(
+            match_of(seed=seed),
+            brain_folder=folder,
+            recording=recordings / f"{seed}.mcap" if recordings is not None else None,
+            label=f"seed {seed}",
+        )
+        for seed in range(1, number + 1)
+    ]
+
+
+def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
+    return {identity: to_json(outcome) for identity, outcome in sorted(outcomes.items())}
+
+
+def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    plan = ListPlan(tuple(matches(match_of, folder, 4)))
+    results = []
+    executors: list[tuple[Executor, Remote | None]] = [
+        (ThisProcess(), None),
+        (ChildProcesses(1), None),
+        (ChildProcesses(8), None),
+        (ThreadPoolExecutor(2), Remote()),
+    ]
+    for number, (executor, remote) in enumerate(executors):
+        with executor, RunStore(tmp_path / str(number)) as store:
+            results.append(bytes_of(run_plan(plan, executor, store, Log(), remote=remote, at_once=8)))
+    assert all(result == results[0] for result in results)
+    assert len(results[0]) == 4
+
+
+def test_recordings_of_other_machines_come_back_or_stay(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    run, far = tmp_path / "run", tmp_path / "far"
+    plan = ListPlan(tuple(matches(match_of, folder, 1, run / "recordings")))
+    with ThreadPoolExecutor(1) as executor:
+        with RunStore(run) as store:
+            (outcome,) = run_plan(plan, executor, store, Log(), remote=Remote()).values()
+        assert isinstance(outcome, Played)
+        assert outcome.recording == "recordings/1.mcap"
+        assert (run / "recordings" / "1.mcap").stat().st_size > 1000
+        with RunStore(tmp_path / "second") as store:
+            moved = ListPlan(tuple(matches(match_of, folder, 1, tmp_path / "second" / "recordings")))
+            (stays,) = run_plan(moved, executor, store, Log(), remote=Remote(keep=far)).values()
+    assert isinstance(stays, Played)
+    assert stays.recording == str(far / "recordings" / "1.mcap")
+    assert Path(stays.recording).exists()
+
+
+@dataclass(frozen=True)
+class Final:
+    """The second match is that of the seed which the goals of the first decide."""
+
+    first: PlannedMatch
+    second: PlannedMatch
+
+    def due(self, outcomes: Mapping[str, Outcome]) -> Sequence[PlannedMatch]:
+        order = [self.first] if self.first.identity not in outcomes else [self.second]
+        return [one for one in order if one.identity not in outcomes]
+
+
+def test_a_plan_may_depend_on_outcomes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    first, second = matches(match_of, folder, 2)
+    log = Log()
+    with ThisProcess() as executor:
+        run_plan(Final(first, second), executor, MemoryStore(tmp_path), log)
+    assert log.ended_labels == ["seed 1", "seed 2"]
+
+
+def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    few, all_of_them = (ListPlan(tuple(matches(match_of, folder, number))) for number in (2, 4))
+    log = Log()
+    with ThisProcess() as executor:
+        with RunStore(tmp_path) as store:
+            run_plan(few, executor, store, Log())
+        with RunStore(tmp_path) as store:
+            outcomes = run_plan(all_of_them, executor, store, log)
+    assert log.ended_labels == ["seed 3", "seed 4"]
+    assert len(outcomes) == 4
+
+
+def test_a_match_that_ends_its_process_costs_itself_alone(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    lost = PlannedMatch(match_of(magenta="Dies"), brain_folder=folder, label="lost")
+    with ChildProcesses(2) as executor:
+        outcomes = run_plan(
+            ListPlan((lost, *matches(match_of, folder, 2))), executor, MemoryStore(tmp_path), Log(), at_once=2
+        )
+    assert [isinstance(one, Played) for one in outcomes.values()].count(True) == 2
+    failed = outcomes[lost.identity]
+    assert isinstance(failed, Failed)
+    assert failed.kind is FailureKind.WORKER
+    assert failed.reason == "its process ended with status 7"
+
+
+def test_equal_matches_in_a_plan_are_refused(match_of: MatchOf, folder: Path) -> None:
+    (one,) = matches(match_of, folder, 1)
+    with pytest.raises(TouchlineError, match='has "seed 1" and "seed 1", which are the same match'):
+        ListPlan((one, one))
+
+
+def test_two_processes_do_not_play_the_same_run(tmp_path: Path) -> None:
+    with RunStore(tmp_path), pytest.raises(TouchlineError, match="another process plays this run"):
+        RunStore(tmp_path)
+    RunStore(tmp_path).close()
+
+
+def _play_in_child(plan: ListPlan, folder: Path) -> None:
+    os.setpgrp()
+    with ThisProcess() as executor, RunStore(folder) as store:
+        run_plan(plan, executor, store, Log(), at_once=1)
+
+
+def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    """Killed 20 times, each time a random while after it has begun, and resumed."""
+    plan = ListPlan(tuple(matches(match_of, folder, 6)))
+    with ThisProcess() as executor, RunStore(tmp_path / "undisturbed") as store:
+        wanted = bytes_of(run_plan(plan, executor, store, Log()))
+    draw = random.Random(7)
+    context = multiprocessing.get_context("fork")
+    for _ in range(20):
+        child = context.Process(target=_play_in_child, args=(plan, tmp_path / "killed"))
+        child.start()
+        child.join(draw.uniform(0.02, 0.5))
+        if child.pid is not None and child.is_alive():
+            os.kill(child.pid, signal.SIGKILL)
+        child.join()
+    with ThisProcess() as executor, RunStore(tmp_path / "killed") as store:
+        assert bytes_of(run_plan(plan, executor, store, Log(), at_once=1)) == wanted
+
+
+def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = matches(match_of, folder, 3, tmp_path / "recordings")
+    with ThisProcess() as executor, RunStore(tmp_path) as store:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
+        assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
+        (tmp_path / "recordings" / "2.mcap").write_bytes((tmp_path / "recordings" / "3.mcap").read_bytes())
+        (found,) = (check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults)
+    assert found.label == "seed 2"
+    assert "its configuration is not that of the plan" in found.faults[0]
+
+
+def test_a_match_without_a_recording_is_verified_by_playing_it_again(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = matches(match_of, folder, 1)
+    with ThisProcess() as executor, RunStore(tmp_path) as store:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
+        assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
+        (identity, played) = next(iter(outcomes.items()))
+        assert isinstance(played, Played)
+        forged = {identity: replace(played, chain="0" * 32)}
+        (check,) = verify_run(planned, forged, tmp_path, executor)
+    assert check.faults

@@ -1,0 +1,47 @@
+"""The process of one robot: its brain, or its team's own program."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from robot_agent.settings import AgentSettings
+from schemas.side import Side
+from touchline.launch.confinement import Confinement
+from touchline.launch.process_table import COMMON_ENVIRONMENT, PROCESSES, Process, ProcessKind, library_process
+
+# A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
+ROBOT_ENVIRONMENT = {**COMMON_ENVIRONMENT, "PYTHONHASHSEED": "0"}
+"""Environment of every robot, without its own name."""
+
+
+def robot_process(
+    settings: AgentSettings, side: Side, command: Sequence[str], folder: Path, confinement: Confinement
+) -> Process:
+    """A robot's brain, or its team's own program, which reads what the settings say from its environment.
+
+    Args:
+        settings: with paths that are valid in this process's folder; the robot works in that of its confinement.
+        command: the team's own program, with absolute paths; empty for a brain.
+    """
+    if settings.credentials is not None:
+        confinement = replace(confinement, credentials=settings.credentials.absolute())
+    found = {"credentials": confinement.readable_credentials, "launch_folder": settings.launch_folder or Path.cwd()}
+    return replace(_robot_process(settings.model_copy(update=found), side, command, folder), confinement=confinement)
+
+
+def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str], folder: Path) -> Process:
+    credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
+    environment = {
+        **ROBOT_ENVIRONMENT,
+        "TOUCHLINE_CONNECT": settings.connect,
+        "TOUCHLINE_MATCH": settings.match,
+        "TOUCHLINE_ROBOT": settings.robot,
+        "TOUCHLINE_SIDE": side.value,
+        "TOUCHLINE_LAUNCH_TOKEN": settings.launch_token,
+        "TOUCHLINE_CREDENTIALS": credentials,
+    }
+    given = {name: value for name, value in environment.items() if value is not None}
+    if command:
+        restarts = PROCESSES[ProcessKind.AGENT].restarts
+        return Process(settings.robot, ProcessKind.AGENT, tuple(command), given, restarts)
+    return library_process(settings.robot, ProcessKind.AGENT, settings, folder, given)

@@ -1,0 +1,136 @@
+"""Calls a function in a fresh process for each item: for matches and drills.
+
+Nothing that a brain leaves in its modules reaches another match, memory does not grow with the number of matches, and
+a process that dies costs its own match only.
+"""
+
+import os
+import signal
+import threading
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import closing, suppress
+from functools import partial
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerProcess
+from typing import Any, TypeVar
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+Poll = Callable[[], None]
+"""Called by the function with each tick: it ends the process when those who wait for its result are gone."""
+
+_POLL_TICKS = 100
+"""Ticks between two checks of whether the result is still wanted."""
+
+
+class DiedProcessError(Exception):
+    """The process ended before it had a result; one line."""
+
+
+def cores() -> int:
+    """The number of cores that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+class ChildProcesses(Executor):
+    """An executor that calls each function in a fresh process, with a function to poll as its last argument.
+
+    A process that ends without a result raises `DiedProcessError`.
+    """
+
+    def __init__(self, jobs: int) -> None:
+        """`jobs` is the number of processes at a time."""
+        self._threads = ThreadPoolExecutor(jobs, "child")
+        self._lock = threading.Lock()
+        self._running: set[ForkServerProcess] = set()
+        self._is_closed = False
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        """Call the function as soon as fewer than `jobs` processes run."""
+        return self._threads.submit(self._call, partial(fn, *args, **kwargs), fn.__module__)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End the executor; with `cancel_futures` the processes that run are killed, too."""
+        if cancel_futures:
+            with self._lock:
+                self._is_closed = True
+                for process in self._running:
+                    process.kill()
+        self._threads.shutdown(wait, cancel_futures=cancel_futures)
+
+    def _call(self, call: Callable[[Poll], Any], module: str) -> Any:
+        context = get_context("forkserver")
+        context.set_forkserver_preload([module])
+        ours, theirs = context.Pipe()
+        with closing(ours):
+            process = context.Process(target=_run, args=(call, theirs), daemon=True)
+            with self._lock:
+                if self._is_closed:
+                    raise DiedProcessError("it was not started any more")
+                process.start()
+                self._running.add(process)
+            theirs.close()
+            try:
+                result = ours.recv()
+            except EOFError:
+                process.join()
+                raise DiedProcessError(_end_of(process)) from None
+            finally:
+                process.join()
+                with self._lock:
+                    self._running.discard(process)
+        if isinstance(result, BaseException):
+            raise result
+        return result
+
+
+def run_in_processes(
+    function: Callable[[Item, Poll], Result], items: Iterable[Item], jobs: int
+) -> Generator[tuple[Item, Result | DiedProcessError], None, None]:
+    """Call the function with each item in up to `jobs` processes at a time; yields each result when it is there.
+
+    Closing the generator ends the processes.
+    """
+    waiting, running = iter(items), dict[Future[Result], Item]()
+    children = ChildProcesses(jobs)
+    try:
+        while True:
+            for _, item in zip(range(jobs - len(running)), waiting, strict=False):
+                running[children.submit(function, item)] = item
+            if not running:
+                return
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                item = running.pop(future)
+                error = future.exception()
+                if error is not None and not isinstance(error, DiedProcessError):
+                    raise error
+                yield item, error if isinstance(error, DiedProcessError) else future.result()
+    finally:
+        children.shutdown(cancel_futures=True)
+
+
+def _end_of(process: ForkServerProcess) -> str:
+    status = process.exitcode or 0
+    return (
+        f"its process {f'was ended by {signal.Signals(-status).name}' if status < 0 else f'ended with status {status}'}"
+    )
+
+
+def _run(call: Callable[[Poll], Any], connection: Connection) -> None:
+    """The process of an item."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that waits, which ends this one
+    os.dup2(2, 1)  # what brains print is no part of the result
+    try:
+        result = call(partial(_poll, connection, [0]))
+    except Exception as error:  # raised by the future, in the process that waits
+        result = error
+    with suppress(BrokenPipeError):  # the result is not wanted any more
+        connection.send(result)
+
+
+def _poll(connection: Connection, ticks: list[int]) -> None:
+    ticks[0] += 1
+    if ticks[0] % _POLL_TICKS == 0 and connection.poll():
+        os._exit(1)

@@ -1,0 +1,41 @@
+"""A digest of a team's files: whether a team is the one that played before."""
+
+import hashlib
+from collections.abc import Iterator
+from importlib.metadata import version
+from pathlib import Path
+
+from schemas.config.match_config import MatchConfig
+from schemas.side import Side
+from touchline.launch.team_code import team_code
+
+_SKIPPED = frozenset({"__pycache__", ".git", ".venv", "runs"})
+
+
+def code_digest(config: MatchConfig, side: Side, brain_folder: Path | None = None) -> str:
+    """The digest of the files of a side's team: of its module, its package, or the files that its command names.
+
+    A team that ships or is installed has that of the version of this library: its files are a part of it.
+    """
+    team = config.team(side)
+    named = [team.brain or " ".join(team.program or ())]
+    digest = hashlib.blake2b("\0".join(named).encode(), digest_size=16)
+    own = team_code(config, side, brain_folder).own
+    if not own:
+        digest.update(version("touchline").encode())
+    for path in own:
+        for file in _files(path):
+            content = file.read_bytes()
+            name = file.relative_to(path.parent).as_posix()
+            digest.update(f"{name}\0{len(content)}\0".encode() + content)
+    return digest.hexdigest()
+
+
+def _files(path: Path) -> Iterator[Path]:
+    """The file itself, or the files below a folder, in order."""
+    if path.is_file():
+        yield path
+        return
+    for file in sorted(path.rglob("*")):
+        if file.is_file() and not _SKIPPED.intersection(file.relative_to(path).parts):
+            yield file

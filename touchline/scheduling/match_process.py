@@ -1,0 +1,106 @@
+"""The program that plays one match of a plan with processes: `python -m touchline.scheduling.match_process`.
+
+Its log is on stderr, the outcome on stdout.
+"""
+
+import secrets
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from pydantic import Field
+
+from recordings.container.key_selection import KeySelection
+from recordings.editing.filtering import filter_recording
+from recordings.reading.recording import open_recording
+from schemas.access.accounts import Account
+from schemas.bus.endpoint import FREE_ENDPOINT
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import RecordingConfig
+from schemas.config.settings import Settings
+from schemas.config.settings_file import run_process
+from schemas.errors import MatchFailedError, TouchlineError
+from schemas.process.clock import WallClock
+from schemas.side import Side
+from touchline.launch.check_brains import check_teams
+from touchline.launch.confinement import team_confinements
+from touchline.launch.match_files import losses_of, published_by
+from touchline.launch.match_run import MatchRun
+from touchline.launch.processes import MatchPlan, check_robot_names
+from touchline.launch.run_folder import RECORDING, prepare_credentials
+from touchline.launch.team_error import TeamError, TeamLeftError
+from touchline.scheduling.inputs_only import KEYS, has_inputs_only
+from touchline.scheduling.measurement import measured
+from touchline.scheduling.outcome import Failed, FailureKind, Outcome, Played, to_json
+from touchline.watch.screen import PlainScreen
+
+
+class MatchProcessSettings(Settings):
+    """A match to play with processes."""
+
+    config: MatchConfig
+    """The match."""
+    identity: str = Field(min_length=1)
+    """Identity of the planned match."""
+    folder: Path
+    """The folder of logs; it exists."""
+    recording: Path | None = None
+    """The recording to keep."""
+    brain_folder: Path | None = None
+    """Where brains are looked for first."""
+
+
+def play(settings: MatchProcessSettings) -> Outcome:
+    """Play the match."""
+    config, identity, logs = settings.config, settings.identity, str(settings.folder)
+    whole = settings.recording if settings.recording and not has_inputs_only(config) else settings.folder / RECORDING
+    record = RecordingConfig(wait=True) if has_inputs_only(config) else config.record.model_copy(update={"wait": True})
+    config = config.model_copy(update={"record": record})
+    plan = MatchPlan(
+        config,
+        FREE_ENDPOINT,
+        settings.folder,
+        whole,
+        brain_folder=settings.brain_folder,
+        launch_token=secrets.token_hex(16),
+    )
+    try:
+        check_robot_names(config)
+        confinements = team_confinements(config, settings.brain_folder, settings.folder.parent)
+        check_teams(config, settings.brain_folder, confinements=confinements)
+        plan = prepare_credentials(replace(plan, confinements=confinements), tls=False)
+        clock = WallClock()
+        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by).play()
+    except TeamError as error:
+        return Failed(identity, FailureKind.DID_NOT_START, str(error), error.side, logs)
+    except TeamLeftError as error:
+        return Failed(identity, FailureKind.CRASHED, str(error), error.side, logs)
+    except (TouchlineError, MatchFailedError) as error:
+        return Failed(identity, FailureKind.WORKER, str(error), None, logs)
+    culprit = next((side for side in Side if Account.of_team(side).value in result.cut_off), None)
+    if culprit is not None:
+        reason = f"{result.names.with_side(culprit)} was cut off, because it went on above the limits of its account"
+        return Failed(identity, FailureKind.BROKE_ACCESS_RULES, reason, culprit, logs)
+    if result.recording.fault:
+        return Failed(identity, FailureKind.WORKER, result.recording.fault, None, logs)
+    return _kept(measured(whole, identity), whole, settings.recording)
+
+
+def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
+    """The outcome, with the recording that is to be kept in place of the whole one."""
+    if wanted == whole:
+        return played
+    if wanted is not None:
+        filter_recording(open_recording(whole), wanted, KeySelection(KEYS))
+    whole.unlink()
+    return replace(played, recording=str(wanted) if wanted is not None else None)
+
+
+def run(settings: MatchProcessSettings) -> int:
+    """Play the match, and print its outcome."""
+    sys.stdout.buffer.write(to_json(play(settings)))
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_process("touchline.scheduling.match_process", MatchProcessSettings, run))

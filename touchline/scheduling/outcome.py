@@ -1,0 +1,72 @@
+"""How a match of a plan ended. An outcome holds no wall time: equal matches have equal outcomes, byte by byte."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from pydantic import TypeAdapter
+
+from recordings.stats.figures import MatchFigures
+from schemas.side import Side
+
+
+class FailureKind(StrEnum):
+    """Why a match was not played to its end."""
+
+    DID_NOT_START = "did_not_start"
+    """A team could not be loaded, or none of its robots came."""
+    CRASHED = "crashed"
+    """A brain raised an exception, or no robot of a team was left."""
+    HUNG = "hung"
+    """A brain did not answer."""
+    BROKE_ACCESS_RULES = "broke_access_rules"
+    """A team used a key or a right that it does not have, and was cut off."""
+    WORKER = "worker"
+    """The process or the machine that played the match was lost, again and again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Played:
+    """A match that was played to its end."""
+
+    identity: str
+    figures: MatchFigures
+    """The figures of `touchline stats`."""
+    playing_time: float
+    """Game clock at the end less that at the beginning, in s."""
+    chain: str
+    """The hash chain over all states: equal for equal matches."""
+    recording: str | None = None
+    """The file of its recording; relative to the folder of the run if it is in there."""
+
+    @property
+    def goals(self) -> dict[Side, int]:
+        """The goals of each side."""
+        return {side: self.figures.sides[side].goals or 0 for side in Side}
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """A match that was not played to its end."""
+
+    identity: str
+    kind: FailureKind
+    reason: str
+    """One line that names robot, tick, file and line where they are known."""
+    culprit: Side | None = None
+    """The side whose program is the reason; None if neither is, or nobody knows."""
+    evidence: str | None = None
+    """The file or folder that shows it, as the recording's."""
+
+
+Outcome = Played | Failed
+_ADAPTER: TypeAdapter[Outcome] = TypeAdapter(Outcome)
+
+
+def to_json(outcome: Outcome) -> bytes:
+    """The outcome as one JSON object."""
+    return _ADAPTER.dump_json(outcome)
+
+
+def from_json(text: bytes) -> Outcome:
+    """The outcome of `to_json`."""
+    return _ADAPTER.validate_json(text)

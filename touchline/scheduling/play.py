@@ -1,0 +1,20 @@
+"""Plays one planned match, in whichever way it is to be played."""
+
+from touchline.scheduling.child_processes import Poll
+from touchline.scheduling.code_digest import code_digest
+from touchline.scheduling.in_process import play_in_process
+from touchline.scheduling.outcome import Failed, FailureKind, Outcome
+from touchline.scheduling.planned_match import PlannedMatch, Way
+from touchline.scheduling.with_processes import play_with_processes
+
+_WAYS = {Way.IN_PROCESS: play_in_process, Way.PROCESSES: play_with_processes}
+
+
+def play(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome:
+    """Play a match; `poll` is called while it lasts. Files of a team that are not those of the plan are not played."""
+    for side, digest in planned.code.items():
+        if code_digest(planned.config, side, planned.brain_folder) != digest:
+            team = planned.config.team(side).name or side.value
+            reason = f"the files of {team} are not those of the plan; restore them, or make a new plan"
+            return Failed(planned.identity, FailureKind.DID_NOT_START, reason)
+    return _WAYS[planned.way](planned, poll)
