@@ -2,6 +2,8 @@
 
 import json as json_text
 import signal
+from collections.abc import Iterator, Mapping
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -11,6 +13,7 @@ import typer
 from typer.core import TyperGroup
 
 from schemas.errors import TouchlineError
+from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
 
@@ -18,6 +21,10 @@ NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
 _DEFAULT = "run"
 Folder = Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a study that was played.")]
 Jobs = Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")]
+Dask = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
+]
 Brains = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Where brains and functions are looked for; by default as then.")
 ]
@@ -57,6 +64,7 @@ def run(
         bool, typer.Option("--fresh", help="Play all matches again, also those that have a result.")
     ] = False,
     jobs: Jobs = 0,
+    dask: Dask = None,
     json: options.Json = False,
 ) -> None:
     """Play all matches of a study that have no result yet, and write results and report.
@@ -70,27 +78,32 @@ def run(
     _need_packages()
     from touchline.experiment.cells import cells_of
     from touchline.experiment.comparisons import answers
-    from touchline.experiment.match_outcome import FailedMatch, MatchOutcome
     from touchline.experiment.run_study import run_study
     from touchline.experiment.sentences import sentence_of
     from touchline.experiment.study_config import load_study
     from touchline.experiment.study_folder import REPORT, read_study
-    from touchline.experiment.study_plan import StudyMatch, StudyPlan
+    from touchline.experiment.study_plan import StudyPlan
+    from touchline.scheduling.outcome import Failed, Outcome
+    from touchline.scheduling.planned_match import PlannedMatch
+    from touchline.scheduling.run import Remote
 
     given = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "record": record}
     study = load_study(file, {key: value for key, value in given.items() if value is not None})
-    plan = StudyPlan(study, cells_of(study, file.parent))
     home = (file.parent / study.match).parent if study.match is not None else file.parent
     folder = into or Path("runs") / study.name
-    failed: list[FailedMatch] = []
-    with _progress(len(plan.matches(study.first_seeds)), study.name) as report, _stoppable(folder):
+    plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
+    with (
+        _executor(jobs, dask) as executor,
+        _progress(len(plan.matches(study.first_seeds)), study.name) as report,
+        _stoppable(folder),
+    ):
 
-        def ended(match: StudyMatch, outcome: MatchOutcome) -> None:
-            text = f"failed: {outcome.reason}" if isinstance(outcome, FailedMatch) else _score(match, outcome.figures)
-            report(f"{match.title}: {text}")
+        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
+            text = f"failed: {outcome.reason}" if isinstance(outcome, Failed) else _score(outcome.goals)
+            report(f"{planned.label}: {text}")
 
-        result = run_study(plan, folder, home, _jobs(jobs), ended, resumed=not fresh)
-        failed = result.failed
+        result = run_study(plan, folder, executor, ended, fresh=fresh, remote=Remote() if dask else None)
+    failed = result.failed
     stored = read_study(folder)
     responses = [name for name in study.responses if name in stored.table]
     sentences = [sentence_of(one, name) for name in responses for one in answers(plan, stored.table, name)]
@@ -167,8 +180,11 @@ def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, 
 
     stored = read_study(folder)
     planned = len({match.identity for match in stored.plan.matches(stored.seeds)})
-    with _progress(planned if sample is None else min(sample, planned), folder.name) as report:
-        verdict = verify_study(folder, _jobs(jobs), sample, brains, report)
+    with (
+        _executor(jobs, None) as executor,
+        _progress(planned if sample is None else min(sample, planned), folder.name) as report,
+    ):
+        verdict = verify_study(folder, executor, sample, brains, lambda planned, _: report(planned.label))
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:
@@ -181,14 +197,13 @@ def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, 
         raise typer.Exit(FAILED)
 
 
-def _score(match: Any, figures: Any) -> str:
-    first, second = (figures.get(f"{side}.goals") for side in match.sides)
-    return f"{first} : {second}"
+def _score(goals: Mapping[Side, int]) -> str:
+    return f"cyan {goals[Side.CYAN]} : {goals[Side.MAGENTA]} magenta"
 
 
 @contextmanager
 def _progress(total: int, title: str) -> Any:
-    from touchline.series.progress import progress_of
+    from touchline.scheduling.progress import progress_of
 
     with progress_of(total, title) as report:
         yield report
@@ -204,12 +219,24 @@ def _stoppable(folder: Path) -> Any:
         raise typer.Exit(128 + signal.SIGINT) from None
 
 
-def _jobs(jobs: int) -> int:
-    from touchline.series.processes import cores
+@contextmanager
+def _executor(jobs: int, dask: str | None) -> Iterator[Executor]:
+    """Where matches are played; those that run are ended if the study is interrupted."""
+    from touchline.scheduling.child_processes import ChildProcesses, cores
 
     if jobs < 0:
         raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
-    return jobs or cores()
+    executor: Executor
+    if dask is not None:
+        from touchline.scheduling.executors.dask_cluster import DaskCluster
+
+        executor = DaskCluster(dask)
+    else:
+        executor = ChildProcesses(jobs or cores())
+    try:
+        yield executor
+    finally:
+        executor.shutdown(cancel_futures=True)
 
 
 def _need_packages() -> None:

@@ -5,7 +5,9 @@ from typing import Any
 
 from recordings.stats.figures import MatchFigures
 from schemas.side import Side
-from touchline.experiment.match_outcome import Value
+
+Value = float | int | None
+"""A figure; None where the match does not show it."""
 
 FIRST, SECOND = "first", "second"
 """Prefixes of the columns of the first team, which is in cyan unless sides are swapped, and of the second."""

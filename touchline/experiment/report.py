@@ -9,10 +9,10 @@ import pandas as pd
 from touchline.experiment.analysis import Comparison, adjusted, estimate_of, seed_means, widest
 from touchline.experiment.comparisons import ComparisonGroup, answers, comparison_groups
 from touchline.experiment.digests import as_text
-from touchline.experiment.match_outcome import FailedMatch
 from touchline.experiment.plots import plot_of_comparisons, plot_of_means
 from touchline.experiment.sentences import UNKNOWN, number, response_text, sentence_of
 from touchline.experiment.study_plan import StudyPlan
+from touchline.scheduling.outcome import Failed
 
 _READING = (
     "Points are means over seeds, bars are intervals of 95 % by Student's t, small dots are single seeds. Every cell "
@@ -28,7 +28,7 @@ def report_of(
     plan: StudyPlan,
     table: pd.DataFrame,
     seeds: Sequence[int],
-    failed: Sequence[FailedMatch],
+    failed: Sequence[Failed],
     versions: Mapping[str, object],
 ) -> str:
     """The report as one page."""
@@ -122,7 +122,7 @@ def _interval_text(plan: StudyPlan, table: pd.DataFrame) -> str:
     return escape(wanted + (f"it is {number(width)}." if reached else f"not reached; it is {number(width)}."))
 
 
-def _failures(failed: Sequence[FailedMatch]) -> str:
+def _failures(failed: Sequence[Failed]) -> str:
     if not failed:
         return ""
     reasons = dict.fromkeys(one.reason for one in failed)

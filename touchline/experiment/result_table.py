@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from touchline.experiment.cells import level_text
-from touchline.experiment.match_figures import by_team
-from touchline.experiment.match_outcome import MatchOutcome, PlayedMatch
+from touchline.experiment.match_figures import by_team, flat_figures
+from touchline.scheduling.outcome import Outcome, Played
 
 if TYPE_CHECKING:
     from touchline.experiment.study_plan import StudyPlan
@@ -20,12 +20,12 @@ _COUNTS = (".fouls.", ".cards.", ".restarts.")
 """Parts of names of columns in which a missing value is 0: nothing of that name was counted in the match."""
 
 
-def result_table(plan: "StudyPlan", seeds: Sequence[int], outcomes: Mapping[str, MatchOutcome]) -> pd.DataFrame:
+def result_table(plan: "StudyPlan", seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> pd.DataFrame:
     """The matches of these seeds that were played, in the order of the plan. Cells are counted from 1."""
     rows = []
     for match in plan.matches(seeds):
         outcome = outcomes.get(match.identity)
-        if not isinstance(outcome, PlayedMatch):
+        if not isinstance(outcome, Played):
             continue
         keys = (match.cell + 1, match.seed, match.swapped, match.identity, outcome.chain)
         levels = plan.cells[match.cell].levels
@@ -35,7 +35,8 @@ def result_table(plan: "StudyPlan", seeds: Sequence[int], outcomes: Mapping[str,
                 f"{LEVEL}{key}": level if isinstance(level, bool | int | float) else level_text(level)
                 for key, level in levels.items()
             }
-            | by_team(outcome.figures, match.sides)
+            | by_team(flat_figures(outcome.figures), match.sides)
+            | dict(plan.measured.get(match.identity, {}))
         )
     table = pd.DataFrame(rows, columns=None if rows else list(KEYS))
     leading = [name for name in table.columns if name in KEYS or name.startswith(LEVEL)]

@@ -14,16 +14,13 @@ from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from touchline.experiment.cells import Cell
 from touchline.experiment.digests import as_text, file_digest
-from touchline.experiment.match_outcome import MatchOutcome
 from touchline.experiment.result_table import result_table
 from touchline.experiment.study_config import Study
-from touchline.experiment.study_plan import StudyPlan
+from touchline.experiment.study_plan import RECORDINGS, StudyPlan
+from touchline.scheduling.outcome import Outcome
 
 PLAN, VERSIONS, DIGESTS = "plan.json", "versions.json", "digests.json"
 CSV, PARQUET, REPORT = "results.csv", "results.parquet", "report.html"
-STATE = "state.sqlite"
-"""Outcomes while the study runs; not needed to verify or to reproduce it."""
-RECORDINGS = "recordings"
 
 
 @dataclass(frozen=True)
@@ -34,13 +31,12 @@ class StoredStudy:
     plan: StudyPlan
     seeds: list[int]
     """The seeds that were played in each cell."""
-    brain_folder: Path | None
     table: pd.DataFrame
     versions: Mapping[str, Any]
     digests: Mapping[str, Any]
 
 
-def write_plan(folder: Path, plan: StudyPlan, brain_folder: Path | None) -> None:
+def write_plan(folder: Path, plan: StudyPlan) -> None:
     """Write the plan; each cell has its whole match, so that no other file is needed.
 
     Raises:
@@ -49,7 +45,7 @@ def write_plan(folder: Path, plan: StudyPlan, brain_folder: Path | None) -> None
     folder.mkdir(parents=True, exist_ok=True)
     content = {
         "study": plan.study.model_dump(mode="json"),
-        "brain_folder": os.path.relpath(brain_folder, folder) if brain_folder is not None else None,
+        "brain_folder": os.path.relpath(plan.brain_folder, folder) if plan.brain_folder is not None else None,
         "cells": [{"levels": dict(cell.levels), "config": cell.config.model_dump(mode="json")} for cell in plan.cells],
     }
     text, path = as_text(content), folder / PLAN
@@ -58,8 +54,8 @@ def write_plan(folder: Path, plan: StudyPlan, brain_folder: Path | None) -> None
     path.write_text(text, "utf-8")
 
 
-def read_plan(folder: Path) -> tuple[StudyPlan, Path | None]:
-    """The plan of a folder, and where brains are looked for.
+def read_plan(folder: Path) -> StudyPlan:
+    """The plan of a folder.
 
     Raises:
         TouchlineError: the folder has no valid plan.
@@ -72,10 +68,10 @@ def read_plan(folder: Path) -> tuple[StudyPlan, Path | None]:
     except (KeyError, TypeError, ValidationError) as error:
         fault = " ".join(str(error).split())[:200]
         raise TouchlineError(f"{folder / PLAN} is not the plan of a study: {fault}") from None
-    return StudyPlan(study, cells), (folder / home).resolve() if home is not None else None
+    return StudyPlan(study, cells, (folder / home).resolve() if home is not None else None)
 
 
-def write_results(folder: Path, plan: StudyPlan, seeds: Sequence[int], outcomes: Mapping[str, MatchOutcome]) -> None:
+def write_results(folder: Path, plan: StudyPlan, seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> None:
     """Write the table of results as CSV and Parquet."""
     table = result_table(plan, seeds, outcomes)
     (folder / CSV).write_bytes(csv_bytes(table))
@@ -100,18 +96,13 @@ def read_study(folder: Path) -> StoredStudy:
     Raises:
         TouchlineError: a part of it is missing or invalid.
     """
-    plan, brain_folder = read_plan(folder)
+    plan = read_plan(folder)
     digests = _json(folder / DIGESTS)
     try:
         table = pd.read_csv(folder / CSV)
     except (OSError, ValueError) as error:
         raise TouchlineError(f"{folder / CSV}: {error}; the study has no results yet: run it to its end") from None
-    return StoredStudy(folder, plan, digests["seeds"], brain_folder, table, _json(folder / VERSIONS), digests)
-
-
-def recording_name(identity: str) -> str:
-    """Path of the recording of a match in the folder of its study."""
-    return f"{RECORDINGS}/{identity}.mcap"
+    return StoredStudy(folder, plan, digests["seeds"], table, _json(folder / VERSIONS), digests)
 
 
 def _recordings(folder: Path) -> list[str]:

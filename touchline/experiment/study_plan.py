@@ -1,19 +1,24 @@
 """The plan of a study: which matches are due, as a pure function of the outcomes so far."""
 
-import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count, islice
+from pathlib import Path
 
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
 from touchline.experiment.analysis import is_narrow
 from touchline.experiment.cells import Cell
-from touchline.experiment.match_outcome import MatchOutcome
+from touchline.experiment.match_figures import Value
 from touchline.experiment.result_table import result_table
 from touchline.experiment.study_config import Study
+from touchline.scheduling.outcome import Outcome
+from touchline.scheduling.planned_match import PlannedMatch
 from touchline.series.plan import with_sides_swapped
+
+RECORDINGS = "recordings"
+"""The folder of the recordings, in that of a study."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,14 +51,27 @@ class StudyPlan:
 
     study: Study
     cells: Sequence[Cell]
+    brain_folder: Path | None = None
+    """Where brains and functions are looked for first."""
+    recordings: Path | None = None
+    """The folder that gets the recordings, where the study wants any."""
+    measured: dict[str, Mapping[str, Value]] = field(default_factory=dict, repr=False, compare=False)
+    """Identity of a match → values of the study's functions."""
     _swapped: dict[int, MatchConfig] = field(default_factory=dict, repr=False, compare=False)
 
-    def due(self, outcomes: Mapping[str, MatchOutcome]) -> list[StudyMatch]:
+    def due(self, outcomes: Mapping[str, Outcome]) -> list[PlannedMatch]:
         """All matches that can be played now and have no outcome; none when the study is complete."""
         matches = self.matches(self.seeds_due(outcomes))
-        return list({one.identity: one for one in matches if one.identity not in outcomes}.values())
+        distinct = {one.identity: one for one in matches}
+        return [self.planned(one) for identity, one in distinct.items() if identity not in outcomes]
 
-    def seeds_due(self, outcomes: Mapping[str, MatchOutcome]) -> list[int]:
+    def planned(self, match: StudyMatch) -> PlannedMatch:
+        """The match as it is played."""
+        wants = self.recordings is not None and (self.study.record or self.study.functions)
+        path = self.recordings / recording_name(match.identity) if wants and self.recordings is not None else None
+        return PlannedMatch(match.config, brain_folder=self.brain_folder, recording=path, label=match.title)
+
+    def seeds_due(self, outcomes: Mapping[str, Outcome]) -> list[int]:
         """The seeds to be played, in view of the outcomes so far.
 
         With `until_interval`, as many seeds as at first are added whenever all are played and the interval is too wide.
@@ -80,7 +98,7 @@ class StudyPlan:
         for number, cell in enumerate(self.cells):
             for swapped in (False, True) if self.study.both_sides else (False,):
                 config = self._config(number, cell, swapped=swapped).model_copy(update={"seed": seed})
-                yield StudyMatch(number, seed, swapped, config, identity_of(config))
+                yield StudyMatch(number, seed, swapped, config, PlannedMatch(config).identity)
 
     def _config(self, number: int, cell: Cell, *, swapped: bool) -> MatchConfig:
         if not swapped:
@@ -97,6 +115,6 @@ class StudyPlan:
         return [*first, *islice(further, max(0, self.study.most_seeds - len(first)))]
 
 
-def identity_of(config: MatchConfig) -> str:
-    """A digest of a configuration."""
-    return hashlib.blake2b(config.model_dump_json().encode(), digest_size=16).hexdigest()
+def recording_name(identity: str) -> str:
+    """Path of the recording of a match in the folder of its study."""
+    return f"{RECORDINGS}/{identity}.mcap"

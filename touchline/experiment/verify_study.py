@@ -1,10 +1,12 @@
 """Checks a study that was played: digests, results and recordings, and matches that are played again."""
 
 import random
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from tempfile import TemporaryDirectory
+from typing import Any
 
 import pandas as pd
 
@@ -13,22 +15,21 @@ from recordings.stats.match_statistics import figures_of_recording
 from schemas.errors import TouchlineError
 from touchline.experiment.digests import file_digest, library_digest, team_digests
 from touchline.experiment.match_figures import by_team, flat_figures
-from touchline.experiment.match_outcome import FailedMatch, MatchOutcome
+from touchline.experiment.recording_functions import load_functions
 from touchline.experiment.result_table import result_table
-from touchline.experiment.run_study import play_matches
+from touchline.experiment.run_study import Ended, play_measured
 from touchline.experiment.study_folder import (
     CSV,
     DIGESTS,
     PARQUET,
-    RECORDINGS,
     StoredStudy,
     csv_bytes,
     read_study,
-    recording_name,
 )
-
-if TYPE_CHECKING:
-    from touchline.experiment.study_plan import StudyMatch
+from touchline.experiment.study_plan import RECORDINGS, StudyMatch, StudyPlan, recording_name
+from touchline.scheduling.outcome import Failed, Outcome
+from touchline.scheduling.plan import ListPlan
+from touchline.scheduling.store import MemoryStore
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ class Verdict:
 
 
 def verify_study(
-    folder: Path, jobs: int, sample: int | None, brain_folder: Path | None, ended: Callable[[str], None]
+    folder: Path, executor: Executor, sample: int | None, brain_folder: Path | None, ended: Ended
 ) -> Verdict:
     """Check the files of a study, and play a random sample of its matches again, or all of them.
 
@@ -53,16 +54,15 @@ def verify_study(
         TouchlineError: the folder has no study that was played.
     """
     stored = read_study(folder)
-    home = brain_folder or stored.brain_folder
+    home = brain_folder or stored.plan.brain_folder
     faults = [*_file_faults(stored), *_table_faults(stored), *_recording_faults(stored)]
     distinct = {match.identity: match for match in stored.plan.matches(stored.seeds)}
     matches = list(distinct.values())
     chosen = matches if sample is None else random.Random(0).sample(matches, min(sample, len(matches)))
-    outcomes = dict[str, MatchOutcome]()
-    for match, outcome in play_matches(stored.plan, chosen, None, home, jobs):
-        outcomes[outcome.identity] = outcome
-        ended(match.title)
-    again = result_table(stored.plan, stored.seeds, outcomes)
+    with TemporaryDirectory() as scratch:
+        plan = replace(stored.plan, brain_folder=home, recordings=Path(scratch), measured={})
+        outcomes = _played_again(plan, chosen, Path(scratch), executor, ended)
+    again = result_table(plan, stored.seeds, outcomes)
     faults += [
         fault for match in chosen for fault in _match_faults(match, outcomes[match.identity], stored.table, again)
     ]
@@ -72,6 +72,14 @@ def verify_study(
         if not whole and not faults:
             faults.append(f"{CSV} differs from the table of the matches that were played again")
     return Verdict(faults, _notes(stored, home), len(chosen), whole)
+
+
+def _played_again(
+    plan: StudyPlan, matches: Sequence[StudyMatch], folder: Path, executor: Executor, ended: Ended
+) -> dict[str, Outcome]:
+    functions = load_functions(plan.study.functions, plan.brain_folder)
+    due = ListPlan(tuple(plan.planned(match) for match in matches))
+    return play_measured(plan, due, MemoryStore(folder), executor, functions, ended)
 
 
 def _file_faults(stored: StoredStudy) -> Iterator[str]:
@@ -114,9 +122,9 @@ def _recording_faults(stored: StoredStudy) -> Iterator[str]:
                 yield f"{match.title}: {name} is {row[name]:g} in {CSV} and {figures[name]} in {path.name}"
 
 
-def _match_faults(match: "StudyMatch", outcome: MatchOutcome, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
+def _match_faults(match: StudyMatch, outcome: Outcome, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
     known = not rows.empty and match.identity in set(rows["identity"])
-    if isinstance(outcome, FailedMatch):
+    if isinstance(outcome, Failed):
         if known:
             yield f"{match.title}: has a result, and failed when it was played again: {outcome.reason}"
         return
@@ -133,7 +141,7 @@ def _match_faults(match: "StudyMatch", outcome: MatchOutcome, rows: pd.DataFrame
         yield f"{match.title}: {name} is {stored_row.get(name)} in {CSV} and {new[name]} when played again{more}"
 
 
-def _row(table: pd.DataFrame, match: "StudyMatch") -> "pd.Series[Any]":
+def _row(table: pd.DataFrame, match: StudyMatch) -> "pd.Series[Any]":
     is_row = (table["identity"] == match.identity) & (table["swapped"] == match.swapped)
     return table[is_row].iloc[0]
 
