@@ -36,6 +36,14 @@ def is_private(name: str) -> bool:
     return name.startswith("_") and name not in DOCUMENTED | SPECIAL
 
 
+def is_own(node: ast.expr) -> bool:
+    """Whether an expression is `self`, `cls` or `super()`."""
+    called = node.func if isinstance(node, ast.Call) and not node.args else None
+    return (isinstance(node, ast.Name) and node.id in ("self", "cls")) or (
+        isinstance(called, ast.Name) and called.id == "super"
+    )
+
+
 def sources(*folders: str) -> Iterator[tuple[Path, ast.Module]]:
     """The syntax tree of each module, one after the other: all of them together take 160 MB."""
     for folder in folders:
@@ -54,7 +62,7 @@ def defined() -> set[str]:
             elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
                 found.add(node.id)
             elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
-                found.add(node.attr if ast.unparse(node.value) in ("self", "cls") else "")
+                found.add(node.attr if is_own(node.value) else "")
     return {name for name in found if not name.startswith("__")}
 
 
@@ -88,8 +96,8 @@ def test_no_private_member_of_another_package_is_used():
 def names_of_ours(tree: ast.Module) -> Iterator[tuple[int, str]]:
     """Line and name of each private member that is taken from an object, imported, or replaced by its name."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Attribute) and ast.unparse(node.value) not in ("self", "cls", "super()"):
-            names: tuple[str, ...] = (node.attr,)
+        if isinstance(node, ast.Attribute):
+            names: tuple[str, ...] = () if is_own(node.value) else (node.attr,)
         elif isinstance(node, ast.ImportFrom):
             names = tuple(alias.name for alias in node.names)
         elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in ("getattr", "setattr"):

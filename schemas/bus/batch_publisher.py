@@ -17,6 +17,7 @@ from schemas.messages.record_batch import (
     write_batch,
     write_reply,
 )
+from schemas.process.large_blocks import mapped
 from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES, KEPT_BYTES
 from schemas.topic import Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
@@ -37,7 +38,7 @@ _MAX_REPLIES_PER_TICK = 4
 
 class _Kept(NamedTuple):
     sent_ns: int
-    payload: bytes
+    payload: memoryview
 
 
 class BatchPublisher:
@@ -104,7 +105,7 @@ class BatchPublisher:
         payload = write_batch(self._stream, self._next, self._tick, sent_ns, self._entries)
         self._next += 1
         self._writer.put_payload(payload)
-        self._keep(_Kept(sent_ns, payload))
+        self._keep(_Kept(sent_ns, mapped(payload)))
         self._entries = []
         self._size = self._ticks = 0
         self._sent_at = self._clock.now()
@@ -136,7 +137,7 @@ class BatchPublisher:
         oldest = self._next - sum(kept.sent_ns >= request.since_ns for kept in self._kept)
         start = min(max(request.first, oldest), self._next)
         end = self._next if request.last is None else min(self._next, request.last + 1)
-        batches: list[bytes] = []
+        batches: list[memoryview] = []
         size = 0
         for kept in islice(self._kept, start - self._next + len(self._kept), None):
             size += len(kept.payload)

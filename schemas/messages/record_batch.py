@@ -173,7 +173,7 @@ def read_batch(payload: bytes) -> Batch:
     return batch
 
 
-def write_reply(stream: int, oldest: int, batches: Sequence[bytes]) -> bytes:
+def write_reply(stream: int, oldest: int, batches: Sequence[bytes | memoryview]) -> bytes:
     """An encoded `RecordBatchesReply` of encoded batches."""
     return _encode(BatchesReply(VERSION, stream, oldest, [msgspec.Raw(batch) for batch in batches]))
 

@@ -7,7 +7,7 @@ import os
 import socket
 import struct
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from ipaddress import IPv6Address, ip_address
 from pathlib import Path
 
@@ -32,10 +32,13 @@ def plain_address(address: str) -> str:
 
 
 def received_bytes() -> dict[Peer, int]:
-    """Peer → bytes received from it since its connection was opened."""
+    """Peer → bytes received from it since its connection was opened.
+
+    Other threads close connections at any moment: one that is closed meanwhile is left out.
+    """
     received = {}
     for descriptor in _open_sockets():
-        with _borrowed(descriptor) as connection:
+        with _borrowed(descriptor) as connection, suppress(OSError):
             if connection is not None and (peer := _peer(connection)) is not None:
                 info = connection.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, _INFO_SIZE)
                 received[peer] = _RECEIVED.unpack_from(info)[0]
@@ -66,10 +69,14 @@ def _end(descriptor: int, peer: Peer) -> bool:
 
 
 def _open_sockets() -> Iterator[int]:
-    """The descriptors that are sockets."""
-    if not hasattr(socket, "TCP_INFO") or not _DESCRIPTORS.exists():
+    """The descriptors that are sockets; none where the list cannot be read, as without a free descriptor."""
+    if not hasattr(socket, "TCP_INFO"):
         return
-    for entry in _DESCRIPTORS.iterdir():
+    try:
+        entries = list(_DESCRIPTORS.iterdir())
+    except OSError:
+        return
+    for entry in entries:
         try:
             target = str(entry.readlink())
         except OSError:

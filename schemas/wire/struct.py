@@ -8,7 +8,7 @@ validated, written and described in the same way.
 import math
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from enum import Enum
 from functools import cache, partial
 from types import NoneType, UnionType
@@ -92,7 +92,8 @@ class Checked(msgspec.StructMeta):
 
     def __call__(cls: type[T], *args: Any, **fields: Any) -> T:  # noqa: N805
         part: T = msgspec.StructMeta.__call__(cls, *args, **fields)
-        check(cast(Struct, part))
+        struct = cast(Struct, part)
+        _check_fields(struct, (*struct.__struct_fields__[: len(args)], *fields) if args else fields)
         return part
 
 
@@ -104,22 +105,27 @@ def check(part: Struct) -> None:
     Raises:
         FaultError: a field has another type, is beyond its limits, or is not a finite number.
     """
-    for name in _suspect_fields(part):
+    _check_fields(part, part.__struct_fields__)
+
+
+def _check_fields(part: Struct, names: Iterable[str]) -> None:
+    """Check these fields, as those that a constructor was given: the defaults of the others are valid."""
+    for name in _suspect_fields(part, names):
         _convert(part, name)
 
 
-def _suspect_fields(part: Struct) -> list[str]:
-    """The fields whose values a quick check does not accept."""
+def _suspect_fields(part: Struct, names: Iterable[str]) -> list[str]:
+    """Those of these fields whose values a quick check does not accept."""
     numbers, others = _plan(part.__class__)
     suspect = []
-    for name, kind, low, high in numbers:
+    for name in names:
         value: Any = getattr(part, name)
-        if value.__class__ is not kind or not low <= value <= high:
-            suspect.append(name)
-    for name, tests in others:
-        value = getattr(part, name)
-        test = tests.get(value.__class__, _never)
-        if test is not None and not test(value):
+        number = numbers.get(name)
+        if number is not None:
+            kind, low, high = number
+            if value.__class__ is not kind or not low <= value <= high:
+                suspect.append(name)
+        elif (test := others[name].get(value.__class__, _never)) is not None and not test(value):
             suspect.append(name)
     return suspect
 
@@ -135,23 +141,23 @@ def _never(_: Any) -> bool:
 class _Plan(NamedTuple):
     """The quick check of one class."""
 
-    numbers: list[tuple[str, type[Any], float, float]]
-    """Field, class, least and greatest value."""
-    others: list[tuple[str, dict[type, Test | None]]]
-    """Field, and the classes that its value may have, each with a further test or None."""
+    numbers: dict[str, tuple[type[Any], float, float]]
+    """Field → class, least and greatest value."""
+    others: dict[str, dict[type, Test | None]]
+    """Field → the classes that its value may have, each with a further test or None."""
 
 
 @cache
 def _plan(kind: type[Struct]) -> _Plan:
-    plan = _Plan([], [])
+    plan = _Plan({}, {})
     for name in kind.__struct_fields__:
         base, limits = _split(hints_of(kind)[name])
         if base in (float, int, bool):
-            plan.numbers.append((name, base, *_range(base, limits)))
+            plan.numbers[name] = base, *_range(base, limits)
         else:
             choices = get_args(base) if get_origin(base) in (Union, UnionType) else (hints_of(kind)[name],)
             tests = [test for choice in choices for test in _tests(*_split(choice))]
-            plan.others.append((name, dict(tests)))
+            plan.others[name] = dict(tests)
     return plan
 
 
@@ -168,7 +174,7 @@ def _tests(kind: Any, limits: list[Meta]) -> list[tuple[type, Test | None]]:
     if isinstance(kind, Checked) or kind is NoneType or (isinstance(kind, type) and issubclass(kind, Enum)):
         return [(kind, None)]
     if isinstance(kind, type) and issubclass(kind, Struct):
-        return [(kind, lambda part: not _suspect_fields(part))]
+        return [(kind, lambda part: not _suspect_fields(part, part.__struct_fields__))]
     if kind is str:
         longest = min([one.max_length for one in limits if one.max_length is not None], default=sys.maxsize)
         patterns = [re.compile(one.pattern).search for one in limits if one.pattern is not None]

@@ -17,7 +17,6 @@ from schemas.bus.zenoh.open_access import open_access
 from schemas.bus.zenoh.router_limits import router_limits
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
-from schemas.process.large_blocks import return_large_blocks
 from schemas.process.process_log import configure_log
 from schemas.process.scheduling import use_batch_scheduling
 from sim_host.missing_engine import missing_engine_text
@@ -33,7 +32,6 @@ def run(settings: HostSettings) -> int:
         TouchlineError: PyBullet is missing, or the endpoint cannot be listened on or is open to others unguarded.
     """
     configure_log("host", settings.log_format, text="%(asctime)s %(name)s: %(message)s")
-    return_large_blocks()
     signal.signal(signal.SIGTERM, _leave)
     try:
         _serve(settings)

@@ -48,23 +48,38 @@ class Situation(NamedTuple):
     must_pass: bool
 
 
-def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Parameters) -> tuple[Action, Pass | None]:
-    """One tick with the ball, and the pass that is aimed at."""
+class Choice(NamedTuple):
+    """What the robot with the ball does, and why."""
+
+    action: Action
+    aimed: Pass | None
+    """The pass that it aims at."""
+    weighed: dict[str, float]
+    """Chance of the best shot, values of the best pass and of the best dribble."""
+
+
+def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Choice:
+    """One tick with the ball."""
     me, pitch = now.me, setup.pitch
     gap = setup.dribble.gap
     ball = me.x + gap * math.cos(me.heading), me.y + gap * math.sin(me.heading)
-    shot = best_shot(ball, now.opponents, pitch, parameters) if now.may_score else None
+    shot = best_shot(ball, me.heading, now.opponents, pitch, parameters) if now.may_score else None
     best = _best_pass(now, ball, pitch, parameters)
     way, dribble_worth = _best_dribble(now, ball, pitch, parameters)
+    weighed = {
+        "shot": shot.chance if shot is not None else 0.0,
+        "pass": best.value if best is not None else 0.0,
+        "dribble": dribble_worth,
+    }
     is_late = now.held > parameters.patience or now.must_pass
-    if shot is not None and (
-        shot.chance > (parameters.shot_worth if not is_late else 0.05)
-        and (best is None or shot.chance >= best.value - 0.1)
-    ):
-        return _shoot(me, shot, setup, limits, parameters), None
+    nearest = min((math.dist(ball, opponent) for opponent in now.opponents), default=math.inf)
+    least = parameters.shot_worth if nearest < parameters.shot_pressed else parameters.shot_waits
+    least = parameters.shot_late if is_late else least
+    if shot is not None and shot.chance > least and (best is None or shot.chance >= best.value - 0.1):
+        return Choice(_shoot(me, shot, setup, limits, parameters), None, weighed)
     if best is not None and (best.value > dribble_worth or (is_late and best.chance > 0.2)):
-        return _pass(now, ball, best, setup, limits, parameters), best
-    return _dribble(now, way, setup, limits, parameters), None
+        return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
+    return Choice(_dribble(now, way, setup, limits, parameters), None, weighed)
 
 
 def _best_pass(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters) -> Pass | None:

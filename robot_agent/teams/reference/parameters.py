@@ -64,6 +64,9 @@ class Parameters:
     marks_before: float = -1.0
     """m; opponents without the ball are marked once the ball is behind this x."""
 
+    attack_lasts: float = 0.8
+    """s for which the places of an attack stay after the ball is contested or between two holders."""
+
     # Passes
     pass_least: float = 1.6
     """m; a shorter pass does not roll the metre that counts."""
@@ -71,8 +74,8 @@ class Parameters:
     """m; a longer pass takes over 2 s."""
     pass_arriving: float = 2.6
     """m/s when it arrives: the dribbler keeps it, and opponents have little time."""
-    pass_error: float = 0.2
-    """m beside the receiver at most: half a dribbler's reach by moving."""
+    pass_error: float = 0.35
+    """m beside the receiver at most: it moves as far while the ball rolls, and a kick that waits is lost."""
     intercept_reach: float = 0.45
     """m beside a lane within which an opponent has the ball without moving: hull, ball and noise."""
     intercept_speed: float = 1.3
@@ -97,35 +100,47 @@ class Parameters:
     """Value of the ball in the opponents' hold, at the middle of the pitch; twice as much before the own goal."""
 
     # Shots
-    shot_range: float = 7.5
-    """m; from farther away a keeper has the time to move."""
-    shot_margin: float = 0.38
-    """m of lane that a keeper's hull and the ball need."""
-    shot_sure: float = 0.55
-    """m of lane beyond the margin with which a shot is sure to score."""
+    shot_range: float = 7.0
+    """m; from farther away a keeper has the time to move: of 8 shots from there into a corner, one scored."""
+    shot_margin: float = 0.36
+    """m between a shot and an opponent's centre that its hull and the ball need."""
+    shot_sure: float = 0.3
+    """m of air beside all opponents with which a shot is sure to score."""
+    shot_speed: float = 9.2
+    """m/s of a shot along the ground, on average over 6 m."""
+    shot_reaction: float = 0.15
+    """s until an opponent moves for a shot: camera, decision, and the drive's lag."""
+    shot_crossing: float = 5.0
+    """m/s² with which it then moves. By drill, shots on the run into a corner score from 5 m, and none from 5.5 to 6 m."""
+    shot_turn: float = 0.3
+    """m of room that a radian of turning costs: of two open corners, noise would choose another one in each tick."""
     lob_nearest: float = 3.4
     """m; a nearer lob is still rising over the bar."""
+    lob_rises: float = 1.6
+    """m after which a lob is above all hulls."""
+    lob_room: float = 0.5
+    """m beside a lob's path while it rises, without an opponent's centre."""
     lob_value: float = 0.9
-    """Share of lobs that score over a keeper before its line, by drill: 8 of 8 over `simple`'s, from 5 to 7 m."""
-    lob_on_line: float = 0.32
-    """Share of lobs that score past a keeper on its line, by drill: 2 of 7."""
-    off_line: float = 0.2
+    """Share of lobs that score over a keeper that is off its line, by drill: 8 of 8, from 5 to 7 m."""
+    lob_on_line: float = 0.12
+    """Share of lobs that score past a keeper on its line, by drill: 3 of 48, all of them from the side."""
+    off_line: float = 0.45
     """m before the goal line, from where a keeper is too far out for a lob: hulls are 0.8 m high."""
     keeper_unseen: float = 5.5
     """m; from farther away a goal without a visible keeper is believed to have one: cameras reach 7 m."""
-    lob_rises: float = 1.6
-    """m after which a lob is above all hulls."""
-    shot_worth: float = 0.3
-    """Least chance of a goal for which a robot shoots."""
-    shot_closes: float = 0.075
-    """m that a keeper moves while a shot rolls a metre: 0.45 m in the 0.6 s of 6 m, at 2.5 m/s²."""
-    ground_range: float = 5.0
-    """m from which a ground shot passes a keeper, by drill: of 8 from 7 m none scored."""
-    shot_error: float = 0.08
+    shot_worth: float = 0.35
+    """Least chance of a goal for which a robot under pressure shoots."""
+    shot_waits: float = 0.8
+    """The same for a robot with room: closer to the goal the chance grows within a second."""
+    shot_pressed: float = 1.6
+    """m to an opponent that is at the ball within half a second."""
+    shot_late: float = 0.1
+    """The same for a robot that has to give up the ball."""
+    shot_error: float = 0.06
     """m beside the target at most."""
 
     # Dribbling
-    dribble_speed: float = 2.2
+    dribble_speed: float = 3.0
     """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
     pressed: float = 1.1
     """m to an opponent ahead that presses."""

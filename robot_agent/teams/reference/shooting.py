@@ -7,16 +7,15 @@ from typing import NamedTuple
 from robot_agent.skills.shoot import lane_width
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
+from schemas.frames import wrap
 from schemas.messages.command import KickMode
 
 Point = tuple[float, float]
 
-_GROUND_PLACES = (0.0, -0.4, 0.4, -0.7, 0.7)
-"""Where a ground shot may aim, as shares of half the goal's width: 0.25 m inside the posts at most."""
+_GROUND_PLACES = (0.0, -0.5, 0.5, -0.83, 0.83)
+"""Where a ground shot may aim, as shares of half the goal's width: the ball's edge 0.1 m inside the posts at most."""
 _LOB_PLACES = (-0.55, 0.0, 0.55)
 """Where a lob may aim, as shares of half the goal's width."""
-_LOB_ROOM = 0.5
-"""m beside a lob's path while it rises, without an opponent."""
 
 
 class Shot(NamedTuple):
@@ -28,8 +27,10 @@ class Shot(NamedTuple):
     """Of a goal, 0 to 1."""
 
 
-def best_shot(ball: Point, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters) -> Shot | None:
-    """The likelier of the best ground shot and the best lob; None out of range."""
+def best_shot(
+    ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
+) -> Shot | None:
+    """The likelier of the best ground shot and the best lob; None out of range. `heading` is the robot's, rad."""
     far = math.hypot(pitch.goal_line - ball[0], ball[1])
     if far > parameters.shot_range:
         return None
@@ -37,7 +38,7 @@ def best_shot(ball: Point, opponents: Sequence[Point], pitch: Pitch, parameters:
     if keeper is None and far > parameters.keeper_unseen:
         keeper = (pitch.goal_line, 0.0)
         opponents = [*opponents, keeper]
-    ground = _ground(ball, far, keeper, opponents, pitch, parameters)
+    ground = _ground(ball, heading, opponents, pitch, parameters)
     lob = _lob(ball, far, keeper, opponents, pitch, parameters)
     return max((ground, lob), key=lambda shot: shot.chance) if lob is not None else ground
 
@@ -50,19 +51,34 @@ def _keeper(opponents: Sequence[Point], pitch: Pitch) -> Point | None:
 
 
 def _ground(
-    ball: Point, far: float, keeper: Point | None, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
+    ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
 ) -> Shot:
-    """A shot along the ground into the widest lane; from far away a keeper gets across."""
-    best, widest = 0.0, -math.inf
+    """The shot along the ground with the most room beside all opponents; of equal ones, that with the least turn."""
+    best, most, room_there = 0.0, -math.inf, -math.inf
     for share in _GROUND_PLACES:
         y = 0.5 * share * pitch.goal_width
-        width = lane_width(ball, (pitch.goal_line, y), opponents, parameters.shot_closes)
-        if width > widest:
-            best, widest = y, width
-    chance = max(0.0, min(1.0, (widest - parameters.shot_margin) / parameters.shot_sure))
-    near = max(0.0, min(1.0, parameters.ground_range - far))
-    near = near if keeper is not None else 1.0
-    return Shot(KickMode.GROUND, (pitch.goal_line, best), chance * near * _in_view(ball, pitch))
+        room = _room(ball, (pitch.goal_line, y), opponents, parameters)
+        turn = abs(wrap(math.atan2(y - ball[1], pitch.goal_line - ball[0]) - heading))
+        if room - parameters.shot_turn * turn > most:
+            best, most, room_there = y, room - parameters.shot_turn * turn, room
+    chance = max(0.0, min(1.0, room_there / parameters.shot_sure))
+    return Shot(KickMode.GROUND, (pitch.goal_line, best), chance * _in_view(ball, pitch))
+
+
+def _room(ball: Point, target: Point, opponents: Sequence[Point], parameters: Parameters) -> float:
+    """Least m of air between a rolling shot and any opponent, which moves across its path as soon as it can."""
+    dx, dy = target[0] - ball[0], target[1] - ball[1]
+    length = max(math.hypot(dx, dy), 1e-6)
+    ux, uy = dx / length, dy / length
+    least = parameters.shot_sure
+    for x, y in opponents:
+        along = (x - ball[0]) * ux + (y - ball[1]) * uy
+        if -0.2 < along < length + 0.3:
+            time = max(0.0, along / parameters.shot_speed - parameters.shot_reaction)
+            moves = 0.5 * parameters.shot_crossing * time * time
+            beside = abs((y - ball[1]) * ux - (x - ball[0]) * uy)
+            least = min(least, beside - parameters.shot_margin - moves)
+    return least
 
 
 def _lob(
@@ -78,7 +94,7 @@ def _lob(
         y = 0.5 * share * pitch.goal_width
         rises = parameters.lob_rises / far
         risen = ball[0] + rises * (pitch.goal_line - ball[0]), ball[1] + rises * (y - ball[1])
-        if lane_width(ball, risen, opponents) < _LOB_ROOM:
+        if lane_width(ball, risen, opponents) < parameters.lob_room:
             continue
         beside = abs(keeper[1] - y) if keeper is not None else pitch.goal_width
         chance = value * min(1.0, 0.4 + beside) * _in_view(ball, pitch)

@@ -14,6 +14,7 @@ from robot_agent.teams.action import Action
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.reference.attacker import Situation, play_ball
+from robot_agent.teams.reference.drawing import drawing
 from robot_agent.teams.reference.estimate import SharedEstimate, report
 from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.keeper import fetches, guard
@@ -57,6 +58,10 @@ class Reference(Player):
         """s until this robot could be at the ball: now, and as it was sent last."""
         self._place: Point | None = None
         """Where this robot stands, until another place is clearly better."""
+        self._attack_left = 0.0
+        """s for which the places of an attack stay."""
+        self._weighed: dict[str, float] = {}
+        """What this robot chose from, with the ball."""
 
     def restart(self) -> None:
         """Forget what was believed of the world: another episode begins."""
@@ -70,9 +75,18 @@ class Reference(Player):
         if command.radio is None or command.radio.self is None:
             return command
         self._sent_arrival = self._arrival
-        me = command.radio.self
-        words = report([(body.x, body.y) for body in command.radio.obstacles], (me.x, me.y), self._arrival)
-        return msgspec.structs.replace(command, radio=msgspec.structs.replace(command.radio, extra=words))
+        me, opponents = command.radio.self, [(body.x, body.y) for body in command.radio.obstacles]
+        words = report(opponents, (me.x, me.y), self._arrival)
+        debug = drawing(
+            Body(me.x, me.y, me.heading),
+            command.radio.role or "",
+            command.radio.intention or "",
+            place=self._place,
+            aimed=self._chosen,
+            weighed=self._weighed,
+            opponents=opponents,
+        )
+        return msgspec.structs.replace(command, radio=msgspec.structs.replace(command.radio, extra=words), debug=debug)
 
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """Find the role, then act by it."""
@@ -80,6 +94,7 @@ class Reference(Player):
         self._held = self._held + belief.dt if belief.holding else 0.0
         self._waited = self._waited + belief.dt if belief.game.running and belief.game.phase.ours else 0.0
         self._promised = promise_after(self._promised, belief)
+        self._weighed = {}
         if belief.game.phase.theirs or belief.game.phase is TeamPhase.DROP_BALL:
             self._chosen = None
         if belief.ball is None:
@@ -131,13 +146,19 @@ class Reference(Player):
         theirs = min((math.dist(place, ball[:2]) for place in belief.opponents), default=math.inf)
         phase = belief.game.phase
         attacks = holder is not None or phase.ours or (theirs > _HAS_IT and candidates[first].arrival < theirs / 2.5)
-        attacks = (attacks or self._promised is not None) and not phase.theirs
+        attacks = self._still_attacks(attacks or self._promised is not None, belief)
         if first == me:
             return Role.ATTACKER, self._before_own_goal(spot)
         del candidates[first]
         shared = share_places(candidates, self._places(belief, ball, spot, candidates, attacks), self.parameters)
         place = shared.get(me, Place(Role.GUARD, belief.me[:2]))
         return place.role, place.at
+
+    def _still_attacks(self, attacks: bool, belief: WorldBelief) -> bool:
+        """Whether the places of an attack are taken: they stay for a moment, unless the opponents have a set piece."""
+        lasts = self.parameters.attack_lasts if attacks else self._attack_left - belief.dt
+        self._attack_left = 0.0 if belief.game.phase.theirs else max(0.0, lasts)
+        return self._attack_left > 0.0
 
     def _places(
         self, belief: WorldBelief, ball: Ball, spot: Point, others: dict[str, Candidate], attacks: bool
@@ -201,7 +222,7 @@ class Reference(Player):
             may_score=self.may_score,
             must_pass=self.must_pass_on,
         )
-        action, self._chosen = play_ball(situation, self.setup, self.limits, self.parameters)
+        action, self._chosen, self._weighed = play_ball(situation, self.setup, self.limits, self.parameters)
         if action.pass_to is not None and belief.kicker_ready:
             self._promised = Promise(action.pass_to)
         return action

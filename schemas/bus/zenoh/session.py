@@ -26,10 +26,14 @@ _MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
 """Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
 over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
 _CLIENT_THREADS = (
-    "(app: (worker_threads: 4), net: (handover: app), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
+    "(app: (worker_threads: 4), net: (handover: app), rx: (handover: app), acc: (handover: app), "
+    "tx: (worker_threads: 1))"
 )
 """Few threads, since a match has many small processes. Closing a broken link blocks one for up to 10 s (see
-`_HOST_THREADS`): with two, a client that had lost its link twice within that time sometimes did not connect again."""
+`_HOST_THREADS`): with two, a client that had lost its link twice within that time sometimes did not connect again.
+
+The thread that sends closes no link. With its own, a message wakes it alone: one of several threads that share their
+tasks wakes another one as soon as it has found a task, and that one finds nothing."""
 _HOST_THREADS = (
     "(app: (worker_threads: 32), net: (handover: app), rx: (handover: app), acc: (handover: app), "
     "tx: (worker_threads: 1))"

@@ -97,7 +97,7 @@ def guarded_target(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Target]
 def attack(target: Target) -> Callable[..., Program]:
     """Carries an attack out to its end, while the match has to go on; returns the attacker's process."""
 
-    def carry_out(name: str, seconds: float = 1.0) -> Program:
+    def carry_out(name: str, seconds: float = 0.5) -> Program:
         attacker = target.attack(name, seconds)
         attacker.popen.wait(SHORT_LIMIT)
         target.watcher.for_ticks(20)

@@ -64,7 +64,7 @@ def test_the_connection_that_floods_is_closed_and_its_team_and_the_other_play_on
 def test_a_flood_of_any_account_on_keys_that_it_may_use_leaves_the_match_to_the_others(guarded_target, account, name):
     target = guarded_target
     memory = target.memory_mb()
-    attacker = target.attack(name, 1.0, account)
+    attacker = target.attack(name, 0.5, account)
     attacker.popen.wait(SHORT_LIMIT)
     assert attacker.popen.returncode == 0, attacker.err
     play_on(target, ["cyan1", "cyan2", *(["magenta1"] if account is not Account.MAGENTA else [])])

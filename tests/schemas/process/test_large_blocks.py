@@ -3,6 +3,8 @@ import sys
 
 import pytest
 
+from schemas.process.large_blocks import mapped
+
 FREED = """
 from schemas.process.large_blocks import return_large_blocks
 
@@ -26,3 +28,29 @@ def resident_mb(*, wanted: bool) -> float:
 @pytest.mark.skipif(sys.platform != "linux", reason="glibc alone has the setting")
 def test_large_blocks_that_are_freed_between_small_ones_go_back_to_the_system() -> None:
     assert resident_mb(wanted=False) - resident_mb(wanted=True) > 60.0
+
+
+KEPT = """
+from collections import deque
+
+from schemas.process.large_blocks import mapped
+
+kept = deque(maxlen=300)
+small = []
+for number in range(2000):
+    kept.append(mapped(b"x" * 60_000))
+    small.append(bytes(2_000))
+kept.clear()
+with open("/proc/self/statm") as file:
+    print(int(file.read().split()[1]) * 4096)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_a_mapped_block_goes_back_to_the_system_when_it_is_dropped() -> None:
+    program = subprocess.run([sys.executable, "-c", KEPT], capture_output=True, check=True)
+    assert int(program.stdout) / 1e6 < 30.0
+
+
+def test_a_mapped_block_has_the_same_bytes() -> None:
+    assert mapped(b'{"batch": 1}') == b'{"batch": 1}'

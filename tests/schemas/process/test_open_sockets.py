@@ -1,5 +1,7 @@
 """The TCP connections of this process: their received bytes by peer, and their end."""
 
+import os
+import resource
 import socket
 from pathlib import Path
 
@@ -52,6 +54,37 @@ def test_no_descriptor_is_left_open(pair):
     close_connection(peer)
     assert not close_connection(("127.0.0.1", 1))
     assert len(list(Path("/proc/self/fd").iterdir())) == before
+
+
+@linux
+def test_a_connection_that_another_thread_closes_meanwhile_is_left_out(pair, monkeypatch):
+    client, server, peer = pair
+    own = server.getsockname()
+    closing, name_of_peer = client.fileno(), socket.socket.getpeername
+
+    def close_after(connection):
+        found = name_of_peer(connection)
+        if connection.fileno() == closing:
+            os.close(client.detach())
+        return found
+
+    monkeypatch.setattr(socket.socket, "getpeername", close_after)
+    received = received_bytes()
+    assert own not in received
+    assert peer in received
+
+
+@linux
+def test_without_a_free_descriptor_no_connection_is_found_and_nothing_fails(pair):
+    _, _, peer = pair
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (3, before[1]))
+    try:
+        assert received_bytes() == {}
+        assert not close_connection(peer)
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+    assert peer in received_bytes()
 
 
 @pytest.mark.parametrize(

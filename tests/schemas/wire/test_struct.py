@@ -281,10 +281,24 @@ def test_a_struct_is_described_alike_alone_and_in_a_model() -> None:
     assert alone["properties"]["robot_a"]["anyOf"][0]["pattern"] == "^[a-z][a-z0-9_]*$"
 
 
-def test_every_struct_of_a_message_is_frozen_closed_and_made_by_keywords() -> None:
-    def below(kind: type[Struct]) -> set[type[Struct]]:
-        return {kind}.union(*[below(one) for one in kind.__subclasses__()])
+def below(kind: type[Struct]) -> set[type[Struct]]:
+    """A struct and all that extend it."""
+    return {kind}.union(*[below(one) for one in kind.__subclasses__()])
 
+
+def test_every_default_of_a_struct_is_valid_since_a_constructor_checks_given_fields_only() -> None:
+    checked = 0
+    for kind in below(Struct):
+        for field in msgspec.structs.fields(kind):
+            if field.required:
+                continue
+            value = field.default_factory() if field.default is msgspec.NODEFAULT else field.default
+            assert msgspec.convert(msgspec.to_builtins(value), field.type) == value, f"{kind.__name__}.{field.name}"
+            checked += 1
+    assert checked > 20
+
+
+def test_every_struct_of_a_message_is_frozen_closed_and_made_by_keywords() -> None:
     for kind in below(Struct) - {Struct, AppliedInput}:
         config = kind.__struct_config__
         assert config.frozen and config.forbid_unknown_fields and not config.gc

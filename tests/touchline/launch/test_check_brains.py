@@ -74,7 +74,8 @@ def test_a_brain_that_can_be_built_is_accepted_without_a_line(name: str) -> None
     assert check("teams.cyan.brain", f"my_team:{name}") == []
 
 
-def test_a_brain_is_not_loaded_into_this_process() -> None:
+def test_a_brain_is_not_loaded_into_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(sys.modules, "my_team", raising=False)  # other tests have brains of that name
     check("teams.cyan.brain", "my_team:Striker")
     assert "my_team" not in sys.modules
 

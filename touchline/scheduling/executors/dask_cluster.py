@@ -5,6 +5,7 @@ A match whose worker is lost is played again on another one; Dask does so by its
 
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
+from importlib import import_module
 from typing import Any
 
 from schemas.errors import TouchlineError
@@ -25,11 +26,11 @@ class DaskCluster(Executor):
             TouchlineError: Dask is not installed, or no scheduler answers there.
         """
         try:
-            from distributed import Client
+            distributed: Any = import_module("distributed")
         except ImportError:
             raise TouchlineError('--dask needs Dask; install it with: pip install "touchline[cluster]"') from None
         try:
-            self._client: Any = Client(address, timeout=CONNECT_S, set_as_default=False)
+            self._client = distributed.Client(address, timeout=CONNECT_S, set_as_default=False)
         except (OSError, ValueError) as error:
             raise TouchlineError(
                 f"--dask {address}: no scheduler answers ({type(error).__name__}); start one with `dask scheduler`, "

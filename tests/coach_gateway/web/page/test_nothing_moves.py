@@ -113,18 +113,20 @@ def moved(before: dict[str, Any], after: dict[str, Any]) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("role", ["spectator", "cyan", "referee"])
 @pytest.mark.parametrize(("width", "height"), SIZES)
 @pytest.mark.parametrize("box", [False, True], ids=["no referee box", "a referee box"])
 def test_no_element_moves_under_a_proposal_a_question_a_card_or_a_goal(
-    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int, role: str, box: bool
+    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int, box: bool
 ) -> None:
+    """On the pages of a spectator, a coach and the referee, which are open at the same time."""
     staged.host.say(refbox=box)
     asks = (staged.ask_both_sides, "window.touchline.match.state.questions.length === 4")
-    tab = visit(staged.origin, role, width, height)
-    tab.page.wait_for_timeout(500)  # until the page is laid out
-    tab.page.evaluate(WATCH)
-    before = tab.page.evaluate(BOXES)
+    tabs = {role: visit(staged.origin, role, width, height) for role in ("spectator", "cyan", "referee")}
+    pages = {role: tab.page for role, tab in tabs.items()}
+    pages["referee"].wait_for_timeout(500)  # until the pages are laid out
+    for page in pages.values():
+        page.evaluate(WATCH)
+    before = {role: page.evaluate(BOXES) for role, page in pages.items()}
     for happens, shown in (
         (staged.propose, "window.touchline.match.state.proposal !== null"),
         *([asks] if box else []),
@@ -132,10 +134,13 @@ def test_no_element_moves_under_a_proposal_a_question_a_card_or_a_goal(
         (staged.score, "document.getElementById('score').textContent === '10 : 0'"),
     ):
         happens()
-        tab.until(shown)
-        tab.page.wait_for_timeout(300)  # panels are filled five times a second
-        assert moved(before, tab.page.evaluate(BOXES)) == []
-    assert tab.ask("window.shifts") == []
+        for tab in tabs.values():
+            tab.until(shown)
+        pages["referee"].wait_for_timeout(300)  # panels are filled five times a second
+        for role, page in pages.items():
+            assert moved(before[role], page.evaluate(BOXES)) == [], role
+    for role, page in pages.items():
+        assert page.evaluate("window.shifts") == [], role
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)

@@ -162,12 +162,16 @@ def test_of_all_that_a_team_publishes_only_its_own_commands_reach_the_host(
     host.subscribe(COMMAND)  # a router sends only what it knows to be subscribed to
     caches = host.session.declare_subscriber(PREFIX + "**/@adv/**", zenoh.handlers.FifoChannel(1000))
     host.session.declare_queryable(PREFIX + "host/setup", zenoh.handlers.Callback(answer, indirect=False))
+    is_router = "router" in request.node.name
+    command = attacker.declare_publisher(PREFIX + OWN)
+    if not is_router:  # it sends nothing before it knows that somebody subscribes
+        wait_until(lambda: command.matching_status.matching)
     for key in FOREIGN_PUTS:
         attacker.put(PREFIX + key, b"{}")
         attacker.delete(PREFIX + key)
     attacker.put(PREFIX + OWN, b"{}")
     wait_until(lambda: any(reply.ok is not None for reply in attacker.get(PREFIX + "host/setup", timeout=0.5)))
-    own = [] if "router" in request.node.name else [OWN]  # even these are no router's to send on
+    own = [] if is_router else [OWN]  # even these are no router's to send on
     assert [key_of(sample) for sample in iter(arrived.try_recv, None)] == own
     assert caches.try_recv() is None
 

@@ -66,6 +66,7 @@ def test_a_wrong_password_is_one_line_with_the_user(hosts: Hosts, certificate: C
     host = hosts.open("own", certificate)
     wrong = hosts.file("own").parent / "wrong.json"
     own = hosts.file("own").read_text()
+    wrong.touch(0o600)
     wrong.write_text(re.sub(r'"password": "[^"]*"', f'"password": "{"x" * 43}"', own))
     assert refusal(host.endpoint, wrong).startswith(
         f'user or password refused by the host at {host.endpoint} (user "cyan")'
