@@ -133,11 +133,12 @@ def test_a_folder_with_the_results_of_another_plan_is_left_alone(run: Run) -> No
         run(SHORT.replace("0.4", "0.5"))
 
 
-def test_seeds_are_added_until_the_interval_is_narrow_or_the_budget_is_spent(run: Run) -> None:
+def test_seeds_are_added_until_the_interval_is_narrow_or_the_budget_is_spent(run: Run, home: Path) -> None:
     wide = "until_interval = 1e-9\nmost_seeds = 5\n" + SHORT.replace('responses = ["', 'responses = ["distance", "')
     assert run(wide).seeds == [1, 2, 3, 4, 5]
     one_cell = wide.replace("[factors]\nradio.loss = [0, 0.4]", "")
-    assert run(one_cell.replace("1e-9", "1000.0"), fresh=True).seeds == [1, 2]
+    shutil.rmtree(home)
+    assert run(one_cell.replace("1e-9", "1000.0")).seeds == [1, 2]
 
 
 def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path: Path) -> None:
