@@ -46,6 +46,8 @@ class Situation(NamedTuple):
     """The pass that was chosen a tick ago."""
     may_score: bool
     must_pass: bool
+    shoots: bool = False
+    """It aimed at the goal a tick ago."""
 
 
 class Choice(NamedTuple):
@@ -56,6 +58,7 @@ class Choice(NamedTuple):
     """The pass that it aims at."""
     weighed: dict[str, float]
     """Chance of the best shot, values of the best pass and of the best dribble."""
+    shoots: bool = False
 
 
 def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Choice:
@@ -72,14 +75,21 @@ def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Par
         "dribble": dribble_worth,
     }
     is_late = now.held > parameters.patience or now.must_pass
-    nearest = min((math.dist(ball, opponent) for opponent in now.opponents), default=math.inf)
-    least = parameters.shot_worth if nearest < parameters.shot_pressed else parameters.shot_waits
-    least = parameters.shot_late if is_late else least
-    if shot is not None and shot.chance > least and (best is None or shot.chance >= best.value - 0.1):
-        return Choice(_shoot(me, shot, setup, limits, parameters), None, weighed)
+    if shot is not None and shot.chance > _least_chance(now, ball, parameters, is_late=is_late):
+        return Choice(_shoot(me, shot, setup, limits, parameters), None, weighed, shoots=True)
     if best is not None and (best.value > dribble_worth or (is_late and best.chance > 0.2)):
         return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
     return Choice(_dribble(now, way, setup, limits, parameters), None, weighed)
+
+
+def _least_chance(now: Situation, ball: Point, parameters: Parameters, *, is_late: bool) -> float:
+    """The chance of a goal from which the robot shoots: what it has begun it ends, and with room it goes closer."""
+    if now.shoots:
+        return parameters.shot_keeps
+    if is_late:
+        return parameters.shot_late
+    nearest = min((math.dist(ball, opponent) for opponent in now.opponents), default=math.inf)
+    return parameters.shot_worth if nearest < parameters.shot_pressed else parameters.shot_waits
 
 
 def _best_pass(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters) -> Pass | None:

@@ -40,7 +40,12 @@ class SharedEstimate(WorldModel):
         self.stuck = 0.0
         """s for which this robot has been stuck."""
         self.height: float | None = None
-        """m; height of the ball's centre in the newest picture."""
+        """m; height of the ball's centre in the newest picture; None for a ball that this robot does not see."""
+
+    @property
+    def is_flying(self) -> bool:
+        """Whether the ball is too high for a dribbler."""
+        return self.height is not None and self.height > self._parameters.flies_above
 
     def update(self, sight: Sight) -> WorldBelief:
         """The belief after one more sight."""

@@ -92,7 +92,7 @@ class Parameters:
     """Value of a pass into the other half, without which a goal would not count."""
     turn_cost: float = 0.04
     """Value a radian of turning: an opponent comes nearer meanwhile."""
-    chosen_bonus: float = 0.06
+    chosen_bonus: float = 0.12
     """Value in favour of what was decided before: two equal choices would alternate with the noise."""
     chosen_near: float = 1.5
     """m; a target this close to the chosen one is the same: more than `lead`."""
@@ -101,7 +101,7 @@ class Parameters:
 
     # Shots
     shot_range: float = 7.0
-    """m; from farther away a keeper has the time to move: of 8 shots from there into a corner, one scored."""
+    """m; from farther away a keeper has the time to move: by drill, no shot on the run from 5.5 m or more scored."""
     shot_margin: float = 0.36
     """m between a shot and an opponent's centre that its hull and the ball need."""
     shot_sure: float = 0.3
@@ -111,7 +111,7 @@ class Parameters:
     shot_reaction: float = 0.15
     """s until an opponent moves for a shot: camera, decision, and the drive's lag."""
     shot_crossing: float = 5.0
-    """m/s² with which it then moves. By drill, shots on the run into a corner score from 5 m, and none from 5.5 to 6 m."""
+    """m/s² with which it then moves. By drill, shots on the run into a corner score from 5 m, none from 5.5 to 6 m."""
     shot_turn: float = 0.3
     """m of room that a radian of turning costs: of two open corners, noise would choose another one in each tick."""
     lob_nearest: float = 3.4
@@ -128,12 +128,14 @@ class Parameters:
     """m before the goal line, from where a keeper is too far out for a lob: hulls are 0.8 m high."""
     keeper_unseen: float = 5.5
     """m; from farther away a goal without a visible keeper is believed to have one: cameras reach 7 m."""
-    shot_worth: float = 0.35
+    shot_worth: float = 0.2
     """Least chance of a goal for which a robot under pressure shoots."""
     shot_waits: float = 0.8
     """The same for a robot with room: closer to the goal the chance grows within a second."""
     shot_pressed: float = 1.6
     """m to an opponent that is at the ball within half a second."""
+    shot_keeps: float = 0.12
+    """The same for a robot that aims at the goal already: noise would stop half of the shots."""
     shot_late: float = 0.1
     """The same for a robot that has to give up the ball."""
     shot_error: float = 0.06
@@ -150,6 +152,8 @@ class Parameters:
     # Keeper
     on_line: float = 0.0
     """m from the goal line to the keeper's centre. A lob passes 3 cm lower than the top of a hull only there."""
+    flies_above: float = 0.4
+    """m of the ball's centre: above it no dribbler holds the ball, and a keeper that comes out is passed over."""
     comes_out: float = 3.0
     """m from the goal's middle up to which the keeper fetches a slow ball that it reaches first."""
     comes_out_slow: float = 1.5
@@ -158,9 +162,9 @@ class Parameters:
     """s that it has to be there before any opponent."""
 
     # Set pieces
-    restart_wait: float = 2.0
+    restart_wait: float = 3.5
     """s after START for a free receiver; then the ball is played anyway: the rules give 7 s."""
-    restart_sure: float = 0.6
+    restart_sure: float = 0.75
     """Chance of arrival for which a set piece is played at once."""
 
     # Recovery

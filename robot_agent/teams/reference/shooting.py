@@ -50,9 +50,7 @@ def _keeper(opponents: Sequence[Point], pitch: Pitch) -> Point | None:
     return nearest if nearest is not None and math.dist(nearest, goal) < pitch.goal_width else None
 
 
-def _ground(
-    ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
-) -> Shot:
+def _ground(ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters) -> Shot:
     """The shot along the ground with the most room beside all opponents; of equal ones, that with the least turn."""
     best, most, room_there = 0.0, -math.inf, -math.inf
     for share in _GROUND_PLACES:

@@ -60,6 +60,8 @@ class Reference(Player):
         """Where this robot stands, until another place is clearly better."""
         self._attack_left = 0.0
         """s for which the places of an attack stay."""
+        self._shoots = False
+        """Whether this robot aims at the goal."""
         self._weighed: dict[str, float] = {}
         """What this robot chose from, with the ball."""
 
@@ -95,6 +97,7 @@ class Reference(Player):
         self._waited = self._waited + belief.dt if belief.game.running and belief.game.phase.ours else 0.0
         self._promised = promise_after(self._promised, belief)
         self._weighed = {}
+        self._shoots = self._shoots and belief.holding
         if belief.game.phase.theirs or belief.game.phase is TeamPhase.DROP_BALL:
             self._chosen = None
         if belief.ball is None:
@@ -221,8 +224,11 @@ class Reference(Player):
             chosen,
             may_score=self.may_score,
             must_pass=self.must_pass_on,
+            shoots=self._shoots,
         )
-        action, self._chosen, self._weighed = play_ball(situation, self.setup, self.limits, self.parameters)
+        action, self._chosen, self._weighed, self._shoots = play_ball(
+            situation, self.setup, self.limits, self.parameters
+        )
         if action.pass_to is not None and belief.kicker_ready:
             self._promised = Promise(action.pass_to)
         return action
@@ -303,7 +309,8 @@ class Reference(Player):
         if in_play and belief.holding:
             action = self._play_ball(belief)
             return action._replace(role=Role.KEEPER, intention=CLEAR)
-        if in_play and fetches(belief.me, ball, belief.opponents, self.rolling, pitch, self.limits, self.parameters):
+        comes_out = fetches(belief.me, ball, belief.opponents, self.rolling, pitch, self.limits, self.parameters)
+        if in_play and comes_out and not self._estimate.is_flying:
             return Action(Role.KEEPER, CLEAR, self._get(belief, ball), dribble=True)
         if belief.game.phase is TeamPhase.DROP_BALL:
             place = (-pitch.goal_line + reach + 0.1, 0.0)

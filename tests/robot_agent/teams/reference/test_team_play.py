@@ -69,9 +69,10 @@ def test_without_radio_one_robot_still_gets_the_ball_and_others_stay_off_it(scen
         assert sum(away(tick.world, name) < 1.0 for name in field) <= 1
 
 
-def test_a_keeper_on_its_line_is_in_the_way_of_a_lob(scene):
-    played = scene({"cyan1": (-10.6, 0, 0), "magenta1": (10.5, 0, 0)}, (-4.5, 0.6, -4.0, -0.4)).play(2.0)
-    assert played.match.simulation.state.score.magenta == 0
+@pytest.mark.parametrize("drill", ["keeper_lobs", "keeper_ground_shots"])
+def test_the_keeper_stops_lobs_and_shots_along_the_ground(play, drill):
+    runs = play.over(drill, seeds=range(1, 5), cyan1="robot_agent.teams.reference:Reference")
+    runs.at_least(3, lambda facts: facts.success)
 
 
 def test_two_equal_scenes_are_played_alike(scene):
@@ -87,3 +88,12 @@ def test_before_the_own_kick_off_everyone_is_in_the_own_half_and_the_ball_goes_t
     played.play(6.0, lambda played: played.match.simulation.state.phase == "play")
     assert played.match.simulation.state.phase == "play"
     assert sum(len(played.kicks(name)) for name in FIELD) == 1
+
+
+def test_every_robot_draws_its_role_and_the_holder_what_it_weighed(scene):
+    played = scene(FIELD | THEIRS, (-1.4, 2.0)).play(1.2)
+    drawn = {name: one.debug for commands in played.commands for name, one in commands.items() if one.debug is not None}
+    assert {drawn[name].values["role"] for name in FIELD} >= {"keeper", "attacker", "guard"}
+    assert all(drawn[name].texts[0].text.startswith(str(drawn[name].values["role"])) for name in FIELD)
+    weighed = [one["cyan2"].debug.values for one in played.commands if one["cyan2"].debug is not None]
+    assert any({"shot", "pass", "dribble"} <= values.keys() for values in weighed)

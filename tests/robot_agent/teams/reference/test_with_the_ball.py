@@ -16,20 +16,40 @@ def test_a_robot_before_an_open_goal_scores(scene):
 
 
 def test_a_shot_goes_beside_the_keeper(setup):
-    shot = best_shot((6.0, 0.0), [(10.6, 0.5)], setup.pitch, PARAMETERS)
+    shot = best_shot((6.0, 0.0), 0.0, [(10.6, 0.5)], setup.pitch, PARAMETERS)
     assert shot is not None
     assert shot.target[1] < 0.0
 
 
+def test_a_shot_from_near_is_surer_than_one_from_which_the_keeper_has_time_to_move(setup):
+    near, far = (best_shot((x, 0.0), 0.0, [(10.8, 0.0)], setup.pitch, PARAMETERS) for x in (6.8, 4.6))
+    assert near is not None
+    assert far is not None
+    assert near.chance > 0.9
+    assert far.chance < 0.2
+
+
+def test_of_two_open_corners_the_one_that_the_robot_faces_is_chosen(setup):
+    for heading in (0.25, -0.25):
+        shot = best_shot((6.8, 0.0), heading, [(10.8, 0.0)], setup.pitch, PARAMETERS)
+        assert shot is not None
+        assert shot.target[1] * heading > 0.0
+
+
+def test_alone_before_a_keeper_it_scores_in_at_least_five_of_six(play):
+    runs = play.over("one_against_keeper", seeds=range(1, 7), cyan2="robot_agent.teams.reference:Reference")
+    runs.at_least(5, lambda facts: facts.has("goal:cyan"))
+
+
 def test_a_wall_on_the_ground_is_lobbed_over(setup):
     wall = [(9.0, y) for y in (-1.0, -0.5, 0.0, 0.5, 1.0)]
-    shot = best_shot((5.0, 0.0), wall, setup.pitch, PARAMETERS)
+    shot = best_shot((5.0, 0.0), 0.0, wall, setup.pitch, PARAMETERS)
     assert shot is not None
     assert shot.mode is KickMode.LOB
 
 
 def test_there_is_no_shot_from_the_own_half(setup):
-    assert best_shot((-1.0, 0.0), [], setup.pitch, PARAMETERS) is None
+    assert best_shot((-1.0, 0.0), 0.0, [], setup.pitch, PARAMETERS) is None
 
 
 def test_an_opponent_in_the_lane_makes_a_pass_fail_and_one_beside_it_does_not():

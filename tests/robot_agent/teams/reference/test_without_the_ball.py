@@ -4,12 +4,13 @@ import math
 from itertools import combinations
 
 from robot_agent.bodies import Ball, Body
-from robot_agent.teams.reference.estimate import report, reported
+from robot_agent.teams.reference.estimate import SharedEstimate, report, reported
 from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.keeper import fetches, guard, shot_crossing
 from robot_agent.teams.reference.parameters import PARAMETERS
 from robot_agent.teams.reference.recovery import BackOut
 from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
+from schemas.messages.sight import BallSight
 
 ROBOTS = ((-2.0, 1.0), (-2.0, -1.0), (-5.0, 0.0))
 
@@ -105,3 +106,12 @@ def test_a_stuck_robot_backs_out_for_a_moment(limits):
     while back_out.motion(me, 0.0, [(0.5, 0.0)], 0.02, limits) is not None:
         ticks += 1
     assert 20 < ticks < 60
+
+
+def test_a_ball_in_the_air_is_known_to_fly_and_one_that_rolls_is_not(briefing, sight_of):
+    estimate = SharedEstimate(briefing, PARAMETERS)
+    for tick, (height, flies) in enumerate(((1.2, True), (0.11, False))):
+        estimate.update(sight_of(tick, ball=BallSight(x=3.0, y=0.0, z=height, vx=-4.0, vy=0.0)))
+        assert estimate.is_flying is flies
+    estimate.update(sight_of(2, ball=None))
+    assert not estimate.is_flying
