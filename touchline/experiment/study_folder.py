@@ -80,7 +80,8 @@ def write_results(folder: Path, plan: StudyPlan, seeds: Sequence[int], outcomes:
 
 def csv_bytes(table: pd.DataFrame) -> bytes:
     """The table as CSV: equal tables give equal bytes."""
-    return table.to_csv(index=False, lineterminator="\n").encode()
+    text: str = table.to_csv(index=False, lineterminator="\n")
+    return text.encode()
 
 
 def write_digests(folder: Path, seeds: Sequence[int], code: Mapping[str, object]) -> None:
