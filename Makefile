@@ -2,7 +2,7 @@
 # into .venv. Its packages are pinned by hash in requirements.lock.
 
 .DEFAULT_GOAL := help
-.PHONY: help match test check bench bench-network bench-play soak lowest mutants clean
+.PHONY: help match test check bench bench-network bench-play bench-scheduling soak lowest mutants clean
 READY := .venv/.ready
 # Compiled once: where Python writes no bytecode, as in many containers, each process would compile them at its start.
 PACKAGES := schemas sim_host robot_agent coach_gateway recordings touchline
@@ -23,14 +23,17 @@ check: $(READY) ## format, lint, types, and the contracts on imports
 	.venv/bin/mypy
 	.venv/bin/lint-imports
 
-bench: $(READY) ## run every benchmark but that of play
-	@for bench in $(filter-out benchmarks/bench_play.py, $(wildcard benchmarks/bench_*.py)); do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done
+bench: $(READY) ## run every benchmark but those of play and of plans of matches
+	@for bench in $(filter-out benchmarks/bench_play.py benchmarks/bench_scheduling.py, $(wildcard benchmarks/bench_*.py)); do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done
 
 bench-network: $(READY) ## measure match quality over delay, loss and cuts, for example: make bench-network ARGS="--seconds 60"
 	@.venv/bin/python benchmarks/bench_network.py $(ARGS)
 
 bench-play: $(READY) ## play the ladder of the shipped teams, for example: make bench-play ARGS="--matches 4 --duration 120"
 	@.venv/bin/python benchmarks/bench_play.py $(ARGS)
+
+bench-scheduling: $(READY) ## measure plans of many matches, for example: make bench-scheduling ARGS="--matches 4 --flat 20"
+	@.venv/bin/python benchmarks/bench_scheduling.py $(ARGS)
 
 soak: $(READY) ## play in real time and fail if memory, threads or descriptors grow: make soak ARGS="--minutes 10"
 	@.venv/bin/python benchmarks/check_soak.py $(ARGS)

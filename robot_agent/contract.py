@@ -1,8 +1,10 @@
 """What a brain is, and its briefing before the match."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Protocol
 
+from schemas.config.match_parts import Parameter
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup
@@ -29,6 +31,8 @@ class Briefing:
     """The others of the team, in the order of the list."""
     setup: Setup
     """The match, with the numbers of this robot's own model: body, drive, dribbler, kicker."""
+    parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    """Values that the match file gives the team in `[teams.cyan.parameters]`; empty without any."""
 
     @classmethod
     def of(cls, robot: str, setup: Setup) -> "Briefing":
@@ -40,6 +44,7 @@ class Briefing:
         for side, team in setup.teams.items():
             if robot in team.robots:
                 mates = tuple(name for name in team.robots if name != robot)
-                return cls(robot, side, team.robots.index(robot) + 1, mates, setup.for_robot(robot))
+                number, own = team.robots.index(robot) + 1, setup.for_robot(robot)
+                return cls(robot, side, number, mates, own, team.parameters)
         names = [name for team in setup.teams.values() for name in team.robots]
         raise TouchlineError(f'robot is "{robot}", which is not in match "{setup.match}"; {did_you_mean(robot, names)}')

@@ -17,6 +17,7 @@ from touchline.commands import (
     doctor,
     drill,
     drive,
+    experiment,
     export,
     filter,
     health,
@@ -39,6 +40,7 @@ from touchline.commands import (
     stats,
     team,
     topics,
+    tournament,
     verify,
     watch,
 )
@@ -85,6 +87,8 @@ app.command("new", rich_help_panel=TEAMS)(new.new)
 app.command("check", rich_help_panel=TEAMS)(check.check)
 app.command("drill", rich_help_panel=TEAMS)(drill.drill)
 app.command("series", rich_help_panel=TEAMS)(series.series)
+app.command("tournament", rich_help_panel=TEAMS)(tournament.tournament)
+app.add_typer(experiment.app, name="experiment", rich_help_panel=TEAMS)
 
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
 app.command("health", rich_help_panel=WATCH)(health.health)

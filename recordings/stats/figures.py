@@ -71,6 +71,8 @@ class SideFigures:
 
     team: str
     goals: int | None
+    shoot_out: int | None
+    """Goals of the penalty shoot-out; None without one."""
     possession: float | None
     """Fraction of the time in which either side was in control of the ball."""
     possession_s: float | None
@@ -225,10 +227,11 @@ class _FigureBuilder:
         dribbles = [self.dribbles[name] for name in names if name in self.dribbles]
         in_play = sum(motion.in_play for motion in motions)
         in_play_distance = sum(motion.in_play_distance for motion in motions)
-        controlled, score = sum(self.control.seconds.values()), self.calls.score
+        controlled, score, shoot_out = sum(self.control.seconds.values()), self.calls.score, self.calls.shoot_out
         return SideFigures(
             team=team,
-            goals=getattr(score, side.value) if score is not None else None,
+            goals=score.of(side) if score is not None else None,
+            shoot_out=shoot_out.of(side) if shoot_out is not None else None,
             possession=self.control.seconds[side] / controlled if controlled > 0 else None,
             possession_s=self.control.seconds[side] if self.knows_ball else None,
             with_ball_s=sum(self.control.with_ball.get(name, 0.0) for name in names) if self.coverage.held else None,

@@ -28,6 +28,8 @@ class RefereeCalls:
         self.goals: list[Goal] = []
         self.score: Score | None = None
         """The referee's score; None if no game state was recorded."""
+        self.shoot_out: Score | None = None
+        """Goals of the penalty shoot-out; None without one."""
         self.fouls: Counter[tuple[Side | None, str]] = Counter()
         """Offending side and rule → fouls."""
         self.fouls_of: Counter[str] = Counter()
@@ -45,7 +47,7 @@ class RefereeCalls:
         now, before = match_tick.state, match_tick.state_before
         if now is None:
             return
-        self.score = now.score
+        self.score, self.shoot_out = now.score, now.shoot_out
         if now is not before and _is_signalled(before, now):
             self.restarts[now.side, now.phase] += 1
 

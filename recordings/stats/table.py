@@ -19,12 +19,16 @@ def headline(figures: MatchFigures) -> str:
         played += f", ball in play {figures.in_play_s:.1f} s ({_percent(figures.in_play)})"
     if figures.crowded_s:
         played += f", three or more robots within 1 m of it {figures.crowded_s:.1f} s"
+    if cyan.shoot_out is not None:
+        played = f"penalties {cyan.shoot_out} : {_whole(magenta.shoot_out)}, {played}"
     return f"{cyan.team} {_whole(cyan.goals)} : {_whole(magenta.goals)} {magenta.team}   {played}"
 
 
 def side_rows(figures: MatchFigures) -> list[Row]:
     """Rows of name, cyan's value and magenta's value."""
     rows = [(name, *(format_value(figures.sides[side]) for side in Side)) for name, format_value in _SIDE]
+    if any(side.shoot_out is not None for side in figures.sides.values()):
+        rows.insert(1, ("penalties", *(_whole(figures.sides[side].shoot_out) for side in Side)))
     for kind in _COUNTED:
         counts = [getattr(figures.sides[side], kind) for side in Side]
         for name in dict.fromkeys(name for count in counts for name in count):

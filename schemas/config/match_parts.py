@@ -1,6 +1,7 @@
 """The tables of a match file: teams, noise, radio, referee, recording and patience."""
 
-from typing import Annotated, Literal
+import math
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -12,6 +13,11 @@ from schemas.errors import did_you_mean
 from schemas.game import OfficiatingMode
 from schemas.side import Side
 from schemas.wire.message import Name, Part
+
+Parameter = bool | int | float | Annotated[str, Field(max_length=1000)]
+"""A value that a match file hands to the brains of a team."""
+MAX_PARAMETERS = 100
+"""Most parameters of a team. Chosen here."""
 
 DEFAULT_SIZE = 5
 """Robots of a team that gives neither a size nor names."""
@@ -40,10 +46,21 @@ class TeamConfig(Part):
     """Names of the robots, the goalkeeper first; where the list is empty, side and number, as `cyan1`."""
     types: dict[Name, Name] = Field(default_factory=dict)
     """Robot → its type, of the profile or of `[types.NAME]`; other robots are of the standard type."""
+    parameters: Annotated[dict[Name, Parameter], Field(max_length=MAX_PARAMETERS)] = Field(default_factory=dict)
+    """Numbers, texts and switches for the team's own program, which reads them in `Briefing.parameters`."""
     limits: TeamLimits = TeamLimits()
     """Limits of its robots that replace those of the match."""
     pass_environment: list[Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$")]] = Field(default_factory=list)
     """Names of environment variables that its programs get beside the usual ones, such as CUDA_VISIBLE_DEVICES."""
+
+    @field_validator("parameters", mode="before")
+    @classmethod
+    def _check_parameters(cls, parameters: Any) -> Any:
+        for name, value in parameters.items() if isinstance(parameters, dict) else ():
+            is_finite = math.isfinite(value) if isinstance(value, float) else isinstance(value, int | str)
+            if not is_finite:
+                raise ValueError(f"{name} is {value!r}; give a finite number, a text, true or false")
+        return parameters
 
     @property
     def program(self) -> list[str] | None:

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.match_config import MatchConfig
-from schemas.config.match_parts import OfficiatingConfig
+from schemas.config.match_parts import OfficiatingConfig, Parameter
 from schemas.config.number_files import UNVERSIONED
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
@@ -46,6 +46,8 @@ class TeamSetup(Part):
     """Robot → its type; other robots are of the standard type."""
     goalkeeper: bool = True
     """The first robot that is on the field is the goalkeeper; False for a team without one."""
+    parameters: dict[Name, Parameter] = Field(default_factory=dict)
+    """Values of the match file for the team's own program; the other team can read them, too."""
 
 
 class Setup(Message):
@@ -192,4 +194,6 @@ class Setup(Message):
 
 def _team(config: MatchConfig, side: Side) -> TeamSetup:
     team = config.team(side)
-    return TeamSetup(name=team.name or side.value, robots=config.robots(side), types=team.types)
+    return TeamSetup(
+        name=team.name or side.value, robots=config.robots(side), types=team.types, parameters=team.parameters
+    )

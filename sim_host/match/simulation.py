@@ -197,6 +197,7 @@ class Simulation:
             robots=[entry.name for entry in robots],
             types={entry.name: entry.type for entry in robots if entry.type != STANDARD},
             goalkeeper=side in self.roster.keepers,
+            parameters=self.config.team(side).parameters,
         )
 
     def _begin(self) -> TickResult:

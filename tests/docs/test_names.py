@@ -18,6 +18,7 @@ DOCUMENTS = (
     "docs/parity.md",
     "docs/decisions.md",
     "docs/performance.md",
+    "docs/scheduling.md",
 )
 PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
 FILES = r"`([\w.]+/[\w./]*\.\w+)`"

@@ -2,12 +2,13 @@
 
 from collections import Counter
 from collections.abc import Mapping
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
 
+from schemas.errors import TouchlineError
 from touchline.scheduling.child_processes import DiedProcessError
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome
 from touchline.scheduling.plan import Plan
@@ -110,8 +111,10 @@ def _delivered(future: "Future[Any]", planned: PlannedMatch) -> Delivery:
         delivery: Delivery = future.result()
     except DiedProcessError as error:
         return Delivery(Failed(planned.identity, FailureKind.WORKER, str(error)))
-    except (CancelledError, OSError, RuntimeError) as error:
-        reason = f"its worker was lost: {' '.join(str(error).split()) or type(error).__name__}"
+    except TouchlineError:
+        raise
+    except Exception as error:  # of any library that runs workers: Dask's KilledWorker, a broken pool, an import
+        reason = f"its worker failed: {type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
         return Delivery(Failed(planned.identity, FailureKind.WORKER, reason))
     return delivery
 

@@ -40,8 +40,8 @@ SCRIPTS = (
 """Each imports only from those before it; those in `shared` are of `schemas/page`, which the match's page uses too."""
 
 
-def page_of(recording: Recording) -> tuple[MatchFigures, str]:
-    """Return the figures of a recording, and its page as HTML.
+def page_of(recording: Recording, navigation: str = "") -> tuple[MatchFigures, str]:
+    """Return the figures of a recording, and its page as HTML; `navigation` is HTML above it, such as a link.
 
     Raises:
         TouchlineError: the recording is damaged inside, or has no setup or no world.
@@ -49,12 +49,13 @@ def page_of(recording: Recording) -> tuple[MatchFigures, str]:
     setup = setup_of(recording)
     tracks, history = Tracks(setup, *extent(recording)), GameHistory()
     figures = figures_of_recording(recording, tracks, history)
-    return figures, page(content_of(recording.manifest, setup, figures, tracks, history))
+    return figures, page(content_of(recording.manifest, setup, figures, tracks, history), navigation)
 
 
-def page(content: dict[str, Any]) -> str:
-    """Return the page with this content, as HTML."""
+def page(content: dict[str, Any], navigation: str = "") -> str:
+    """Return the page with this content, as HTML; `navigation` is HTML above it."""
     parts = {
+        "NAVIGATION": f"<nav>{navigation}</nav>\n" if navigation else "",
         "TITLE": _escaped(content["title"]),
         "STYLE": _text("page.css"),
         "SCRIPT": "\n".join(_inlined(_text(name)) for name in SCRIPTS),

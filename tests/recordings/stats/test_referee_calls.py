@@ -1,5 +1,6 @@
 """Goals, fouls, cards and restarts, as the referee called them."""
 
+from recordings.stats.table import headline, side_rows
 from schemas.game import Card, EventKind, Phase, Score
 from schemas.side import Side
 
@@ -22,6 +23,16 @@ def test_a_goal_that_was_taken_back_is_not_in_the_score(script) -> None:
     script.goal(Side.CYAN, "cyan2")
     script.shot(score=Score())
     assert script.figures().sides[Side.CYAN].goals == 0
+
+
+def test_penalties_of_a_shoot_out_are_beside_the_goals(script) -> None:
+    script.goal(Side.CYAN, "cyan2")
+    assert script.figures().sides[Side.CYAN].shoot_out is None
+    script.shot(shoot_out=Score(cyan=3, magenta=4))
+    figures = script.figures()
+    assert [(figures.sides[side].goals, figures.sides[side].shoot_out) for side in Side] == [(1, 3), (0, 4)]
+    assert ("penalties", "3", "4") in side_rows(figures)
+    assert "penalties 3 : 4" in headline(figures)
 
 
 def test_fouls_are_counted_by_rule_and_offender_and_cards_by_colour(script) -> None:

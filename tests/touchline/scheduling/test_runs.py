@@ -5,9 +5,10 @@ import os
 import random
 import signal
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -131,6 +132,32 @@ def test_a_match_that_ends_its_process_costs_itself_alone(match_of: MatchOf, fol
     assert isinstance(failed, Failed)
     assert failed.kind is FailureKind.WORKER
     assert failed.reason == "its process ended with status 7"
+
+
+class KilledWorkerError(Exception):
+    """Of a library that knows its own exceptions only, as Dask does."""
+
+
+class LostWorkers(ThreadPoolExecutor):
+    """Workers that are lost with each match."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        def lose() -> None:
+            raise KilledWorkerError("lost three times")
+
+        return super().submit(lose)
+
+
+def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    plan = ListPlan(tuple(matches(match_of, folder, 2)))
+    with LostWorkers(1) as executor:
+        outcomes = run_plan(plan, executor, MemoryStore(tmp_path), Log())
+    assert len(outcomes) == 2
+    for outcome in outcomes.values():
+        assert isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER and outcome.culprit is None
+        assert outcome.reason == "its worker failed: KilledWorkerError: lost three times"
 
 
 def test_equal_matches_in_a_plan_are_refused(match_of: MatchOf, folder: Path) -> None:

@@ -1,0 +1,73 @@
+"""Studies of constructed results and of short matches."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+
+if TYPE_CHECKING:
+    from touchline.experiment.study_config import Study
+    from touchline.experiment.study_plan import StudyPlan
+
+MakePlan = Callable[[str], "StudyPlan"]
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> "Callable[[str], Study]":
+    """The study of a text."""
+
+    def load(text: str) -> "Study":
+        from touchline.experiment.study_config import load_study
+
+        path = tmp_path / "try.toml"
+        path.write_text(text)
+        return load_study(path)
+
+    return load
+
+
+@pytest.fixture
+def plan(study: "Callable[[str], Study]", tmp_path: Path) -> MakePlan:
+    """The plan of the study of a text."""
+
+    def make(text: str) -> "StudyPlan":
+        from touchline.experiment.cells import cells_of
+        from touchline.experiment.study_plan import StudyPlan
+
+        loaded = study(text)
+        return StudyPlan(loaded, cells_of(loaded, tmp_path))
+
+    return make
+
+
+@pytest.fixture
+def bare_plan(study: "Callable[[str], Study]") -> MakePlan:
+    """A plan whose cells have levels and no match of their own: for constructed results."""
+
+    def make(text: str) -> "StudyPlan":
+        from touchline.experiment.cells import Cell, combinations
+        from touchline.experiment.study_plan import StudyPlan
+
+        loaded = study(text)
+        return StudyPlan(loaded, [Cell(levels, MatchConfig()) for levels in combinations(loaded)])
+
+    return make
+
+
+@pytest.fixture
+def table() -> Callable[..., Any]:
+    """A table of results with these values of a response: cell → one value a seed."""
+
+    def make(response: str, cells: Mapping[int, Sequence[float | None]]) -> Any:
+        import pandas as pd
+
+        return pd.DataFrame(
+            {"cell": cell, "seed": seed, "swapped": False, response: value}
+            for cell, values in cells.items()
+            for seed, value in enumerate(values, start=1)
+        )
+
+    return make

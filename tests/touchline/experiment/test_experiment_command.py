@@ -1,0 +1,52 @@
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+pytest.importorskip("scipy", reason="experiments need the extra study")
+pytest.importorskip("pyarrow", reason="experiments need the extra study")
+
+from touchline.command_line import app
+from touchline.commands import experiment
+
+STUDY = """
+seeds = "1-2"
+both_sides = false
+responses = ["distance"]
+[settings]
+duration = 1.0
+teams.cyan.size = 1
+teams.magenta.size = 1
+"""
+
+
+def run(*arguments: str | Path) -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["experiment", *map(str, arguments)])
+    return result.exit_code, result.output if result.exception is None else f"{result.output}{result.exception}"
+
+
+def test_a_study_file_alone_runs_the_study_and_its_folder_is_reproduced(tmp_path: Path) -> None:
+    file, folder = tmp_path / "try.toml", tmp_path / "out"
+    file.write_text(STUDY)
+    status, text = run(file, "--into", folder, "--jobs", "1")
+    assert (status, "report" in text) == (0, True)
+    status, text = run("reproduce", folder, "--jobs", "1")
+    assert status == 0
+    assert "the table of results is the same to the byte" in text
+    status, text = run("compare", folder, folder, "--json")
+    (compared,) = json.loads(text.strip().splitlines()[-1])
+    assert (status, compared["response"], compared["paired"]) == (0, "distance", True)
+
+
+def test_a_package_that_is_missing_is_named_with_its_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(experiment, "NEEDED", ("no_such_package",))
+    status, text = run("verify", tmp_path)
+    assert status != 0
+    assert 'no_such_package is not installed; experiments need the extra study: pip install "touchline[study]"' in text
+
+
+def test_a_folder_without_a_study_is_refused(tmp_path: Path) -> None:
+    status, text = run("verify", tmp_path)
+    assert status != 0
+    assert "give the folder of a study that was played" in text

@@ -1,0 +1,202 @@
+"""Studies of real matches, short and with few robots."""
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from schemas.errors import MatchFailedError, TouchlineError
+
+pytest.importorskip("scipy", reason="experiments need the extra study")
+pytest.importorskip("pyarrow", reason="experiments need the extra study")
+pd = pytest.importorskip("pandas", reason="experiments need the extra study")
+
+from touchline.experiment.cells import cells_of  # noqa: E402
+from touchline.experiment.compare_studies import compare_studies  # noqa: E402
+from touchline.experiment.comparisons import answers, comparison_groups  # noqa: E402
+from touchline.experiment.run_study import StudyResult, run_study  # noqa: E402
+from touchline.experiment.study_config import load_study  # noqa: E402
+from touchline.experiment.study_folder import read_study  # noqa: E402
+from touchline.experiment.study_plan import StudyPlan  # noqa: E402
+from touchline.experiment.verify_study import verify_study  # noqa: E402
+from touchline.scheduling.executors.this_process import ThisProcess  # noqa: E402
+from touchline.scheduling.outcome import Outcome  # noqa: E402
+from touchline.scheduling.planned_match import PlannedMatch  # noqa: E402
+
+SHORT = """
+seeds = "1-2"
+both_sides = false
+responses = ["possession_s.difference", "distance"]
+[settings]
+duration = 1.5
+teams.cyan.size = 1
+teams.magenta.size = 1
+[factors]
+radio.loss = [0, 0.4]
+"""
+Run = Callable[..., StudyResult]
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    return tmp_path / "study"
+
+
+@pytest.fixture
+def run(tmp_path: Path, home: Path) -> Run:
+    """Plays the study of a text into `home`, and collects the labels of the matches that were played."""
+
+    def play(text: str, played: list[str] | None = None, **options: bool) -> StudyResult:
+        path = tmp_path / "try.toml"
+        path.write_text(text)
+        study = load_study(path)
+        plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
+
+        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
+            del outcome
+            if played is not None:
+                played.append(planned.label)
+
+        return run_study(plan, home, ThisProcess(), ended, **options)
+
+    return play
+
+
+def check(home: Path, sample: int | None = None) -> list[str]:
+    return verify_study(home, ThisProcess(), sample, None, lambda planned, outcome: None).faults
+
+
+def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home: Path) -> None:
+    result = run(SHORT)
+    assert (result.seeds, result.played, result.failed) == ([1, 2], 4, [])
+    names = ("plan.json", "versions.json", "digests.json", "results.csv", "results.parquet", "report.html")
+    assert [name for name in names if not (home / name).exists()] == []
+    table = pd.read_csv(home / "results.csv")
+    assert table[["cell", "seed", "level:radio.loss"]].values.tolist() == [
+        [1, 1, 0],
+        [2, 1, 0.4],
+        [1, 2, 0],
+        [2, 2, 0.4],
+    ]
+    assert {"first.goals", "second.goals", "goals", "goals.difference", "first.1.distance", "fouls"} <= {*table.columns}
+    report = (home / "report.html").read_text()
+    assert report.count("<svg ") >= 4
+    assert "http" not in report.replace("http://www.w3.org", "")
+
+
+def test_a_study_is_reproduced_to_the_byte(run: Run, home: Path) -> None:
+    run(SHORT)
+    verdict = verify_study(home, ThisProcess(), None, None, lambda planned, outcome: None)
+    assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
+    assert verdict.notes == []
+
+
+def test_a_study_folder_can_be_moved_and_verified_without_its_study_file(run: Run, home: Path, tmp_path: Path) -> None:
+    run(SHORT)
+    (tmp_path / "try.toml").unlink()
+    moved = shutil.move(home, tmp_path / "published")
+    (Path(moved) / "run.sqlite").unlink()
+    assert check(Path(moved), sample=1) == []
+
+
+def test_verification_names_the_match_whose_result_was_changed(run: Run, home: Path) -> None:
+    run(SHORT)
+    table = pd.read_csv(home / "results.csv")
+    table.loc[2, "distance"] += 1.0
+    table.to_csv(home / "results.csv", index=False, lineterminator="\n")
+    faults = check(home)
+    assert any("results.csv was changed" in fault for fault in faults)
+    assert any("results.parquet and results.csv have different values" in fault for fault in faults)
+    assert [fault for fault in faults if fault.startswith("cell")] == [
+        fault for fault in faults if fault.startswith("cell 1, seed 2: distance is")
+    ]
+
+
+def test_a_study_that_is_run_again_plays_only_what_has_no_result(run: Run, home: Path) -> None:
+    again, fresh = list[str](), list[str]()
+    run(SHORT)
+    before = (home / "results.csv").read_bytes()
+    run(SHORT, again)
+    assert again == []
+    run(SHORT.replace('"1-2"', '"1-3"'), again)
+    assert again == ["cell 1, seed 3", "cell 2, seed 3"]
+    run(SHORT, fresh, fresh=True)
+    assert len(fresh) == 4
+    assert (home / "results.csv").read_bytes() == before
+
+
+def test_a_folder_with_the_results_of_another_plan_is_left_alone(run: Run) -> None:
+    run(SHORT)
+    with pytest.raises(TouchlineError, match="has the results of another plan; give another folder with --into"):
+        run(SHORT.replace("0.4", "0.5"))
+
+
+def test_seeds_are_added_until_the_interval_is_narrow_or_the_budget_is_spent(run: Run, home: Path) -> None:
+    wide = "until_interval = 1e-9\nmost_seeds = 5\n" + SHORT.replace('responses = ["', 'responses = ["distance", "')
+    assert run(wide).seeds == [1, 2, 3, 4, 5]
+    one_cell = wide.replace("[factors]\nradio.loss = [0, 0.4]", "")
+    shutil.rmtree(home)
+    assert run(one_cell.replace("1e-9", "1000.0")).seeds == [1, 2]
+
+
+def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path: Path) -> None:
+    (tmp_path / "measures_of_mine.py").write_text(
+        "def worlds(recording):\n    return sum(1 for _ in recording.decoded('world'))\n"
+    )
+    run(SHORT + '[functions]\nworlds = "measures_of_mine:worlds"\n')
+    table = pd.read_csv(home / "results.csv")
+    assert (table["worlds"] > 50).all()
+    assert "Worlds" in (home / "report.html").read_text()
+    assert check(home, sample=1) == []
+
+
+def test_a_function_that_is_not_there_is_named_before_any_match(run: Run) -> None:
+    played = list[str]()
+    with pytest.raises(TouchlineError, match="function nowhere_at_all:worlds: ModuleNotFoundError"):
+        run(SHORT + '[functions]\nworlds = "nowhere_at_all:worlds"\n', played)
+    assert played == []
+
+
+def test_a_study_in_which_every_match_fails_says_why(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "raises_always.py").write_text(
+        "class Broken:\n    def __init__(self, briefing):\n        pass\n\n"
+        "    def act(self, sight):\n        raise ValueError('no idea')\n"
+    )
+    with pytest.raises(MatchFailedError, match=r"all 4 matches failed: cyan1.*no idea"):
+        run(SHORT.replace("[settings]", '[settings]\ncyan = "raises_always:Broken"'))
+
+
+def test_a_team_against_itself_shows_no_effect_and_one_robot_less_shows_one(run: Run, home: Path) -> None:
+    run(
+        'seeds = "1-4"\nboth_sides = true\nresponses = ["possession_s.difference"]\n[settings]\nduration = 5\n'
+        'cyan = "simple"\nmagenta = "simple"\nteams.cyan.size = 2\n[factors]\nteams.magenta.size = [2, 1]\n'
+    )
+    stored = read_study(home)
+    response = "possession_s.difference"
+    (effect,) = answers(stored.plan, stored.table, response)
+    groups = comparison_groups(stored.plan, stored.table, response)
+    itself, one_less = groups[-1].comparisons
+    assert itself.estimate.value == pytest.approx(0.0)
+    assert itself.estimate.contains_zero is not False
+    assert one_less.estimate.contains_zero is False
+    assert effect.estimate.contains_zero is False
+    assert effect.estimate.value > 0
+    assert 'class="found"' in (home / "report.html").read_text()
+
+
+def test_two_runs_of_a_study_are_compared_seed_by_seed(run: Run, home: Path, tmp_path: Path) -> None:
+    run(SHORT)
+    shutil.copytree(home, tmp_path / "other")
+    found = compare_studies(read_study(home), read_study(tmp_path / "other"))
+    assert {one.cell for one in found} == {"radio.loss = 0", "radio.loss = 0.4"}
+    driven = [one for one in found if one.response == "distance"]
+    assert [(one.paired, one.comparison.estimate.value) for one in driven] == [(True, 0.0), (True, 0.0)]
+
+
+def test_a_published_study_names_no_path_of_this_machine(run: Run, home: Path, tmp_path: Path) -> None:
+    run(SHORT)
+    texts = [path.read_text() for path in home.glob("*.json")] + [(home / "report.html").read_text()]
+    assert [text for text in texts if str(tmp_path) in text] == []
+    assert json.loads((home / "plan.json").read_text())["brain_folder"] == ".."

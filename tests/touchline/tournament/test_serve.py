@@ -1,0 +1,33 @@
+"""The pages of a running cup are served on this machine."""
+
+from pathlib import Path
+from urllib.error import HTTPError
+from urllib.request import urlopen
+
+import pytest
+
+from schemas.errors import TouchlineError
+from touchline.tournament.serve import served
+
+
+def test_pages_are_served_and_the_database_is_not(tmp_path: Path) -> None:
+    (tmp_path / "index.html").write_text("table")
+    (tmp_path / "cup.sqlite").write_text("secret")
+    with served(tmp_path, 0) as address:
+        with urlopen(address) as page:
+            assert page.read() == b"table"
+            assert page.headers["Cache-Control"] == "no-store"
+        with urlopen(address.removesuffix("index.html")) as page:
+            assert page.read() == b"table"
+        for other in ("cup.sqlite", "../cup.sqlite", "teams/"):
+            with pytest.raises(HTTPError) as refused:
+                urlopen(address.replace("index.html", other))
+            refused.value.close()
+            assert refused.value.code == 404
+
+
+def test_a_port_in_use_is_one_line(tmp_path: Path) -> None:
+    with served(tmp_path, 0) as address:
+        port = int(address.split(":")[2].split("/")[0])
+        with pytest.raises(TouchlineError, match=f"--port is {port}: .*; give another one"), served(tmp_path, port):
+            pass

@@ -1,0 +1,252 @@
+"""`touchline experiment`: studies over factors of a match, their comparison, and their reproduction."""
+
+import json as json_text
+import signal
+from collections.abc import Iterator, Mapping
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from schemas.errors import TouchlineError
+from schemas.side import Side
+from touchline.cli import options
+from touchline.cli.errors import FAILED
+
+NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
+_DEFAULT = "run"
+Folder = Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a study that was played.")]
+Jobs = Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")]
+Dask = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
+]
+Brains = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="Where brains and functions are looked for; by default as then.")
+]
+
+
+class _StudyGroup(TyperGroup):
+    """A group in which a study file may stand in place of a command: it is run."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Insert the command `run` if none is given."""
+        if args and args[0] not in self.commands and args[0] not in ("-h", "--help"):
+            args = [_DEFAULT, *args]
+        return super().parse_args(ctx, args)
+
+
+app = typer.Typer(
+    cls=_StudyGroup,
+    no_args_is_help=True,
+    help="Answer a question with many matches: `touchline experiment STUDY.toml` plays a study and writes its report.",
+)
+
+
+@app.command()
+def run(
+    file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")],
+    into: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder of the study; by default runs/ and its name.")
+    ] = None,
+    seeds: Annotated[str | None, typer.Option(metavar="SEEDS", help="In place of those of the file: 1-50.")] = None,
+    until_interval: Annotated[
+        float | None,
+        typer.Option(metavar="WIDTH", help="Add seeds until the interval of the first response is at most this wide."),
+    ] = None,
+    most_seeds: Annotated[int | None, typer.Option(help="Most seeds of a cell with --until-interval.")] = None,
+    record: Annotated[bool | None, typer.Option("--record", help="Keep a recording of each match.")] = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Play all matches again, also those that have a result.")
+    ] = False,
+    jobs: Jobs = 0,
+    dask: Dask = None,
+    json: options.Json = False,
+) -> None:
+    """Play all matches of a study that have no result yet, and write results and report.
+
+    A study that was interrupted goes on where it stopped: the result of each match is stored as soon as it has ended.
+    `touchline experiment STUDY.toml` is short for this command. If a match fails, the others go on, and the exit
+    status is 1.
+
+    Example: touchline experiment run studies/sides.toml --jobs 2
+    """
+    _need_packages()
+    from touchline.experiment.cells import cells_of
+    from touchline.experiment.comparisons import answers
+    from touchline.experiment.run_study import run_study
+    from touchline.experiment.sentences import sentence_of
+    from touchline.experiment.study_config import load_study
+    from touchline.experiment.study_folder import REPORT, read_study
+    from touchline.experiment.study_plan import StudyPlan
+    from touchline.scheduling.outcome import Failed, Outcome
+    from touchline.scheduling.planned_match import PlannedMatch
+    from touchline.scheduling.run import Remote
+
+    given = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "record": record}
+    study = load_study(file, {key: value for key, value in given.items() if value is not None})
+    home = (file.parent / study.match).parent if study.match is not None else file.parent
+    folder = into or Path("runs") / study.name
+    plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
+    with (
+        _executor(jobs, dask) as executor,
+        _progress(len(plan.matches(study.first_seeds)), study.name) as report,
+        _stoppable(folder),
+    ):
+
+        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
+            text = f"failed: {outcome.reason}" if isinstance(outcome, Failed) else _score(outcome.goals)
+            report(f"{planned.label}: {text}")
+
+        result = run_study(plan, folder, executor, ended, fresh=fresh, remote=Remote() if dask else None)
+    failed = result.failed
+    stored = read_study(folder)
+    responses = [name for name in study.responses if name in stored.table]
+    sentences = [sentence_of(one, name) for name in responses for one in answers(plan, stored.table, name)]
+    if json:
+        content = {"folder": str(folder), "seeds": result.seeds, "played": result.played, "answers": sentences}
+        content["failed"] = [{"identity": one.identity, "reason": one.reason} for one in failed]
+        typer.echo(json_text.dumps(content, ensure_ascii=False))
+    else:
+        for sentence in sentences:
+            typer.echo(sentence)
+        typer.echo(f"report  {folder / REPORT}")
+    if failed:
+        typer.echo(f"{len(failed)} matches failed: {failed[0].reason}", err=True)
+        raise typer.Exit(FAILED)
+
+
+@app.command()
+def compare(
+    first: Annotated[Path, typer.Argument(metavar="A", help="The folder of a study.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="The folder of another with the same cells.")],
+    json: options.Json = False,
+) -> None:
+    """Compare two studies cell by cell, such as one study before and after a change of a team.
+
+    Seeds that both studies have are compared one by one.
+
+    Example: touchline experiment compare runs/before runs/after
+    """
+    _need_packages()
+    from dataclasses import asdict
+
+    from touchline.experiment.compare_studies import compare_studies
+    from touchline.experiment.sentences import sentence_of
+    from touchline.experiment.study_folder import read_study
+
+    found = compare_studies(read_study(first), read_study(second))
+    if json:
+        typer.echo(json_text.dumps([asdict(one) for one in found], ensure_ascii=False))
+        return
+    for one in found:
+        typer.echo(f"{one.cell}: {sentence_of(one.comparison, one.response)}")
+
+
+@app.command()
+def verify(
+    folder: Folder,
+    sample: Annotated[int | None, typer.Option(min=0, help="Play only this many matches again.")] = None,
+    brains: Brains = None,
+    jobs: Jobs = 0,
+    json: options.Json = False,
+) -> None:
+    """Check a study: digests, table and recordings, and matches played again. Exit status 1 if something does not fit.
+
+    Example: touchline experiment verify studies/sides --sample 4
+    """
+    _check(folder, sample, brains, jobs, json=json)
+
+
+@app.command()
+def reproduce(folder: Folder, brains: Brains = None, jobs: Jobs = 0, json: options.Json = False) -> None:
+    """Play all matches of a study again and compare the table of results to the byte. Exit status 1 if it differs.
+
+    Example: touchline experiment reproduce studies/sides
+    """
+    _check(folder, None, brains, jobs, json=json)
+
+
+def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, json: bool) -> None:
+    _need_packages()
+    from dataclasses import asdict
+
+    from touchline.experiment.study_folder import read_study
+    from touchline.experiment.verify_study import verify_study
+
+    stored = read_study(folder)
+    planned = len({match.identity for match in stored.plan.matches(stored.seeds)})
+    with (
+        _executor(jobs, None) as executor,
+        _progress(planned if sample is None else min(sample, planned), folder.name) as report,
+    ):
+        verdict = verify_study(folder, executor, sample, brains, lambda planned, _: report(planned.label))
+    if json:
+        typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
+    else:
+        for line in (*verdict.notes, *verdict.faults):
+            typer.echo(line)
+        if not verdict.faults:
+            same = "; the table of results is the same to the byte" if verdict.byte_identical else ""
+            typer.echo(f"identical: {verdict.played_again} matches played again{same}")
+    if verdict.faults:
+        raise typer.Exit(FAILED)
+
+
+def _score(goals: Mapping[Side, int]) -> str:
+    return f"cyan {goals[Side.CYAN]} : {goals[Side.MAGENTA]} magenta"
+
+
+@contextmanager
+def _progress(total: int, title: str) -> Any:
+    from touchline.scheduling.progress import progress_of
+
+    with progress_of(total, title) as report:
+        yield report
+
+
+@contextmanager
+def _stoppable(folder: Path) -> Any:
+    """Ctrl-C ends the study with a line on how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
+        raise typer.Exit(128 + signal.SIGINT) from None
+
+
+@contextmanager
+def _executor(jobs: int, dask: str | None) -> Iterator[Executor]:
+    """Where matches are played; those that run are ended if the study is interrupted."""
+    from touchline.scheduling.child_processes import ChildProcesses, cores
+
+    if jobs < 0:
+        raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
+    executor: Executor
+    if dask is not None:
+        from touchline.scheduling.executors.dask_cluster import DaskCluster
+
+        executor = DaskCluster(dask)
+    else:
+        executor = ChildProcesses(jobs or cores())
+    try:
+        yield executor
+    finally:
+        executor.shutdown(cancel_futures=True)
+
+
+def _need_packages() -> None:
+    """Check that this machine can simulate and analyse.
+
+    Raises:
+        TouchlineError: a package is missing; the message has the command that installs it.
+    """
+    options.need_pybullet()
+    if missing := next((package for package in NEEDED if find_spec(package) is None), None):
+        raise TouchlineError(
+            f'{missing} is not installed; experiments need the extra study: pip install "touchline[study]"'
+        )

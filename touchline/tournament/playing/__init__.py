@@ -1,0 +1,1 @@
+"""Plays the matches of a cup, each in a process of its own, and stores how each ended."""

@@ -1,0 +1,53 @@
+"""Serves the pages of a cup on this machine while it runs."""
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+from schemas.errors import TouchlineError
+
+_HOST = "127.0.0.1"
+
+
+class _Pages(SimpleHTTPRequestHandler):
+    """Pages, recordings and evidence; the database is no page."""
+
+    def do_GET(self) -> None:
+        if Path(self.path).suffix in (".html", ".mcap", ".log"):
+            super().do_GET()
+        elif self.path == "/":
+            self.path = "/index.html"
+            super().do_GET()
+        else:
+            self.send_error(404)
+
+    def end_headers(self) -> None:
+        self.send_header("Cache-Control", "no-store")
+        super().end_headers()
+
+    def log_message(self, format: str, *args: object) -> None:
+        """Log no request: stderr has the progress of the cup."""
+
+
+@contextmanager
+def served(folder: Path, port: int) -> Iterator[str]:
+    """Serve the folder; yields the address of its first page.
+
+    Raises:
+        TouchlineError: the port is in use.
+    """
+    try:
+        server = ThreadingHTTPServer((_HOST, port), partial(_Pages, directory=str(folder)))
+    except OSError as error:
+        raise TouchlineError(f"--port is {port}: {error.strerror}; give another one, or 0 for a free one") from None
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    try:
+        yield f"http://{_HOST}:{server.server_address[1]}/index.html"
+    finally:
+        server.shutdown()
+        server.server_close()
+        thread.join()
