@@ -17,8 +17,12 @@ _DESCRIPTORS = Path("/proc/self/fd")
 _INFO_SIZE = 256
 _RECEIVED = struct.Struct("<128xQ")
 """The field `tcpi_bytes_received` of Linux's `tcp_info`."""
-_NO_LINGER = struct.pack("ii", 1, 0)
+_LINGER = struct.Struct("ii")
+"""Linux's `linger`: whether closing waits for data that was not sent, and for how many seconds."""
+_DISCARD = _LINGER.pack(1, 0)
 """The end of the connection discards data that was not sent, so that nothing waits for a peer that does not read."""
+_IN_BACKGROUND = _LINGER.pack(0, 0)
+"""Closing returns at once; the system sends what was not sent."""
 
 
 def plain_address(address: str) -> str:
@@ -55,13 +59,23 @@ def close_connection(peer: Peer) -> bool:
     return False
 
 
+def close_in_background(peer: Peer) -> bool:
+    """Let nobody wait who closes the connection to a peer; returns whether there is one."""
+    for descriptor in _open_sockets():
+        with _borrowed(descriptor) as connection, suppress(OSError):
+            if connection is not None and _peer(connection) == peer:
+                connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _IN_BACKGROUND)
+                return True
+    return False
+
+
 def _end(descriptor: int, peer: Peer) -> bool:
     """End the connection, unless its descriptor has meanwhile become that of another one."""
     try:
         with socket.socket(fileno=os.dup(descriptor)) as connection:
             if _peer(connection) != peer:
                 return False
-            connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _NO_LINGER)
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _DISCARD)
             connection.shutdown(socket.SHUT_RDWR)
     except OSError:
         return False  # the other end has closed it

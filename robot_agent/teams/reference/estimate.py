@@ -69,9 +69,16 @@ class SharedEstimate(WorldModel):
             if received.age > self._parameters.told_age:
                 continue
             for place in reported(received.extra):
+                if not self._is_ground(place):
+                    continue
                 if len(known) < most and all(math.dist(place, other) > same for other in (*known, *ours)):
                     known.append(place)
         return known
+
+    def _is_ground(self, place: Point) -> bool:
+        """Whether a robot can be there; a teammate of another author may use the same names otherwise."""
+        pitch = self._briefing.setup.pitch
+        return abs(place[0]) <= pitch.goal_line + pitch.border and abs(place[1]) <= pitch.touch_line + pitch.border
 
     def _their_robots(self) -> list[str]:
         return self._briefing.setup.teams[self._briefing.side.opponent].robots
@@ -87,9 +94,9 @@ def report(opponents: list[Point], me: Point, arrival: float) -> dict[str, float
 
 
 def arrival_in(words: dict[str, float | int | bool | str]) -> float:
-    """When a teammate could be at the ball, in its words; infinite where they have no such number."""
+    """When a teammate could be at the ball, in its words; infinite where they have no such time."""
     arrival = words.get("arrival")
-    return float(arrival) if isinstance(arrival, float | int) else math.inf
+    return float(arrival) if isinstance(arrival, float | int) and arrival >= 0.0 else math.inf
 
 
 def reported(words: dict[str, float | int | bool | str]) -> list[Point]:

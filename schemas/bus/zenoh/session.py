@@ -25,28 +25,19 @@ _THREADS = "ZENOH_RUNTIME"
 _MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
 """Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
 over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
-_CLIENT_THREADS = (
-    "(app: (worker_threads: 4), net: (handover: app), rx: (handover: app), acc: (handover: app), "
-    "tx: (worker_threads: 1))"
-)
-"""Few threads, since a match has many small processes. Closing a broken link blocks one for up to 10 s (see
-`_HOST_THREADS`): with two, a client that had lost its link twice within that time sometimes did not connect again.
+_CLIENT_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
+"""Few threads, since a match has many small processes. Where the system lets links be closed slowly (see
+`schemas.bus.zenoh.links`), closing one blocks a thread for up to 10 s.
 
 The thread that sends closes no link. With its own, a message wakes it alone: one of several threads that share their
 tasks wakes another one as soon as it has found a task, and that one finds nothing."""
-_HOST_THREADS = (
-    "(app: (worker_threads: 32), net: (handover: app), rx: (handover: app), acc: (handover: app), "
-    "tx: (worker_threads: 1))"
-)
+_HOST_THREADS = "(app: (worker_threads: 16), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
 """A thread that waits for room in a link's queue, as a reply from a cache does, must not be the thread that makes the
 room. Zenoh closes a stalled link on the threads that read: if there were few, all of them could be waiting for room in
 that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876).
 
-Closing a link with unsent data, as after a cut of the network, blocks a thread for up to 10 s (its socket has
-`SO_LINGER`; eclipse-zenoh/zenoh, issue 2350). There must be more threads than clients that one cut disconnects, two
-teams of eleven: with one thread in a client, or four in a host that loses five robots, nothing is exchanged until those
-10 s are over. The runtime `net` closes links, too. With one thread of its own, it closed five links one after the
-other, and in those 50 s no client connected."""
+The runtime `net` keeps its single thread: with several, two links that closed at the same time could end one of them by
+a panic in the routing tables (zenoh 1.10)."""
 _RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
 _ATTEMPT_S = 0.9
 """Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then

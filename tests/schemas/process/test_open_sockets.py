@@ -3,11 +3,12 @@
 import os
 import resource
 import socket
+import struct
 from pathlib import Path
 
 import pytest
 
-from schemas.process.open_sockets import close_connection, plain_address, received_bytes
+from schemas.process.open_sockets import close_connection, close_in_background, plain_address, received_bytes
 
 linux = pytest.mark.skipif(not hasattr(socket, "TCP_INFO"), reason="only Linux reports the bytes of a connection")
 
@@ -44,6 +45,25 @@ def test_a_closed_connection_ends_at_both_ends_even_if_its_peer_never_reads(pair
         while client.recv(10**6):
             pass
     assert not close_connection(peer)
+
+
+@linux
+def test_nobody_waits_who_closes_a_connection_in_the_background_and_its_peer_receives_all(pair):
+    client, server, peer = pair
+    server.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 10))
+    assert close_in_background(peer)
+    assert struct.unpack("ii", server.getsockopt(socket.SOL_SOCKET, socket.SO_LINGER, 8))[0] == 0
+    server.setblocking(False)
+    sent = 0
+    with pytest.raises(BlockingIOError):
+        while True:
+            sent += server.send(b"x" * 100_000)
+    server.close()
+    received = 0
+    while part := client.recv(10**6):
+        received += len(part)
+    assert received == sent
+    assert not close_in_background(peer)
 
 
 @linux

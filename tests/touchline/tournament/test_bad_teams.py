@@ -55,7 +55,7 @@ def test_in_one_process_a_match_each_who_fails_first_forfeits(tmp_path: Path) ->
         "NeverStarts": (4, 0, 0, 9),
     }
     logs = "\n".join(file.read_text() for file in sorted((tmp_path / "cup" / "evidence").rglob("*.log")))
-    for part in ("ValueError: no ball", "RuntimeError: no camera", "time.sleep(0.01)"):
+    for part in ("ValueError: no ball", "RuntimeError: no camera", "in act"):
         assert part in logs
     page = (tmp_path / "cup" / "index.html").read_text()
     assert "Crashes crashed: " in page and "Hangs hung: " in page and "NeverStarts did not start: " in page

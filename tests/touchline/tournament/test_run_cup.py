@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from contextlib import closing
+from multiprocessing import active_children
 from pathlib import Path
 
 import pytest
@@ -103,7 +104,7 @@ def test_a_worker_that_dies_costs_its_match_only_and_that_is_played_when_the_cup
     def start_and_kill(workers: Workers, planned: object) -> None:
         start(workers, planned)  # type: ignore[arg-type]
         if not killed:
-            (pid,) = (process.pid for _, process in workers._running.values())
+            (pid,) = (process.pid for process in active_children())
             killed.append(pid)
             os.kill(pid or 0, signal.SIGKILL)
 

@@ -1,9 +1,9 @@
 """Ends a process whose robot takes too long for one decision, and reports which robot, with its stack."""
 
+import faulthandler
 import os
-import sys
+import tempfile
 import threading
-import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -29,7 +29,6 @@ class HangWatch:
         self._patience = patience
         self._acting = acting
         self._report = report
-        self._main = threading.get_ident()
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._watch, daemon=True)
         self._thread.start()
@@ -46,6 +45,13 @@ class HangWatch:
             same = same + _LOOK_S if now == before and now.robot is not None else 0.0
             before = now
             if same >= self._patience:
-                frame = sys._current_frames().get(self._main)
-                self._report(now, "".join(traceback.format_stack(frame)) if frame is not None else "")
+                self._report(now, _stacks())
                 os._exit(0)
+
+
+def _stacks() -> str:
+    """What all threads of this process do."""
+    with tempfile.TemporaryFile("w+") as file:
+        faulthandler.dump_traceback(file, all_threads=True)
+        file.seek(0)
+        return file.read()

@@ -3,6 +3,8 @@
 import math
 from itertools import combinations
 
+import pytest
+
 from robot_agent.bodies import Ball, Body
 from robot_agent.teams.reference.estimate import SharedEstimate, report, reported
 from robot_agent.teams.reference.formation import places
@@ -10,7 +12,7 @@ from robot_agent.teams.reference.keeper import fetches, guard, shot_crossing
 from robot_agent.teams.reference.parameters import PARAMETERS
 from robot_agent.teams.reference.recovery import BackOut
 from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
-from schemas.messages.sight import BallSight
+from schemas.messages.sight import BallSight, Motion, ReceivedRadio
 
 ROBOTS = ((-2.0, 1.0), (-2.0, -1.0), (-5.0, 0.0))
 
@@ -115,3 +117,14 @@ def test_a_ball_in_the_air_is_known_to_fly_and_one_that_rolls_is_not(briefing, s
         assert estimate.is_flying is flies
     estimate.update(sight_of(2, ball=None))
     assert not estimate.is_flying
+
+
+@pytest.mark.parametrize("number", [-1e9, 12.5, 1e9])
+def test_what_a_teammate_sends_that_cannot_be_is_not_believed(briefing, sight_of, number):
+    """A teammate of another author may send any number by any name."""
+    estimate = SharedEstimate(briefing, PARAMETERS)
+    words = {"x0": number, "y0": 0.0, "x1": 1.0, "y1": 2.0, "arrival": -1.0}
+    said = ReceivedRadio(age=0.0, self=Motion(x=-5.0, y=-3.0, heading=0.0), extra=words)
+    belief = estimate.update(sight_of(radio={"cyan3": said}))
+    assert belief.opponents == [(1.0, 2.0)]
+    assert estimate.words["cyan3"].arrival == math.inf

@@ -1,7 +1,11 @@
 """The links of a host's router: what a client has sent by its own, and how the host closes and refuses links."""
 
+import os
 import socket
+import struct
 import time
+from contextlib import suppress
+from pathlib import Path
 
 import pytest
 import zenoh
@@ -52,6 +56,25 @@ def test_a_host_sees_which_client_has_sent_how_much(host):
             return by_client[busy_id] > 10**6 and by_client
 
         assert wait_for(sent, "a million bytes", LIMIT)[quiet_id] < 10_000
+
+
+def test_no_end_of_a_link_waits_for_data_that_a_cut_network_cannot_take(host):
+    """Zenoh would wait for 10 s for each link, and meanwhile admit nobody."""
+
+    def lingers() -> dict[int, bool]:
+        """Descriptor of each TCP connection of this process → whether closing it waits."""
+        found = {}
+        for entry in Path("/proc/self/fd").iterdir():
+            with suppress(OSError), socket.socket(fileno=os.dup(int(entry.name))) as connection:
+                connection.getpeername()
+                if connection.family in (socket.AF_INET, socket.AF_INET6):
+                    option = connection.getsockopt(socket.SOL_SOCKET, socket.SO_LINGER, 8)
+                    found[int(entry.name)] = bool(struct.unpack("ii", option)[0])
+        return found
+
+    with client_of(host):
+        links_of(host, 1)
+        wait_for(lambda: len(found := lingers()) == 2 and not any(found.values()), "two ends that do not wait", LIMIT)
 
 
 def test_a_closed_link_is_that_client_s_alone_and_its_client_connects_again_by_itself(host):
