@@ -284,5 +284,4 @@ class MatchRun:
         return replace(MatchResult.of(follower, self._recording()), names=self._names)
 
     def _recording(self) -> RecordingOutcome:
-        ended, log = self._supervisor.ended.get("recorder"), self._supervisor.last_lines("recorder")
-        return outcome_of(self._plan, ended, log, self._losses)
+        return outcome_of(self._plan, *self._supervisor.failure("recorder"), self._losses)
