@@ -10,13 +10,14 @@ from typing import Any, Protocol
 
 from schemas.errors import TouchlineError
 from touchline.scheduling.child_processes import DiedProcessError
+from touchline.scheduling.in_process import outcome_of_death
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome
 from touchline.scheduling.plan import Plan
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.worker import Delivery, play_here, play_on_worker
 
-_ATTEMPTS = 2
-"""How often a match is begun whose process or machine is lost. One that is lost again is probably itself the reason."""
+_ATTEMPTS = 3
+"""How often a run begins a match whose process or machine is lost. One that is lost again is probably the reason."""
 
 
 class Reporter(Protocol):
@@ -62,7 +63,8 @@ def run_plan(
 ) -> dict[str, Outcome]:
     """Play all that is due until nothing is; returns all outcomes, those of before among them.
 
-    An interruption leaves what is stored: the next call goes on from there.
+    An interruption leaves what is stored: the next call goes on from there. It plays matches again that have failed
+    because their workers were lost.
 
     Args:
         plan: which matches are due.
@@ -72,7 +74,7 @@ def run_plan(
         remote: for executors whose workers do not see the folder of the run.
         at_once: most matches that the executor is given at a time; None for all that are due.
     """
-    outcomes = store.outcomes()
+    outcomes = {identity: outcome for identity, outcome in store.outcomes().items() if not _is_lost(outcome)}
     running: dict[Future[Any], PlannedMatch] = {}
     lost: Counter[str] = Counter()
     while True:
@@ -89,7 +91,7 @@ def run_plan(
             planned = running.pop(future)
             delivery = _delivered(future, planned)
             outcome = _relative(delivery.outcome, store.folder)
-            if isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER:
+            if _is_lost(outcome):
                 lost[planned.identity] += 1
                 if lost[planned.identity] < _ATTEMPTS:
                     continue  # it is due still
@@ -97,6 +99,10 @@ def run_plan(
             store.add(outcome, delivery.wall_s, delivery.worker)
             outcomes[planned.identity] = outcome
             report.ended(planned, outcome)
+
+
+def _is_lost(outcome: Outcome) -> bool:
+    return isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER
 
 
 def _submitted(planned: PlannedMatch, executor: Executor, folder: Path, remote: Remote | None) -> "Future[Any]":
@@ -110,7 +116,7 @@ def _delivered(future: "Future[Any]", planned: PlannedMatch) -> Delivery:
     try:
         delivery: Delivery = future.result()
     except DiedProcessError as error:
-        return Delivery(Failed(planned.identity, FailureKind.WORKER, str(error)))
+        return Delivery(outcome_of_death(planned, error))
     except TouchlineError:
         raise
     except Exception as error:  # of any library that runs workers: Dask's KilledWorker, a broken pool, an import

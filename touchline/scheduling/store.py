@@ -39,6 +39,7 @@ class RunStore:
         try:
             if read_only:
                 self._database = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
+                self._database.execute("SELECT 1 FROM outcomes, documents LIMIT 1")
                 return
             folder.mkdir(parents=True, exist_ok=True)
             self._lock = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
