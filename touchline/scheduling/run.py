@@ -11,6 +11,7 @@ from typing import Any, Protocol
 from schemas.errors import TouchlineError
 from touchline.scheduling.child_processes import DiedProcessError
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome
+from touchline.scheduling.outcomes import Outcomes
 from touchline.scheduling.plan import Plan
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.worker import Delivery, play_here, play_on_worker
@@ -36,7 +37,7 @@ class Store(Protocol):
     def folder(self) -> Path:
         """The folder of the run."""
 
-    def outcomes(self) -> dict[str, Outcome]:
+    def outcomes(self) -> Outcomes:
         """Identity → outcome of all matches that have ended."""
 
     def add(self, outcome: Outcome, wall_s: float, worker: str) -> None:
@@ -59,7 +60,7 @@ def run_plan(
     *,
     remote: Remote | None = None,
     at_once: int | None = None,
-) -> dict[str, Outcome]:
+) -> Outcomes:
     """Play all that is due until nothing is; returns all outcomes, those of before among them.
 
     An interruption leaves what is stored: the next call goes on from there.

@@ -9,7 +9,8 @@ from types import TracebackType
 from typing import Self
 
 from schemas.errors import TouchlineError
-from touchline.scheduling.outcome import Outcome, from_json, to_json
+from touchline.scheduling.outcome import Outcome, to_json
+from touchline.scheduling.outcomes import Outcomes
 
 FILE = "run.sqlite"
 """The file of a run's state, in its folder."""
@@ -63,10 +64,9 @@ class RunStore:
         """Store a text of the run."""
         self._database.execute("INSERT OR REPLACE INTO documents VALUES (?, ?)", (name, content))
 
-    def outcomes(self) -> dict[str, Outcome]:
+    def outcomes(self) -> Outcomes:
         """Identity → outcome of all matches that have ended."""
-        rows = self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity")
-        return {identity: from_json(content) for identity, content in rows}
+        return Outcomes(self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity"))
 
     def add(self, outcome: Outcome, wall_s: float = 0.0, worker: str = "") -> None:
         """Store an outcome; it is on disk when this returns. `wall_s` is how long the match took on its worker."""
@@ -105,11 +105,11 @@ class MemoryStore:
     def __init__(self, folder: Path) -> None:
         """Paths of recordings in `folder` are stored relative to it."""
         self.folder = folder
-        self._outcomes: dict[str, Outcome] = {}
+        self._outcomes = Outcomes()
 
-    def outcomes(self) -> dict[str, Outcome]:
+    def outcomes(self) -> Outcomes:
         """Identity → outcome of all matches that have ended."""
-        return dict(self._outcomes)
+        return self._outcomes.copy()
 
     def add(self, outcome: Outcome, wall_s: float = 0.0, worker: str = "") -> None:
         """Store an outcome."""
