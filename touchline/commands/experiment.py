@@ -94,13 +94,13 @@ def run(
     plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
     with (
         _executor(jobs, dask) as executor,
-        _progress(len(plan.matches(study.first_seeds)), study.name) as report,
+        _progress(len(plan.matches(study.first_seeds)), study.name, jobs, json=json) as progress,
         _stoppable(folder),
     ):
 
         def ended(planned: PlannedMatch, outcome: Outcome) -> None:
             text = f"failed: {outcome.reason}" if isinstance(outcome, Failed) else _score(outcome.goals)
-            report(f"{planned.label}: {text}")
+            progress.ended(f"{planned.label}: {text}", failed=isinstance(outcome, Failed))
 
         result = run_study(plan, folder, executor, ended, fresh=fresh, remote=Remote() if dask else None)
     failed = result.failed
@@ -182,9 +182,9 @@ def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, 
     planned = len({match.identity for match in stored.plan.matches(stored.seeds)})
     with (
         _executor(jobs, None) as executor,
-        _progress(planned if sample is None else min(sample, planned), folder.name) as report,
+        _progress(planned if sample is None else min(sample, planned), folder.name, jobs, json=json) as progress,
     ):
-        verdict = verify_study(folder, executor, sample, brains, lambda planned, _: report(planned.label))
+        verdict = verify_study(folder, executor, sample, brains, lambda planned, _: progress.ended(planned.label))
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:
@@ -202,11 +202,12 @@ def _score(goals: Mapping[Side, int]) -> str:
 
 
 @contextmanager
-def _progress(total: int, title: str) -> Any:
+def _progress(total: int, title: str, jobs: int, *, json: bool) -> Any:
+    from touchline.scheduling.child_processes import cores
     from touchline.scheduling.progress import progress_of
 
-    with progress_of(total, title) as report:
-        yield report
+    with progress_of(total, title, at_once=jobs or cores(), json=json) as progress:
+        yield progress
 
 
 @contextmanager
