@@ -10,6 +10,7 @@ from pydantic import Field, field_validator, model_validator
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError
 from schemas.wire.message import Name, Part
+from touchline.scheduling.planned_match import Way
 from touchline.series.seeds import seeds_of
 
 FunctionPath = Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")]
@@ -21,6 +22,7 @@ REMEDIES = {
     "cells": 'write [[cells]] above each cell, and below it key = level, for example "radio.loss" = 0.2',
     "settings": "write [settings], and below it keys of a match file",
     "functions": 'write name = "module:function" below [functions]',
+    "way": '"in_process" or "processes"',
     "responses": 'names of figures, for example ["goals.difference", "goals"]',
     "until_interval": "width of the interval of the first response, above 0",
     "most_seeds": "most seeds of a cell, from 2",
@@ -45,6 +47,8 @@ class Study(Part):
     """Seeds of each cell: the same ones in all cells."""
     both_sides: bool = True
     """Each seed is played twice, the second time with the teams on each other's side."""
+    way: Way = Way.IN_PROCESS
+    """How the matches are played: each in one process, or with processes, for teams whose programs need them."""
     settings: dict[str, Any] = Field(default_factory=dict)
     """Keys of the match file with the value that they have in all cells."""
     factors: dict[str, Annotated[list[Any], Field(min_length=1)]] = Field(default_factory=dict)

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
@@ -15,10 +16,26 @@ from touchline.scheduling.child_processes import Poll
 from touchline.scheduling.code_digest import code_digest
 from touchline.scheduling.inputs_only import has_inputs_only
 from touchline.scheduling.measurement import measured
-from touchline.scheduling.outcome import Failed, Outcome, Played
+from touchline.scheduling.outcome import Failed, Played
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.play import play
 from touchline.verify.resimulate import verify
+
+
+class Result(Protocol):
+    """What a table says of a match that was played: an outcome, or a row of a published table."""
+
+    @property
+    def chain(self) -> str:
+        """The hash chain over all states."""
+
+    @property
+    def goals(self) -> Mapping[Side, int]:
+        """The goals of each side."""
+
+    @property
+    def recording(self) -> str | None:
+        """The file of its recording, as that of an outcome."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +48,8 @@ class MatchCheck:
     """Sentences on what does not fit; empty if all does."""
     ticks: int = 0
     """Number of ticks that were simulated again."""
+    again: Played | None = None
+    """The outcome as its recording shows it, or that of the match that was played again; None without either."""
 
 
 def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> list[PlannedMatch]:
@@ -42,7 +61,7 @@ def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> l
 
 
 def verify_run(
-    matches: list[PlannedMatch], outcomes: Mapping[str, Outcome], folder: Path, executor: Executor
+    matches: list[PlannedMatch], outcomes: Mapping[str, Result | Failed], folder: Path, executor: Executor
 ) -> Iterator[MatchCheck]:
     """Check each match on the executor; yields each check when it is there.
 
@@ -53,7 +72,9 @@ def verify_run(
         yield future.result()
 
 
-def check_match(planned: PlannedMatch, outcome: Outcome | None, folder: Path, poll: Poll = lambda: None) -> MatchCheck:
+def check_match(
+    planned: PlannedMatch, outcome: Result | Failed | None, folder: Path, poll: Poll = lambda: None
+) -> MatchCheck:
     """Check one match against its files; `poll` is called while it is played again."""
     if outcome is None:
         return MatchCheck(planned.identity, planned.label, ("it was not played",))
@@ -66,22 +87,21 @@ def check_match(planned: PlannedMatch, outcome: Outcome | None, folder: Path, po
         if outcome.evidence is not None and not (folder / outcome.evidence).exists():
             faults.append(f"its evidence {outcome.evidence} is gone")
         return MatchCheck(planned.identity, planned.label, tuple(faults))
-    ticks = 0
     if outcome.recording is not None:
-        ticks, more = _check_recording(folder / outcome.recording, planned, outcome)
-        faults += more
+        ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome)
     elif not faults:
-        faults += _check_again(planned, outcome, poll)
-    return MatchCheck(planned.identity, planned.label, tuple(faults), ticks)
+        ticks, more, again = _check_again(planned, outcome, poll)
+    else:
+        return MatchCheck(planned.identity, planned.label, tuple(faults))
+    return MatchCheck(planned.identity, planned.label, (*faults, *more), ticks, again)
 
 
-def _check_recording(path: Path, planned: PlannedMatch, outcome: Played) -> tuple[int, list[str]]:
-
+def _check_recording(path: Path, planned: PlannedMatch, outcome: Result) -> tuple[int, list[str], Played | None]:
     try:
         recording = open_recording(path)
         verdict = verify(path)
     except TouchlineError as error:
-        return 0, [str(error)]
+        return 0, [str(error)], None
     faults = []
     if verdict.difference is not None:
         faults.append(f"tick {verdict.difference.tick} is the first that differs: {verdict.difference.why}")
@@ -91,27 +111,26 @@ def _check_recording(path: Path, planned: PlannedMatch, outcome: Played) -> tupl
     recorded = recording.manifest.config
     if recorded is None or recorded.model_dump(exclude=unlike) != planned.config.model_dump(exclude=unlike):
         faults.append("it is the recording of another match: its configuration is not that of the plan")
-    if has_inputs_only(planned.config):
-        chain = _last_chain(path)
-        goals: dict[Side, int] | None = None
-    else:
-        again = measured(path, planned.identity)
-        chain, goals = again.chain, again.goals
+    again = None if has_inputs_only(planned.config) else measured(path, planned.identity)
+    chain = again.chain if again is not None else _last_chain(path)
     if chain != outcome.chain:
         faults.append(f"its hash chain ends with {chain}, that of the table with {outcome.chain}")
-    if goals is not None and goals != outcome.goals:
-        faults.append(f"{_score(goals)} is recorded, and {_score(outcome.goals)} in the table")
-    return verdict.ticks, faults
+    if again is not None and again.goals != outcome.goals:
+        faults.append(f"{_score(again.goals)} is recorded, and {_score(outcome.goals)} in the table")
+    return verdict.ticks, faults, again
 
 
-def _check_again(planned: PlannedMatch, outcome: Played, poll: Poll) -> list[str]:
+def _check_again(planned: PlannedMatch, outcome: Result, poll: Poll) -> tuple[int, list[str], Played | None]:
     """Play a match again that has left no recording."""
     again = play(replace(planned, logs=None), poll)
     if isinstance(again, Failed):
-        return [f"played again, it failed: {again.reason}"]
-    if again.chain != outcome.chain or again.goals != outcome.goals:
-        return [f"played again, it ended {_score(again.goals)}, and {_score(outcome.goals)} is in the table"]
-    return []
+        return 0, [f"played again, it failed: {again.reason}"], None
+    if again.chain == outcome.chain and again.goals == outcome.goals:
+        return 0, [], again
+    faults = [f"played again, it ended {_score(again.goals)}, and {_score(outcome.goals)} is in the table"]
+    if again.chain != outcome.chain:
+        faults.append(f"played again, it was another match: its hash chain ends with {again.chain}")
+    return 0, faults, again
 
 
 def _last_chain(path: Path) -> str:

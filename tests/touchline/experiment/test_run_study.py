@@ -39,6 +39,20 @@ radio.loss = [0, 0.4]
 Run = Callable[..., StudyResult]
 
 
+class Labels:
+    """Collects the labels of the matches that were played."""
+
+    def __init__(self, played: list[str]) -> None:
+        self.played = played
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del outcome
+        self.played.append(planned.label)
+
+
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
     return tmp_path / "study"
@@ -54,18 +68,13 @@ def run(tmp_path: Path, home: Path) -> Run:
         study = load_study(path)
         plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
 
-        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
-            del outcome
-            if played is not None:
-                played.append(planned.label)
-
-        return run_study(plan, home, ThisProcess(), ended, **options)
+        return run_study(plan, home, ThisProcess(), Labels(played if played is not None else []), **options)
 
     return play
 
 
 def check(home: Path, sample: int | None = None) -> list[str]:
-    return verify_study(home, ThisProcess(), sample, None, lambda planned, outcome: None).faults
+    return verify_study(home, ThisProcess(), sample, None, lambda check: None).faults
 
 
 def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home: Path) -> None:
@@ -88,7 +97,7 @@ def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home:
 
 def test_a_study_is_reproduced_to_the_byte(run: Run, home: Path) -> None:
     run(SHORT)
-    verdict = verify_study(home, ThisProcess(), None, None, lambda planned, outcome: None)
+    verdict = verify_study(home, ThisProcess(), None, None, lambda check: None)
     assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
     assert verdict.notes == []
 
