@@ -3,7 +3,7 @@
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -23,6 +23,7 @@ REMEDIES = {
     "settings": "write [settings], and below it keys of a match file",
     "functions": 'write name = "module:function" below [functions]',
     "way": '"in_process" or "processes"',
+    "record": 'true, false or "inputs"',
     "responses": 'names of figures, for example ["goals.difference", "goals"]',
     "until_interval": "width of the interval of the first response, above 0",
     "most_seeds": "most seeds of a cell, from 2",
@@ -59,8 +60,9 @@ class Study(Part):
     """Figures that the report compares; the table of results has all figures. The first is the primary one."""
     functions: dict[Name, FunctionPath] = Field(default_factory=dict)
     """Name of a response → `module:function`, which is called with the recording of a match and returns a number."""
-    record: bool = False
-    """Each match leaves its recording in the folder of the study."""
+    record: bool | Literal["inputs"] = False
+    """Each match leaves its recording in the folder of the study; `inputs` for one that has no more than it takes to
+    simulate the match again."""
     until_interval: Annotated[float, Field(gt=0)] | None = None
     """Seeds are added until the 95 % interval of the primary response is at most this wide; None for `seeds` alone."""
     most_seeds: Annotated[int, Field(ge=2, le=100_000)] = 200
@@ -97,6 +99,8 @@ class Study(Part):
         for cell in self.cells:
             if set(cell) != set(self.cells[0]):
                 raise ValueError(f"cells have different keys, {_keys(self.cells[0])} and {_keys(cell)}; give each all")
+        if self.functions and self.record == "inputs":
+            raise ValueError('record is "inputs", and functions need whole recordings; leave record out')
         varied = [*self.factors, *(self.cells[0] if self.cells else ())]
         if doubled := next((key for key in varied if key in self.settings), None):
             raise ValueError(f"{doubled} is both a setting and varied; leave one out")

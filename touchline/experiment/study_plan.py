@@ -13,6 +13,7 @@ from touchline.experiment.cells import Cell
 from touchline.experiment.match_figures import Value
 from touchline.experiment.result_table import result_table
 from touchline.experiment.study_config import Study
+from touchline.scheduling.inputs_only import with_inputs_only
 from touchline.scheduling.outcome import Outcome
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.series.plan import with_sides_swapped
@@ -76,7 +77,7 @@ class StudyPlan:
         if match.identity not in self._planned:
             wants = self.folder is not None and (self.study.record or self.study.functions)
             self._planned[match.identity] = PlannedMatch(
-                match.config,
+                with_inputs_only(match.config) if self.study.record == "inputs" else match.config,
                 way=self.study.way,
                 brain_folder=self.brain_folder,
                 recording=self.folder / recording_name(match.identity) if wants and self.folder is not None else None,

@@ -103,7 +103,8 @@ def run_plan(
 def _submitted(planned: PlannedMatch, executor: Executor, folder: Path, remote: Remote | None) -> "Future[Any]":
     if remote is None:
         return executor.submit(play_here, planned)
-    return executor.submit(play_on_worker, planned, folder, remote.keep)
+    home = planned.brain_folder.absolute() if planned.brain_folder is not None else None
+    return executor.submit(play_on_worker, replace(planned, brain_folder=home), folder, remote.keep)
 
 
 def _delivered(future: "Future[Any]", planned: PlannedMatch) -> Delivery:
