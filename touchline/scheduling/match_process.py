@@ -6,6 +6,7 @@ Its log is on stderr, the outcome on stdout.
 import secrets
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from pydantic import Field
@@ -67,10 +68,10 @@ def play(settings: MatchProcessSettings) -> Outcome:
     try:
         check_robot_names(config)
         confinements = team_confinements(config, settings.brain_folder, settings.folder.parent)
-        check_teams(config, settings.brain_folder, confinements=confinements)
         plan = prepare_credentials(replace(plan, confinements=confinements), tls=False)
         clock = WallClock()
-        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by).play()
+        check = partial(check_teams, config, settings.brain_folder, confinements=confinements)
+        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by, check).play()
     except TeamError as error:
         return Failed(identity, FailureKind.DID_NOT_START, str(error), error.side, logs)
     except TeamLeftError as error:
