@@ -2,12 +2,12 @@
 
 import json as json_text
 import signal
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from typer.core import TyperGroup
@@ -16,6 +16,11 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+
+if TYPE_CHECKING:
+    from touchline.scheduling.outcome import Outcome
+    from touchline.scheduling.planned_match import PlannedMatch
+    from touchline.scheduling.verify import MatchCheck
 
 NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
 _DEFAULT = "run"
@@ -83,8 +88,7 @@ def run(
     from touchline.experiment.study_config import load_study
     from touchline.experiment.study_folder import REPORT, read_study
     from touchline.experiment.study_plan import StudyPlan
-    from touchline.scheduling.outcome import Failed, Outcome
-    from touchline.scheduling.planned_match import PlannedMatch
+    from touchline.scheduling.progress import ProgressReporter
     from touchline.scheduling.run import Remote
 
     given = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "record": record}
@@ -97,12 +101,8 @@ def run(
         _progress(len(plan.matches(study.first_seeds)), study.name, jobs, json=json) as progress,
         _stoppable(folder),
     ):
-
-        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
-            text = f"failed: {outcome.reason}" if isinstance(outcome, Failed) else _score(outcome.goals)
-            progress.ended(f"{planned.label}: {text}", failed=isinstance(outcome, Failed))
-
-        result = run_study(plan, folder, executor, ended, fresh=fresh, remote=Remote() if dask else None)
+        reporter = ProgressReporter(progress, _match_sentence)
+        result = run_study(plan, folder, executor, reporter, fresh=fresh, remote=Remote() if dask else None)
     failed = result.failed
     stored = read_study(folder)
     responses = [name for name in study.responses if name in stored.table]
@@ -150,16 +150,18 @@ def compare(
 @app.command()
 def verify(
     folder: Folder,
-    sample: Annotated[int | None, typer.Option(min=0, help="Play only this many matches again.")] = None,
+    sample: Annotated[int | None, typer.Option(min=0, help="Simulate only this many matches again.")] = None,
     brains: Brains = None,
     jobs: Jobs = 0,
     json: options.Json = False,
 ) -> None:
-    """Check a study: digests, table and recordings, and matches played again. Exit status 1 if something does not fit.
+    """Check a study: digests, table, and matches simulated again. Exit status 1 if something does not fit.
+
+    A match is simulated from its recording, where the study has one; otherwise it is played again.
 
     Example: touchline experiment verify studies/sides --sample 4
     """
-    _check(folder, sample, brains, jobs, json=json)
+    _check(folder, sample, brains, jobs, from_recordings=True, json=json)
 
 
 @app.command()
@@ -168,10 +170,12 @@ def reproduce(folder: Folder, brains: Brains = None, jobs: Jobs = 0, json: optio
 
     Example: touchline experiment reproduce studies/sides
     """
-    _check(folder, None, brains, jobs, json=json)
+    _check(folder, None, brains, jobs, from_recordings=False, json=json)
 
 
-def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, json: bool) -> None:
+def _check(
+    folder: Path, sample: int | None, brains: Path | None, jobs: int, *, from_recordings: bool, json: bool
+) -> None:
     _need_packages()
     from dataclasses import asdict
 
@@ -184,7 +188,12 @@ def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, 
         _executor(jobs, None) as executor,
         _progress(planned if sample is None else min(sample, planned), folder.name, jobs, json=json) as progress,
     ):
-        verdict = verify_study(folder, executor, sample, brains, lambda planned, _: progress.ended(planned.label))
+
+        def checked(check: "MatchCheck") -> None:
+            sentence = "; ".join((check.label, *check.faults))
+            progress.ended(sentence, failed=bool(check.faults))
+
+        verdict = verify_study(folder, executor, sample, brains, checked, from_recordings=from_recordings)
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:
@@ -192,13 +201,17 @@ def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, 
             typer.echo(line)
         if not verdict.faults:
             same = "; the table of results is the same to the byte" if verdict.byte_identical else ""
-            typer.echo(f"identical: {verdict.played_again} matches played again{same}")
+            typer.echo(f"identical: {verdict.played_again} matches simulated again{same}")
     if verdict.faults:
         raise typer.Exit(FAILED)
 
 
-def _score(goals: Mapping[Side, int]) -> str:
-    return f"cyan {goals[Side.CYAN]} : {goals[Side.MAGENTA]} magenta"
+def _match_sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
+    from touchline.scheduling.outcome import Failed
+
+    if isinstance(outcome, Failed):
+        return f"{planned.label}: failed: {outcome.reason}"
+    return f"{planned.label}: cyan {outcome.goals[Side.CYAN]} : {outcome.goals[Side.MAGENTA]} magenta"
 
 
 @contextmanager

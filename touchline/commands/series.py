@@ -56,6 +56,7 @@ def series(
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
     options.need_pybullet()
+    options.need_scipy()
     from touchline.scheduling.child_processes import cores
     from touchline.scheduling.progress import progress_of
     from touchline.series.match_row import FailedMatch

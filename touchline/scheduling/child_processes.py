@@ -25,6 +25,8 @@ Result = TypeVar("Result")
 Poll = Callable[[], None]
 """Called by the function with each tick: it ends the process when those who wait for its result are gone."""
 
+_PRELOAD = "touchline.scheduling.preload"
+"""What the fork server imports once for all processes; not imported here."""
 _POLL_TICKS = 100
 """Ticks between two checks of whether the result is still wanted."""
 
@@ -72,7 +74,7 @@ class ChildProcesses(Executor):
 
     def _call(self, call: Callable[[Poll], Any], module: str) -> Any:
         context = get_context("forkserver")
-        context.set_forkserver_preload([module])
+        context.set_forkserver_preload([_PRELOAD, module])
         ours, theirs = context.Pipe()
         with closing(ours), tempfile.TemporaryDirectory(prefix="touchline-") as folder:
             process = context.Process(target=_run, args=(call, theirs, Path(folder)), daemon=True)

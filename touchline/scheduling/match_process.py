@@ -8,6 +8,7 @@ import shutil
 import signal
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from pydantic import Field
@@ -70,10 +71,10 @@ def play(settings: MatchProcessSettings) -> Outcome:
     try:
         check_robot_names(config)
         confinements = team_confinements(config, settings.brain_folder, settings.folder.parent)
-        check_teams(config, settings.brain_folder, confinements=confinements)
         plan = prepare_credentials(replace(plan, confinements=confinements), tls=False)
         clock = WallClock()
-        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by).play()
+        check = partial(check_teams, config, settings.brain_folder, confinements=confinements)
+        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by, check).play()
     except TeamError as error:
         return Failed(identity, FailureKind.DID_NOT_START, str(error), error.side, logs)
     except TeamLeftError as error:
@@ -85,7 +86,7 @@ def play(settings: MatchProcessSettings) -> Outcome:
         reason = f"it was interrupted by {signal.Signals(error.number).name}"
         return Failed(identity, FailureKind.WORKER, reason, None, logs)
     finally:
-        shutil.rmtree(settings.folder / CREDENTIALS, ignore_errors=True)  # logs are published
+        _keep_logs_alone(settings.folder)
     if result.recording.fault:
         return Failed(identity, FailureKind.WORKER, result.recording.fault, None, logs)
     found = fault_of(last_health(open_recording(whole)), config)
@@ -93,6 +94,13 @@ def play(settings: MatchProcessSettings) -> Outcome:
         kind, culprit, reason = found
         return Failed(identity, kind, reason, culprit, logs)
     return _kept(measured(whole, identity), whole, settings.recording)
+
+
+def _keep_logs_alone(folder: Path) -> None:
+    """Remove credentials and settings from the folder of the logs: that of a cup or a study is published."""
+    shutil.rmtree(folder / CREDENTIALS, ignore_errors=True)
+    for path in folder.glob("*.json"):
+        path.unlink()
 
 
 def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
@@ -107,7 +115,10 @@ def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
 
 def run(settings: MatchProcessSettings) -> int:
     """Play the match, and print its outcome."""
-    sys.stdout.buffer.write(to_json(play(settings)))
+    outcome = play(settings)
+    if isinstance(outcome, Failed):
+        sys.stderr.write(f"{outcome.reason}\n")
+    sys.stdout.buffer.write(to_json(outcome))
     return 0
 
 

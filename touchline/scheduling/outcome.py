@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Annotated
 
-from pydantic import TypeAdapter
+from pydantic import Field, TypeAdapter
 
 from recordings.stats.figures import MatchFigures
 from schemas.side import Side
@@ -60,7 +61,8 @@ class Failed:
 
 
 Outcome = Played | Failed
-_ADAPTER: TypeAdapter[Outcome] = TypeAdapter(Outcome)
+_ADAPTER: TypeAdapter[Outcome] = TypeAdapter(Annotated[Outcome, Field(union_mode="left_to_right")])
+"""Either type has required fields that the other lacks, so the first that fits is the right one."""
 
 
 def to_json(outcome: Outcome) -> bytes:

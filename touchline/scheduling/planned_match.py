@@ -5,6 +5,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 from pathlib import Path
 
 from schemas.config.match_config import LOCKSTEP, MatchConfig
@@ -21,7 +22,7 @@ class Way(StrEnum):
     """Host, robots and recorder in processes of their own, over Zenoh: for rivals, and for programs in any language."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PlannedMatch:
     """One match of a plan."""
 
@@ -46,7 +47,7 @@ class PlannedMatch:
         """Seed of all random numbers of the match."""
         return self.config.seed
 
-    @property
+    @cached_property
     def identity(self) -> str:
         """A digest of configuration and code: equal for matches with equal results."""
         content = {

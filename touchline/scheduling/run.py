@@ -12,6 +12,7 @@ from schemas.errors import TouchlineError
 from touchline.scheduling.child_processes import DiedProcessError
 from touchline.scheduling.in_process import outcome_of_death
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome
+from touchline.scheduling.outcomes import Outcomes
 from touchline.scheduling.plan import Plan
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.worker import Delivery, play_here, play_on_worker
@@ -37,11 +38,14 @@ class Store(Protocol):
     def folder(self) -> Path:
         """The folder of the run."""
 
-    def outcomes(self) -> dict[str, Outcome]:
+    def outcomes(self) -> Outcomes:
         """Identity → outcome of all matches that have ended."""
 
     def add(self, outcome: Outcome, wall_s: float, worker: str) -> None:
         """Store an outcome."""
+
+    def forget_lost(self) -> None:
+        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +64,7 @@ def run_plan(
     *,
     remote: Remote | None = None,
     at_once: int | None = None,
-) -> dict[str, Outcome]:
+) -> Outcomes:
     """Play all that is due until nothing is; returns all outcomes, those of before among them.
 
     An interruption leaves what is stored: the next call goes on from there. It plays matches again that have failed
@@ -74,7 +78,8 @@ def run_plan(
         remote: for executors whose workers do not see the folder of the run.
         at_once: most matches that the executor is given at a time; None for all that are due.
     """
-    outcomes = {identity: outcome for identity, outcome in store.outcomes().items() if not _is_lost(outcome)}
+    store.forget_lost()
+    outcomes = store.outcomes()
     running: dict[Future[Any], PlannedMatch] = {}
     lost: Counter[str] = Counter()
     while True:
@@ -91,7 +96,7 @@ def run_plan(
             planned = running.pop(future)
             delivery = _delivered(future, planned)
             outcome = _relative(delivery.outcome, store.folder)
-            if _is_lost(outcome):
+            if isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER:
                 lost[planned.identity] += 1
                 if lost[planned.identity] < _ATTEMPTS:
                     continue  # it is due still
@@ -101,14 +106,11 @@ def run_plan(
             report.ended(planned, outcome)
 
 
-def _is_lost(outcome: Outcome) -> bool:
-    return isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER
-
-
 def _submitted(planned: PlannedMatch, executor: Executor, folder: Path, remote: Remote | None) -> "Future[Any]":
     if remote is None:
         return executor.submit(play_here, planned)
-    return executor.submit(play_on_worker, planned, folder, remote.keep)
+    home = planned.brain_folder.absolute() if planned.brain_folder is not None else None
+    return executor.submit(play_on_worker, replace(planned, brain_folder=home), folder, remote.keep)
 
 
 def _delivered(future: "Future[Any]", planned: PlannedMatch) -> Delivery:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import MatchConfig
@@ -17,10 +17,26 @@ from touchline.scheduling.child_processes import DiedProcessError, Poll
 from touchline.scheduling.code_digest import code_digest
 from touchline.scheduling.inputs_only import has_inputs_only
 from touchline.scheduling.measurement import measured
-from touchline.scheduling.outcome import Failed, Outcome, Played
+from touchline.scheduling.outcome import Failed, Played
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.play import play
 from touchline.verify.resimulate import verify
+
+
+class Result(Protocol):
+    """What a table says of a match that was played: an outcome, or a row of a published table."""
+
+    @property
+    def chain(self) -> str:
+        """The hash chain over all states."""
+
+    @property
+    def goals(self) -> Mapping[Side, int]:
+        """The goals of each side."""
+
+    @property
+    def recording(self) -> str | None:
+        """The file of its recording, as that of an outcome."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +49,16 @@ class MatchCheck:
     """Sentences on what does not fit; empty if all does."""
     ticks: int = 0
     """Number of ticks that were simulated again."""
+    again: Played | None = None
+    """The outcome as its recording shows it, or that of the match that was played again; None without either."""
+
+
+def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> list[PlannedMatch]:
+    """So many of the matches, drawn at random; all without a number."""
+    if number is None or number >= len(matches):
+        return matches
+    drawn = set(random.Random(seed).sample(range(len(matches)), number))
+    return [one for place, one in enumerate(matches) if place in drawn]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,17 +71,9 @@ class Depth:
     """The files of its teams are compared with their digests."""
 
 
-def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> list[PlannedMatch]:
-    """So many of the matches, drawn at random; all without a number."""
-    if number is None or number >= len(matches):
-        return matches
-    drawn = set(random.Random(seed).sample(range(len(matches)), number))
-    return [one for place, one in enumerate(matches) if place in drawn]
-
-
 def verify_run(
     matches: list[PlannedMatch],
-    outcomes: Mapping[str, Outcome],
+    outcomes: Mapping[str, Result | Failed],
     folder: Path,
     executor: Executor,
     depth_of: Callable[[PlannedMatch], Depth] = lambda _: Depth(),
@@ -77,7 +95,7 @@ def verify_run(
 
 def check_match(
     planned: PlannedMatch,
-    outcome: Outcome | None,
+    outcome: Result | Failed | None,
     folder: Path,
     depth: Depth | None = None,
     poll: Poll = lambda: None,
@@ -95,26 +113,34 @@ def check_match(
         if outcome.evidence is not None and not (folder / outcome.evidence).exists():
             faults.append(f"its evidence {outcome.evidence} is gone")
         return MatchCheck(planned.identity, planned.label, tuple(faults))
-    ticks = 0
     if outcome.recording is not None:
-        ticks, more = _check_recording(folder / outcome.recording, planned, outcome, again=depth.again)
-        faults += more
+        ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome, simulates=depth.again)
     elif depth.again and not faults:
-        faults += _check_again(planned, outcome, poll)
-    return MatchCheck(planned.identity, planned.label, tuple(faults), ticks)
+        ticks, more, again = _check_again(planned, outcome, poll)
+    else:
+        return MatchCheck(planned.identity, planned.label, tuple(faults))
+    return MatchCheck(planned.identity, planned.label, (*faults, *more), ticks, again)
 
 
-def _check_recording(path: Path, planned: PlannedMatch, outcome: Played, *, again: bool) -> tuple[int, list[str]]:
-    """The number of ticks that were simulated again, and what differs."""
+def _check_recording(
+    path: Path, planned: PlannedMatch, outcome: Result, *, simulates: bool
+) -> tuple[int, list[str], Played | None]:
     try:
         recorded = open_recording(path).manifest.config
-        ticks, faults = _simulated(path) if again else (0, [])
+        ticks, faults = _simulated(path) if simulates else (0, [])
         if recorded is None or _compared(recorded) != _compared(planned.config):
             faults.append("it is the recording of another match: its configuration is not that of the plan")
-        faults += _result_faults(path, planned, outcome)
+        again = None if has_inputs_only(planned.config) else measured(path, planned.identity)
+        chain = again.chain if again is not None else _last_chain(path)
     except TouchlineError as error:
-        return 0, [str(error)]
-    return ticks, faults
+        return 0, [str(error)], None
+    if chain != outcome.chain:
+        faults.append(f"its hash chain ends with {chain}, that of the table with {outcome.chain}")
+    if again is not None and again.goals != outcome.goals:
+        faults.append(f"{_score(again.goals)} is recorded, and {_score(outcome.goals)} in the table")
+    elif again is not None and isinstance(outcome, Played) and again.figures != outcome.figures:
+        faults.append("its figures are not those of its recording, such as cards and penalties")
+    return ticks, faults, again
 
 
 def _compared(config: MatchConfig) -> dict[str, Any]:
@@ -122,6 +148,7 @@ def _compared(config: MatchConfig) -> dict[str, Any]:
 
 
 def _simulated(path: Path) -> tuple[int, list[str]]:
+    """The number of ticks that were simulated again, and the first that differs."""
     verdict = verify(path)
     if verdict.difference is not None:
         why = f"tick {verdict.difference.tick} is the first that differs: {verdict.difference.why}"
@@ -131,33 +158,17 @@ def _simulated(path: Path) -> tuple[int, list[str]]:
     return verdict.ticks, []
 
 
-def _result_faults(path: Path, planned: PlannedMatch, outcome: Played) -> list[str]:
-    """What differs between the outcome in the table and that of the recording."""
-    if has_inputs_only(planned.config):
-        chain = _last_chain(path)
-        return [_other_chain(chain, outcome)] if chain != outcome.chain else []
-    recorded = measured(path, planned.identity)
-    if recorded.chain != outcome.chain:
-        return [_other_chain(recorded.chain, outcome)]
-    if recorded.goals != outcome.goals:
-        return [f"{_score(recorded.goals)} is recorded, and {_score(outcome.goals)} in the table"]
-    if recorded.figures != outcome.figures:
-        return ["its figures are not those of its recording, such as cards and penalties"]
-    return []
-
-
-def _other_chain(chain: str, outcome: Played) -> str:
-    return f"its hash chain ends with {chain}, that of the table with {outcome.chain}"
-
-
-def _check_again(planned: PlannedMatch, outcome: Played, poll: Poll) -> list[str]:
+def _check_again(planned: PlannedMatch, outcome: Result, poll: Poll) -> tuple[int, list[str], Played | None]:
     """Play a match again that has left no recording."""
     again = play(replace(planned, logs=None, recording=None), poll)
     if isinstance(again, Failed):
-        return [f"played again, it failed: {again.reason}"]
-    if again.chain != outcome.chain or again.goals != outcome.goals:
-        return [f"played again, it ended {_score(again.goals)}, and {_score(outcome.goals)} is in the table"]
-    return []
+        return 0, [f"played again, it failed: {again.reason}"], None
+    if again.chain == outcome.chain and again.goals == outcome.goals:
+        return 0, [], again
+    faults = [f"played again, it ended {_score(again.goals)}, and {_score(outcome.goals)} is in the table"]
+    if again.chain != outcome.chain:
+        faults.append(f"played again, it was another match: its hash chain ends with {again.chain}")
+    return 0, faults, again
 
 
 def _last_chain(path: Path) -> str:

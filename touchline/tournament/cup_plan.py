@@ -28,15 +28,6 @@ _FORFEITS = {
 """Failures for which a team forfeits, in words."""
 
 
-@dataclass(frozen=True, slots=True)
-class SlotMatch:
-    """A match that fills a slot of a cup."""
-
-    planned: PlannedMatch
-    identity: str
-    """Digest of all that determines the match; computed once."""
-
-
 @dataclass(frozen=True)
 class CupPlan:
     """The plan of a cup in a folder."""
@@ -48,7 +39,10 @@ class CupPlan:
     """The folder of the cup, an absolute path."""
     digests: Mapping[str, str]
     """Team → digest of its files."""
-    _matches: dict[str, SlotMatch] = field(default_factory=dict, compare=False, repr=False)
+    _matches: dict[Slot, PlannedMatch] = field(default_factory=dict, init=False, compare=False, repr=False)
+    """Slot → match; its identity is computed once."""
+    _ended: dict[str, Ended] = field(default_factory=dict, init=False, compare=False, repr=False)
+    """Identity → how a match ended; outcomes are decoded once."""
 
     @cached_property
     def forfeit_goals(self) -> int:
@@ -57,25 +51,30 @@ class CupPlan:
 
     def due(self, outcomes: Mapping[str, Outcome]) -> Sequence[PlannedMatch]:
         """The matches that can be played now."""
-        return [self.match(slot).planned for slot in self.state(outcomes).due]
+        return [self.match(slot) for slot in self.state(outcomes).due]
 
     def state(self, outcomes: Mapping[str, Outcome]) -> CupState:
         """How far the cup is."""
 
         def ended(slot: Slot) -> Ended | None:
-            outcome = outcomes.get(self.match(slot).identity)
-            return self.ended(slot, outcome) if outcome is not None else None
+            identity = self.match(slot).identity
+            if identity not in outcomes:
+                return None
+            known = self._ended.get(identity)
+            if known is None or known.result is None:  # a match without a result may have been played again
+                known = self._ended[identity] = self.ended(slot, outcomes[identity])
+            return known
 
         return state_of(self.cup, ended)
 
-    def match(self, slot: Slot) -> SlotMatch:
+    def match(self, slot: Slot) -> PlannedMatch:
         """The match of a slot.
 
         Raises:
             TouchlineError: a team is none that ships, or a key of the match is invalid.
         """
-        if slot.name not in self._matches:
-            planned = PlannedMatch(
+        if slot not in self._matches:
+            self._matches[slot] = PlannedMatch(
                 config=match_config(self.cup, slot),
                 code={side: self.digests[name] for side, name in zip(Side, slot.sides, strict=True)},
                 way=Way.PROCESSES if self.cup.way == PROCESSES else Way.IN_PROCESS,
@@ -85,8 +84,7 @@ class CupPlan:
                 hang_s=self.cup.hang,
                 label=slot.name,
             )
-            self._matches[slot.name] = SlotMatch(planned, planned.identity)
-        return self._matches[slot.name]
+        return self._matches[slot]
 
     def ended(self, slot: Slot, outcome: Outcome) -> Ended:
         """How a match ended, in the order of the teams of its fixture."""

@@ -92,6 +92,7 @@ class CupRun:
                 raise TouchlineError(
                     f'the files of team "{team}" have changed since the cup began; restore them, or give another --out'
                 )
+        store.forget_lost()
 
 
 class _Reporter:

@@ -63,7 +63,7 @@ def verify_cup(
         raise TouchlineError(f"{folder}: its cup has not begun; nothing can be verified")
     plan = CupPlan(stored.cup, code_folder or stored.code_folder, folder, stored.digests)
     state = plan.state(outcomes)
-    matches = [plan.match(one.slot).planned for one in state.matches]
+    matches = [plan.match(one.slot) for one in state.matches]
     known = {one.identity for one in matches}
     faults = [
         f"{identity}: a stored outcome is of no match of the cup" for identity in outcomes if identity not in known

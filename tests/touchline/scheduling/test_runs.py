@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import random
 import signal
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -16,6 +17,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.scheduling.child_processes import ChildProcesses
+from touchline.scheduling.code_digest import code_digest
 from touchline.scheduling.executors.this_process import ThisProcess
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome, Played, to_json
 from touchline.scheduling.plan import ListPlan
@@ -160,6 +162,34 @@ def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
         assert store.outcomes() == outcomes
     assert log.ended_labels == ["seed 1"]
     assert isinstance(outcomes[one.identity], Played)
+
+
+def test_teams_whose_files_have_the_same_name_do_not_meet(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    text = (folder / "planned_brains.py").read_text()
+    (tmp_path / "planned_brains.py").write_text(text.replace("vx=1.0", "vx=-1.0"))
+    forward, backward = (
+        PlannedMatch(match_of(), {Side.CYAN: code_digest(match_of(), Side.CYAN, home)}, brain_folder=home)
+        for home in (folder, tmp_path)
+    )
+    with ChildProcesses(1) as executor:
+        outcomes = run_plan(
+            ListPlan((forward, backward, *matches(match_of, folder, 1))), executor, MemoryStore(tmp_path), Log()
+        )
+    chains = [one.chain for one in outcomes.values() if isinstance(one, Played)]
+    assert len(chains) == 3
+    assert chains[0] != chains[1]
+    assert chains[0] == chains[2]
+
+
+def _loaded_modules(poll: Callable[[], None]) -> set[str]:
+    poll()
+    return set(sys.modules)
+
+
+def test_a_process_of_a_match_begins_with_the_modules_of_a_match(match_of: MatchOf) -> None:
+    with ChildProcesses(1) as executor:
+        loaded = executor.submit(_loaded_modules).result()
+    assert {"pybullet", "robot_agent.teams.simple.team", "recordings.stats.match_statistics"} <= loaded
 
 
 class KilledWorkerError(Exception):

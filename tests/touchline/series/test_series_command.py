@@ -1,5 +1,6 @@
 """`touchline series`, with short matches in real processes."""
 
+import importlib.util
 import json
 import os
 import signal
@@ -28,6 +29,14 @@ def rows(*words: str | Path) -> dict[str, Any]:
     result = series(*words, "--json")
     found: dict[str, Any] = json.loads(result.stdout)
     return found
+
+
+def test_without_scipy_the_extra_that_brings_it_is_named(match_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    find_spec = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "scipy" else find_spec(name))
+    result = series(match_file)
+    assert result.exit_code != 0
+    assert "intervals need scipy, which is not installed; pip install 'touchline[sim]'" in str(result.exception)
 
 
 def test_figures_do_not_depend_on_the_number_of_jobs(match_file: Path) -> None:

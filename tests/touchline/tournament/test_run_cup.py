@@ -6,11 +6,13 @@ import random
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from contextlib import closing
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -19,7 +21,7 @@ from schemas.errors import TouchlineError
 from support.cups import CUP, ShownLines, mini_cup, play
 from touchline.command_line import app
 from touchline.scheduling.executors.this_process import ThisProcess
-from touchline.scheduling.outcome import Failed, FailureKind, Outcome, to_json
+from touchline.scheduling.outcome import Outcome, to_json
 from touchline.scheduling.store import RunStore
 from touchline.tournament.cup_config import load_cup
 from touchline.tournament.report import report_of
@@ -102,16 +104,29 @@ def test_ctrl_c_ends_a_cup_tidily_and_resume_finishes_it(undisturbed: Path, tmp_
     assert report_in(tmp_path) == report_in(undisturbed)
 
 
+class KilledWorkerError(Exception):
+    """As that of Dask."""
+
+
+class LosesWorkers(ThisProcess):
+    """Its workers are lost with each match."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        future: Future[Any] = Future()
+        future.set_exception(KilledWorkerError("lost"))
+        return future
+
+
 def test_a_match_whose_worker_was_lost_has_no_result_until_the_cup_is_resumed(
     undisturbed: Path, tmp_path: Path
 ) -> None:
-    with closing(mini_cup(tmp_path)) as run:
-        (lost, *_) = run.plan.due({})
-    with RunStore(tmp_path / "out") as store:
-        store.add(Failed(lost.identity, FailureKind.WORKER, "its process was ended by SIGKILL"))
+    with closing(mini_cup(tmp_path)) as run, LosesWorkers() as executor:
+        state = run.play(executor, ShownLines())
+    assert [one.slot.name for one in state.failed] == ["league 1", "league 2", "league 3"]
+    assert not state.is_complete
+    assert "KilledWorkerError" in (tmp_path / "out" / "matches" / "league_1.html").read_text("utf-8")
     progress = ShownLines()
     with closing(mini_cup(tmp_path, resume=True)) as run:
-        assert [one.slot.name for one in run.state.failed] == ["league 1"]
         assert play(run, 2, progress).is_complete
     assert len(progress.lines) == 3
     assert report_in(tmp_path) == report_in(undisturbed)
@@ -134,7 +149,7 @@ def test_the_place_of_a_match_in_the_cup_and_the_folder_are_no_part_of_its_ident
     with closing(mini_cup(tmp_path)) as run:
         slots = [one.slot for one in run.state.matches]
         identities = {run.plan.match(slot).identity for slot in slots}
-        moved = replace(run.plan, folder=tmp_path / "elsewhere", _matches={})
+        moved = replace(run.plan, folder=tmp_path / "elsewhere")
         assert identities == {moved.match(slot).identity for slot in slots}
         assert len(identities) == 3
 

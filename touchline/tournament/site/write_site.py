@@ -19,8 +19,6 @@ class Site:
         self._folder = folder
         self._digests = digests
         self._written: dict[str, str] = {}
-        self._failed: set[str] = set()
-        """Pages of matches without a result, which may be played again."""
 
     def write(self, state: CupState, *, running: bool) -> None:
         """Write what has changed. A running cup's pages load themselves again.
@@ -31,12 +29,10 @@ class Site:
         rated = rate(state.cup.names, state.results) if is_available() else None
         for match in state.matches:
             address = match_address(match.slot)
-            if match.state is MatchState.DUE or (address not in self._failed and (self._folder / address).exists()):
-                continue
-            self._put(address, match_page(match, self._folder))
-            self._failed.discard(address)
-            if match.state is MatchState.FAILED:
-                self._failed.add(address)
+            if match.state is MatchState.DUE:
+                (self._folder / address).unlink(missing_ok=True)  # of a failure after which it is played again
+            elif not (self._folder / address).exists():
+                self._put(address, match_page(match, self._folder))
         for team in state.cup.teams:
             digest = self._digests.get(team.name)
             self._put(team_address(team.name), team_page(state, team, digest, rated, running=running))
