@@ -17,12 +17,20 @@ if TYPE_CHECKING:
     from touchline.tournament.cup_config import CupConfig
     from touchline.tournament.cup_state import CupState
 
-VERIFY = "verify"
+VERIFY, DIGEST = "verify", "digest"
 
 
 def tournament(
-    file: Annotated[Path, typer.Argument(metavar="CUP.toml | verify", help="The cup file; or verify, and a folder.")],
-    folder: Annotated[Path | None, typer.Argument(metavar="[FOLDER]", help="The folder of a cup to verify.")] = None,
+    file: Annotated[
+        Path,
+        typer.Argument(
+            metavar="CUP.toml | verify | digest", help="The cup file; or verify, and a folder; or digest, and a brain."
+        ),
+    ],
+    folder: Annotated[
+        Path | None,
+        typer.Argument(metavar="[FOLDER | BRAIN]", help="The folder of a cup to verify; a team, as my_team:MyTeam."),
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="The folder of the cup; by default runs/ and its name.")
     ] = None,
@@ -53,7 +61,7 @@ def tournament(
     Each result is stored at once: after a crash or Ctrl-C, --resume goes on and repeats no finished match. A team that
     does not start, crashes, hangs or breaks the access rules forfeits. `touchline tournament verify FOLDER` simulates
     the matches again, and compares digests, results and table. The exit status is 1 if a match has no result, or does
-    not fit.
+    not fit. `touchline tournament digest my_team:MyTeam` prints the digest of a team's files.
 
     Example: touchline tournament matches/cup.toml --web
     """
@@ -62,6 +70,11 @@ def tournament(
         if folder is None:
             raise TouchlineError("verify needs the folder of a cup: touchline tournament verify runs/cup")
         _verify(folder, jobs, sample or None, brains, json=json)
+        return
+    if str(file) == DIGEST:
+        if folder is None:
+            raise TouchlineError("digest needs a brain: touchline tournament digest my_team:MyTeam")
+        _print_digest(str(folder))
         return
     if folder is not None:
         raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
@@ -115,6 +128,25 @@ def _print(state: "CupState", folder: Path, *, json: bool) -> None:
         return
     typer.echo(report_text(state))
     typer.echo(f"pages  {folder / 'index.html'}")
+
+
+def _print_digest(brain: str) -> None:
+    """Print the digest of the files of a brain in the current directory.
+
+    Raises:
+        TouchlineError: there is no such file.
+    """
+    from schemas.side import Side
+    from touchline.launch.team_code import team_code
+    from touchline.scheduling.code_digest import code_digest
+    from touchline.tournament.cup_config import CupConfig, TeamEntry
+    from touchline.tournament.cup_plan import config_with
+
+    teams = [TeamEntry(name=name, brain=brain) for name in ("one", "other")]
+    config = config_with(teams[0], CupConfig(teams=teams))
+    if not team_code(config, Side.CYAN, Path.cwd()).own:
+        raise TouchlineError(f"{brain}: no file of it is in {Path.cwd()}; a digest is for a team's own files")
+    typer.echo(code_digest(config, Side.CYAN, Path.cwd()))
 
 
 def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *, json: bool) -> None:

@@ -18,7 +18,7 @@ class HungError(BaseException):
 
 
 class HangLimit:
-    """Raises `HungError` in its block if `restart` is not called for some time.
+    """Raises `HungError` in its block if `restart` is not called for some time while a brain has control.
 
     The alarm interrupts Python code and sleeps. It does not interrupt a library in C that never returns, nor a brain
     that catches everything: a process that plays nothing but this match ends then, and leaves a note. In a thread
@@ -58,4 +58,7 @@ class HangLimit:
 
     def _raise(self, number: int, frame: FrameType | None) -> None:
         del number, frame
+        if self.robot is None:  # no brain has control: this process is slow, as on a machine with too much work
+            self.restart()
+            return
         raise HungError(f"no answer within {self._seconds:g} s")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
+from schemas.errors import TouchlineError
 from schemas.game import Card
 from schemas.side import Side
 from touchline.scheduling.code_digest import code_digest
@@ -110,6 +111,21 @@ def digests_of(cup: CupConfig, code_folder: Path) -> dict[str, str]:
         TouchlineError: a team is none that ships.
     """
     return {team.name: code_digest(config_with(team, cup), Side.CYAN, code_folder) for team in cup.teams}
+
+
+def check_submitted(cup: CupConfig, digests: Mapping[str, str]) -> None:
+    """Check that each team has the files that were submitted, where the cup file gives their digest.
+
+    Raises:
+        TouchlineError: a team has other files.
+    """
+    for team in cup.teams:
+        found = digests[team.name]
+        if team.digest and found != team.digest:
+            raise TouchlineError(
+                f'the files of team "{team.name}" have the digest {found}, and {team.digest} was submitted; '
+                "restore them, or correct teams.digest"
+            )
 
 
 def match_config(cup: CupConfig, slot: Slot) -> MatchConfig:

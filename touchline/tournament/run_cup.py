@@ -14,7 +14,7 @@ from touchline.scheduling.run import Remote, run_plan
 from touchline.scheduling.store import RunStore
 from touchline.tournament.cup_config import CupConfig
 from touchline.tournament.cup_documents import CODE_FOLDER, CUP, DIGESTS, RESULT, VERSION, stored_cup
-from touchline.tournament.cup_plan import CupPlan, digests_of, match_config
+from touchline.tournament.cup_plan import CupPlan, check_submitted, digests_of, match_config
 from touchline.tournament.cup_state import CupState, state_of
 from touchline.tournament.report import report_of
 from touchline.tournament.site.links import score_text
@@ -31,6 +31,7 @@ class CupRun:
             TouchlineError: a team or a key is invalid; the folder has a cup already, or another one.
         """
         digests = digests_of(cup, code_folder)
+        check_submitted(cup, digests)
         self.plan = CupPlan(cup, code_folder.absolute(), folder.absolute(), digests)
         for slot in state_of(cup, lambda _: None).due[:1]:
             match_config(cup, slot)

@@ -1,5 +1,6 @@
 """How planned matches end, and whose fault it is if they do not."""
 
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +11,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.side import Side
 from touchline.scheduling.child_processes import ChildProcesses, DiedProcessError
 from touchline.scheduling.code_digest import code_digest
+from touchline.scheduling.hang_limit import HangLimit, HungError
 from touchline.scheduling.in_process import outcome_of_death, play_in_process
 from touchline.scheduling.inputs_only import with_inputs_only
 from touchline.scheduling.measurement import measured
@@ -82,6 +84,15 @@ def test_a_brain_that_nothing_interrupts_is_named_with_its_stack(
         assert outcome.reason == "cyan1: no answer within 0.5 s"
         assert outcome.evidence is not None
         assert "planned_brains.py" in Path(outcome.evidence).read_text()
+
+
+def test_time_in_which_no_brain_has_control_is_not_counted() -> None:
+    with HangLimit(0.05) as limit:
+        limit.wait_for(None)
+        signal.raise_signal(signal.SIGALRM)
+        limit.wait_for("cyan1")
+        with pytest.raises(HungError, match=r"no answer within 0\.05 s"):
+            signal.raise_signal(signal.SIGALRM)
 
 
 def test_what_an_earlier_attempt_has_left_is_removed(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:

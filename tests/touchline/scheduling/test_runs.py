@@ -164,7 +164,10 @@ def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
     assert isinstance(outcomes[one.identity], Played)
 
 
-def test_teams_whose_files_have_the_same_name_do_not_meet(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+def test_teams_whose_files_have_the_same_name_do_not_meet(
+    match_of: MatchOf, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "path", [one for one in sys.path if Path(one) != folder])  # a match was played here before
     text = (folder / "planned_brains.py").read_text()
     (tmp_path / "planned_brains.py").write_text(text.replace("vx=1.0", "vx=-1.0"))
     forward, backward = (

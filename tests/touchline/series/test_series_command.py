@@ -66,7 +66,7 @@ def test_a_brain_that_raises_costs_its_match_only(match_file: Path) -> None:
 
 def test_a_process_that_dies_costs_its_match_only(match_file: Path) -> None:
     (failed,) = rows(match_file, "--seeds", "4", "--cyan", "few_brains:Dies")["failed"]
-    assert failed["reason"] == "its process ended with status 7"
+    assert failed["reason"] == "cyan1: its process ended with status 7"
 
 
 def test_brains_keep_nothing_from_one_match_to_the_next(match_file: Path) -> None:

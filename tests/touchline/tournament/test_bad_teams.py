@@ -36,7 +36,7 @@ def reasons(state: CupState) -> str:
 
 
 def test_in_one_process_a_match_each_who_fails_first_forfeits(tmp_path: Path) -> None:
-    state = played(tmp_path, ["Sound", *TEAMS[:3]], duration=4.0, hang=2.0)
+    state = played(tmp_path, ["Sound", *TEAMS[:3]], duration=4.0, hang=5.0)
     assert state.is_complete, reasons(state)
     assert forfeits(state) == {
         "Crashes Sound": "Crashes",

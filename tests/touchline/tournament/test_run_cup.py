@@ -57,8 +57,7 @@ def test_one_worker_and_eight_give_the_same_bytes(undisturbed: Path, tmp_path: P
 
 
 def _play_in_child(folder: Path) -> None:
-    """Play the cup in a process of its own, one match after the other."""
-    os.setpgrp()
+    """Play what is missing of the cup in this process, one match after the other."""
     with closing(mini_cup(folder, resume=True)) as run, ThisProcess() as executor:
         run.play(executor, ShownLines())
 
@@ -66,23 +65,27 @@ def _play_in_child(folder: Path) -> None:
 def test_a_cup_that_is_killed_at_any_instant_and_resumed_has_the_table_of_the_undisturbed_one(
     undisturbed: Path, tmp_path: Path
 ) -> None:
-    """Killed 20 times, each time a random while after it has begun, and resumed."""
-    drawn, before = random.Random(5), dict[str, bytes]()
+    """Killed 20 times, each time a random while after it has begun; a cup that has ended meanwhile begins anew."""
+    drawn, before, kills, ended = random.Random(5), dict[str, bytes](), 0, 0
     context = get_context("fork")
-    for _ in range(KILLS):
-        child = context.Process(target=_play_in_child, args=(tmp_path,))
+    while kills < KILLS:
+        folder = tmp_path / str(ended)
+        folder.mkdir(exist_ok=True)
+        child = context.Process(target=_play_in_child, args=(folder,))
         child.start()
-        child.join(drawn.uniform(0.05, 0.9))
-        if child.pid is not None and child.is_alive():
-            os.kill(child.pid, signal.SIGKILL)
+        child.join(drawn.uniform(0.05, 0.5))
+        is_killed = child.is_alive() and child.pid is not None
+        if is_killed:
+            os.kill(child.pid or 0, signal.SIGKILL)
         child.join()
-        now = stored(tmp_path)
+        now = stored(folder)
         assert before.items() <= now.items(), "no finished match is lost or played again"
-        before = now
-    with closing(mini_cup(tmp_path, resume=True)) as run, ThisProcess() as executor:
-        run.play(executor, ShownLines())
-    assert stored(tmp_path) == stored(undisturbed)
-    assert report_in(tmp_path) == report_in(undisturbed)
+        kills, before = kills + is_killed, now
+        if not is_killed:
+            assert (now, report_in(folder)) == (stored(undisturbed), report_in(undisturbed))
+            ended, before = ended + 1, {}
+    _play_in_child(folder)
+    assert (stored(folder), report_in(folder)) == (stored(undisturbed), report_in(undisturbed))
 
 
 @pytest.mark.processes
@@ -174,6 +177,23 @@ def test_a_team_whose_files_have_changed_stops_the_cup_from_being_resumed(tmp_pa
         mini_cup(tmp_path, resume=True)
 
 
+def test_a_team_with_other_files_than_were_submitted_does_not_play(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "own_team.py").write_text("class Own: ...")
+    monkeypatch.chdir(tmp_path)
+    printed = CliRunner().invoke(app, ["tournament", "digest", "own_team:Own"])
+    assert printed.exit_code == 0
+    digest = printed.stdout.strip()
+    (tmp_path / "mini.toml").write_text(CUP.replace('"random"', f'"own_team:Own"\ndigest = "{digest}"'))
+    mini_cup(tmp_path).close()
+    (tmp_path / "own_team.py").write_text("class Own: pass")
+    with pytest.raises(
+        TouchlineError, match=f'the files of team "Three" have the digest .*, and {digest} was submitted'
+    ):
+        mini_cup(tmp_path)
+
+
 def test_two_processes_cannot_play_the_same_cup(undisturbed: Path) -> None:
     with (
         closing(mini_cup(undisturbed, resume=True)),
@@ -198,6 +218,9 @@ def test_the_command_reports_a_finished_cup_as_json_and_plays_nothing(undisturbe
         (["verify"], "verify needs the folder of a cup"),
         (["verify", "nowhere"], "nowhere: has no run.sqlite; give the folder of a run"),
         (["cup.toml", "other"], "other: one cup file is enough"),
+        (["digest"], "digest needs a brain: touchline tournament digest my_team:MyTeam"),
+        (["digest", "none:Team"], "none:Team: no file of it is in"),
+        (["matches/cup.toml", "--dask", "tcp://127.0.0.1:9", "--jobs", "2"], "leave one out"),
     ],
 )
 def test_wrong_input_of_the_command_is_one_line(arguments: list[str], line: str) -> None:

@@ -41,7 +41,8 @@ class DaskCluster(Executor):
     @property
     def threads(self) -> int:
         """The matches that its workers play at a time; at least 1, while no worker has joined yet."""
-        return max(1, sum(self._client.ncores().values()))
+        threads: dict[str, int] = self._client.ncores()
+        return max(1, sum(threads.values()))
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call the function on a worker."""
