@@ -131,7 +131,8 @@ class MatchRun:
             raise InterruptedMatchError(stop.received)
         try:
             if empty is not None:
-                raise TeamLeftError(empty, self._abandonment(empty, follower))
+                has_begun = follower is not None and follower.state is not None
+                raise TeamLeftError(empty, self._abandonment(empty, follower), has_begun=has_begun)
             return self._outcome(follower)
         except BaseException:
             self._supervisor.end(AT_ONCE)

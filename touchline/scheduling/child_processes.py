@@ -6,6 +6,7 @@ a process that dies costs its own match only.
 
 import os
 import signal
+import tempfile
 import threading
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
@@ -14,9 +15,11 @@ from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
+from pathlib import Path
 from typing import Any, TypeVar
 
 from robot_agent.brain_folders import added_folders, remove_folders
+from touchline.scheduling.process_note import ProcessNote, open_note, read_note
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -31,6 +34,12 @@ _POLL_TICKS = 100
 
 class DiedProcessError(Exception):
     """The process ended before it had a result; one line."""
+
+    def __init__(self, reason: str, status: int = 0, note: ProcessNote | None = None) -> None:
+        """`status` is that of the process, negative for the signal that ended it; `note` is what it has left."""
+        super().__init__(reason)
+        self.status = status
+        self.note = note or ProcessNote()
 
 
 def cores() -> int:
@@ -69,8 +78,8 @@ class ChildProcesses(Executor):
         context = get_context("forkserver")
         context.set_forkserver_preload([_PRELOAD, module])
         ours, theirs = context.Pipe()
-        with closing(ours):
-            process = context.Process(target=_run, args=(call, theirs), daemon=True)
+        with closing(ours), tempfile.TemporaryDirectory(prefix="touchline-") as folder:
+            process = context.Process(target=_run, args=(call, theirs, Path(folder)), daemon=True)
             with self._lock:
                 if self._is_closed:
                     raise DiedProcessError("it was not started any more")
@@ -81,7 +90,7 @@ class ChildProcesses(Executor):
                 result = ours.recv()
             except EOFError:
                 process.join()
-                raise DiedProcessError(_end_of(process)) from None
+                raise DiedProcessError(_end_of(process), process.exitcode or 0, read_note(Path(folder))) from None
             finally:
                 process.join()
                 with self._lock:
@@ -129,8 +138,9 @@ def _end_of(process: ForkServerProcess) -> str:
     )
 
 
-def _run(call: Callable[[Poll], Any], connection: Connection) -> None:
-    """The process of an item."""
+def _run(call: Callable[[Poll], Any], connection: Connection, folder: Path) -> None:
+    """The process of an item; its note is in the folder."""
+    open_note(folder)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that waits, which ends this one
     os.dup2(2, 1)  # what brains print is no part of the result
     try:

@@ -18,11 +18,12 @@ class FailureKind(StrEnum):
     CRASHED = "crashed"
     """A brain raised an exception, or no robot of a team was left."""
     HUNG = "hung"
-    """A brain did not answer."""
+    """A brain, or each robot of a team, did not answer."""
     BROKE_ACCESS_RULES = "broke_access_rules"
-    """A team used a key or a right that it does not have, and was cut off."""
+    """A team sent more than the limits of its account allow."""
     WORKER = "worker"
-    """The process or the machine that played the match was lost, again and again."""
+    """The process or the machine that played the match was lost, or could not play it: it is played again when the
+    run goes on."""
 
 
 @dataclass(frozen=True, slots=True)

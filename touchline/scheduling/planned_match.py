@@ -10,6 +10,7 @@ from pathlib import Path
 
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.side import Side
+from touchline.scheduling.hang_limit import HANG_S
 
 
 class Way(StrEnum):
@@ -36,6 +37,8 @@ class PlannedMatch:
     """The file that gets its recording; None for none."""
     logs: Path | None = None
     """The folder that gets the logs of its processes, or the traceback of a brain that raised; None for none."""
+    hang_s: float = HANG_S
+    """Wall time in s for a decision of a brain, or to build it, after which its team hangs: in one process."""
     label: str = ""
     """Its name for people."""
 

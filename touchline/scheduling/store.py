@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import Self
 
 from schemas.errors import TouchlineError
-from touchline.scheduling.outcome import Outcome, to_json
+from touchline.scheduling.outcome import Failed, FailureKind, Outcome, to_json
 from touchline.scheduling.outcomes import Outcomes
 
 FILE = "run.sqlite"
@@ -40,6 +40,7 @@ class RunStore:
         try:
             if read_only:
                 self._database = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
+                self._database.execute("SELECT 1 FROM outcomes, documents LIMIT 1")
                 return
             folder.mkdir(parents=True, exist_ok=True)
             self._lock = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
@@ -78,9 +79,10 @@ class RunStore:
         """Identity → wall time in s from the start of a match to its outcome."""
         return dict(self._database.execute("SELECT identity, wall_s FROM outcomes"))
 
-    def forget(self, identity: str) -> None:
-        """Remove an outcome, so that its match is played again."""
-        self._database.execute("DELETE FROM outcomes WHERE identity = ?", (identity,))
+    def forget_lost(self) -> None:
+        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
+        kind = "json_extract(CAST(content AS TEXT), '$.kind')"
+        self._database.execute(f"DELETE FROM outcomes WHERE {kind} = ?", (FailureKind.WORKER,))
 
     def close(self) -> None:
         """Close the file, and let another process write it."""
@@ -115,3 +117,9 @@ class MemoryStore:
         """Store an outcome."""
         del wall_s, worker
         self._outcomes[outcome.identity] = outcome
+
+    def forget_lost(self) -> None:
+        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
+        for identity, outcome in self.outcomes().items():
+            if isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER:
+                del self._outcomes[identity]

@@ -172,6 +172,8 @@ def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path:
     assert (table["worlds"] > 50).all()
     assert "Worlds" in (home / "report.html").read_text()
     assert check(home, sample=1) == []
+    again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
+    assert (again.faults, again.byte_identical) == ([], True)
 
 
 def test_a_function_that_is_not_there_is_named_before_any_match(run: Run) -> None:

@@ -36,7 +36,9 @@ def test_without_scipy_the_extra_that_brings_it_is_named(match_file: Path, monke
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "scipy" else find_spec(name))
     result = series(match_file)
     assert result.exit_code != 0
-    assert "intervals need scipy, which is not installed; pip install 'touchline[sim]'" in " ".join(result.output.split())
+    assert "intervals need scipy, which is not installed; pip install 'touchline[sim]'" in " ".join(
+        result.output.split()
+    )
 
 
 def test_figures_do_not_depend_on_the_number_of_jobs(match_file: Path) -> None:
@@ -66,7 +68,7 @@ def test_a_brain_that_raises_costs_its_match_only(match_file: Path) -> None:
 
 def test_a_process_that_dies_costs_its_match_only(match_file: Path) -> None:
     (failed,) = rows(match_file, "--seeds", "4", "--cyan", "few_brains:Dies")["failed"]
-    assert failed["reason"] == "its process ended with status 7"
+    assert failed["reason"] == "cyan1: its process ended with status 7"
 
 
 def test_brains_keep_nothing_from_one_match_to_the_next(match_file: Path) -> None:
