@@ -2,8 +2,6 @@
 
 import json as json_text
 import signal
-from collections.abc import Iterator
-from concurrent.futures import Executor
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -88,8 +86,8 @@ def run(
     from touchline.experiment.study_config import load_study
     from touchline.experiment.study_folder import REPORT, read_study
     from touchline.experiment.study_plan import StudyPlan
-    from touchline.scheduling.progress import ProgressReporter
-    from touchline.scheduling.run import Remote
+    from touchline.scheduling.executors.chosen_executor import chosen_executor
+    from touchline.scheduling.progress import ProgressReporter, progress_of
 
     given = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "record": record}
     study = load_study(file, {key: value for key, value in given.items() if value is not None})
@@ -97,12 +95,12 @@ def run(
     folder = into or Path("runs") / study.name
     plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
     with (
-        _executor(jobs, dask) as executor,
-        _progress(len(plan.matches(study.first_seeds)), study.name, jobs, json=json) as progress,
+        chosen_executor(jobs, dask) as chosen,
+        progress_of(len(plan.matches(study.first_seeds)), study.name, at_once=chosen.at_once, json=json) as progress,
         _stoppable(folder),
     ):
         reporter = ProgressReporter(progress, _match_sentence)
-        result = run_study(plan, folder, executor, reporter, fresh=fresh, remote=Remote() if dask else None)
+        result = run_study(plan, folder, chosen.executor, reporter, fresh=fresh, remote=chosen.remote)
     failed = result.failed
     stored = read_study(folder)
     responses = [name for name in study.responses if name in stored.table]
@@ -181,19 +179,23 @@ def _check(
 
     from touchline.experiment.study_folder import read_study
     from touchline.experiment.verify_study import verify_study
+    from touchline.scheduling.executors.chosen_executor import chosen_executor
+    from touchline.scheduling.progress import progress_of
 
     stored = read_study(folder)
     planned = len({match.identity for match in stored.plan.matches(stored.seeds)})
     with (
-        _executor(jobs, None) as executor,
-        _progress(planned if sample is None else min(sample, planned), folder.name, jobs, json=json) as progress,
+        chosen_executor(jobs, None) as chosen,
+        progress_of(
+            planned if sample is None else min(sample, planned), folder.name, at_once=chosen.at_once, json=json
+        ) as progress,
     ):
 
         def checked(check: "MatchCheck") -> None:
             sentence = "; ".join((check.label, *check.faults))
             progress.ended(sentence, failed=bool(check.faults))
 
-        verdict = verify_study(folder, executor, sample, brains, checked, from_recordings=from_recordings)
+        verdict = verify_study(folder, chosen.executor, sample, brains, checked, from_recordings=from_recordings)
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:
@@ -215,15 +217,6 @@ def _match_sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
 
 
 @contextmanager
-def _progress(total: int, title: str, jobs: int, *, json: bool) -> Any:
-    from touchline.scheduling.child_processes import cores
-    from touchline.scheduling.progress import progress_of
-
-    with progress_of(total, title, at_once=jobs or cores(), json=json) as progress:
-        yield progress
-
-
-@contextmanager
 def _stoppable(folder: Path) -> Any:
     """Ctrl-C ends the study with a line on how to go on."""
     try:
@@ -231,26 +224,6 @@ def _stoppable(folder: Path) -> Any:
     except KeyboardInterrupt:
         typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
         raise typer.Exit(128 + signal.SIGINT) from None
-
-
-@contextmanager
-def _executor(jobs: int, dask: str | None) -> Iterator[Executor]:
-    """Where matches are played; those that run are ended if the study is interrupted."""
-    from touchline.scheduling.child_processes import ChildProcesses, cores
-
-    if jobs < 0:
-        raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
-    executor: Executor
-    if dask is not None:
-        from touchline.scheduling.executors.dask_cluster import DaskCluster
-
-        executor = DaskCluster(dask)
-    else:
-        executor = ChildProcesses(jobs or cores())
-    try:
-        yield executor
-    finally:
-        executor.shutdown(cancel_futures=True)
 
 
 def _need_packages() -> None:

@@ -22,7 +22,7 @@ from touchline.scheduling.plan import ListPlan
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.run import run_plan
 from touchline.scheduling.store import MemoryStore
-from touchline.scheduling.verify import MatchCheck, sampled, verify_run
+from touchline.scheduling.verify import Depth, MatchCheck, sampled, verify_run
 
 Checked = Callable[[MatchCheck], None]
 """Called with what was found about each match."""
@@ -84,7 +84,7 @@ def verify_study(
         plan = replace(stored.plan, brain_folder=home, folder=Path(scratch), measured={})
         chosen = sampled([plan.planned(match) for match in matches.values()], sample)
         outcomes = Outcomes()
-        for check in _checks(chosen, rows, folder, executor):
+        for check in _checks(chosen, rows, folder, executor, Depth(recordings=bool(functions))):
             faults += [f"{check.label}: {fault}" for fault in check.faults]
             if check.again is not None:
                 outcomes[check.identity] = check.again
@@ -122,10 +122,10 @@ def _rows(
 
 
 def _checks(
-    chosen: Sequence[PlannedMatch], rows: Mapping[str, ResultRow], folder: Path, executor: Executor
+    chosen: Sequence[PlannedMatch], rows: Mapping[str, ResultRow], folder: Path, executor: Executor, depth: Depth
 ) -> Iterator[MatchCheck]:
     """Check matches with a row against it; a match without one has failed, and should fail again."""
-    yield from verify_run([one for one in chosen if one.identity in rows], rows, folder, executor)
+    yield from verify_run([one for one in chosen if one.identity in rows], rows, folder, executor, lambda _: depth)
     failed = {one.identity: one for one in chosen if one.identity not in rows}
 
     class Silent:

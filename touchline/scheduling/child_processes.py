@@ -18,6 +18,7 @@ from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 from typing import Any, TypeVar
 
+from robot_agent.brain_folders import added_folders, remove_folders
 from touchline.scheduling.process_note import ProcessNote, open_note, read_note
 
 Item = TypeVar("Item")
@@ -61,7 +62,8 @@ class ChildProcesses(Executor):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call the function as soon as fewer than `jobs` processes run."""
-        return self._threads.submit(self._call, partial(fn, *args, **kwargs), fn.__module__)
+        call = partial(_without_folders, added_folders(), partial(fn, *args, **kwargs))
+        return self._threads.submit(self._call, call, fn.__module__)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """End the executor; with `cancel_futures` the processes that run are killed, too."""
@@ -121,6 +123,12 @@ def run_in_processes(
                 yield item, error if isinstance(error, DiedProcessError) else future.result()
     finally:
         children.shutdown(cancel_futures=True)
+
+
+def _without_folders(folders: tuple[str, ...], call: Callable[[Poll], Result], poll: Poll) -> Result:
+    """Call the function without the folders of brains that the process which waits has on its module path."""
+    remove_folders(folders)
+    return call(poll)
 
 
 def _end_of(process: ForkServerProcess) -> str:

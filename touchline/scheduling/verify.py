@@ -69,6 +69,8 @@ class Depth:
     """It is simulated or played again."""
     code: bool = True
     """The files of its teams are compared with their digests."""
+    recordings: bool = False
+    """A match that is played again leaves its recording where its plan says."""
 
 
 def verify_run(
@@ -116,7 +118,8 @@ def check_match(
     if outcome.recording is not None:
         ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome, simulates=depth.again)
     elif depth.again and not faults:
-        ticks, more, again = _check_again(planned, outcome, poll)
+        kept = planned if depth.recordings else replace(planned, recording=None)
+        ticks, more, again = _check_again(kept, outcome, poll)
     else:
         return MatchCheck(planned.identity, planned.label, tuple(faults))
     return MatchCheck(planned.identity, planned.label, (*faults, *more), ticks, again)
@@ -160,7 +163,7 @@ def _simulated(path: Path) -> tuple[int, list[str]]:
 
 def _check_again(planned: PlannedMatch, outcome: Result, poll: Poll) -> tuple[int, list[str], Played | None]:
     """Play a match again that has left no recording."""
-    again = play(replace(planned, logs=None, recording=None), poll)
+    again = play(replace(planned, logs=None), poll)
     if isinstance(again, Failed):
         return 0, [f"played again, it failed: {again.reason}"], None
     if again.chain == outcome.chain and again.goals == outcome.goals:

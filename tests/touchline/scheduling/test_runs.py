@@ -179,7 +179,7 @@ def test_teams_whose_files_have_the_same_name_do_not_meet(
             ListPlan((forward, backward, *matches(match_of, folder, 1))), executor, MemoryStore(tmp_path), Log()
         )
     chains = [one.chain for one in outcomes.values() if isinstance(one, Played)]
-    assert len(chains) == 3
+    assert len(chains) == 3, outcomes[backward.identity]
     assert chains[0] != chains[1]
     assert chains[0] == chains[2]
 
