@@ -6,6 +6,7 @@ a process that dies costs its own match only.
 
 import os
 import signal
+import tempfile
 import threading
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
@@ -15,13 +16,19 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for
 from multiprocessing.context import ForkServerProcess
+from pathlib import Path
 from typing import Any, TypeVar
+
+from robot_agent.brain_folders import added_folders, remove_folders
+from touchline.scheduling.process_note import ProcessNote, open_note, read_note
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 Poll = Callable[[], None]
 """Called by the function with each tick: it ends the process when those who wait for its result are gone."""
 
+_PRELOAD = "touchline.scheduling.preload"
+"""What the fork server imports once for all processes; not imported here."""
 _POLL_TICKS = 100
 """Ticks between two checks of whether the result is still wanted."""
 _EXIT_STATUS = threading.Lock()
@@ -31,6 +38,12 @@ two threads that read the same one, the second gets 255."""
 
 class DiedProcessError(Exception):
     """The process ended before it had a result; one line."""
+
+    def __init__(self, reason: str, status: int = 0, note: ProcessNote | None = None) -> None:
+        """`status` is that of the process, negative for the signal that ended it; `note` is what it has left."""
+        super().__init__(reason)
+        self.status = status
+        self.note = note or ProcessNote()
 
 
 def cores() -> int:
@@ -53,7 +66,8 @@ class ChildProcesses(Executor):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call the function as soon as fewer than `jobs` processes run."""
-        return self._threads.submit(self._call, partial(fn, *args, **kwargs), fn.__module__)
+        call = partial(_without_folders, added_folders(), partial(fn, *args, **kwargs))
+        return self._threads.submit(self._call, call, fn.__module__)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """End the executor; with `cancel_futures` the processes that run are killed, too."""
@@ -66,10 +80,10 @@ class ChildProcesses(Executor):
 
     def _call(self, call: Callable[[Poll], Any], module: str) -> Any:
         context = get_context("forkserver")
-        context.set_forkserver_preload([module])
+        context.set_forkserver_preload([_PRELOAD, module])
         ours, theirs = context.Pipe()
-        with closing(ours):
-            process = context.Process(target=_run, args=(call, theirs), daemon=True)
+        with closing(ours), tempfile.TemporaryDirectory(prefix="touchline-") as folder:
+            process = context.Process(target=_run, args=(call, theirs, Path(folder)), daemon=True)
             with self._lock:
                 if self._is_closed:
                     raise DiedProcessError("it was not started any more")
@@ -80,7 +94,8 @@ class ChildProcesses(Executor):
             try:
                 result = ours.recv()
             except EOFError:
-                raise DiedProcessError(_end_of(process)) from None
+                status = _join(process)
+                raise DiedProcessError(_end_of(process), status, read_note(Path(folder))) from None
             finally:
                 _join(process)
                 with self._lock:
@@ -115,6 +130,12 @@ def run_in_processes(
         children.shutdown(cancel_futures=True)
 
 
+def _without_folders(folders: tuple[str, ...], call: Callable[[Poll], Result], poll: Poll) -> Result:
+    """Call the function without the folders of brains that the process which waits has on its module path."""
+    remove_folders(folders)
+    return call(poll)
+
+
 def _join(process: ForkServerProcess) -> int:
     """Wait for the end of a process; returns its exit status."""
     wait_for([process.sentinel])
@@ -130,8 +151,9 @@ def _end_of(process: ForkServerProcess) -> str:
     )
 
 
-def _run(call: Callable[[Poll], Any], connection: Connection) -> None:
-    """The process of an item."""
+def _run(call: Callable[[Poll], Any], connection: Connection, folder: Path) -> None:
+    """The process of an item; its note is in the folder."""
+    open_note(folder)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that waits, which ends this one
     os.dup2(2, 1)  # what brains print is no part of the result
     try:

@@ -22,6 +22,7 @@ REMEDIES = {
     "seed": "a whole number from 0 to 2^31 - 1",
     "teams": "write [[teams]] above each team; a cup has 2 to 64",
     "teams.name": "1 to 40 characters",
+    "teams.digest": "32 hexadecimal digits, as touchline tournament digest prints them",
     "format.kind": 'one of "round-robin", "groups", "knock-out", "swiss"',
     "format.best_of": "1 to 15 matches",
     "way": 'one of "in process", "processes"',
@@ -57,10 +58,22 @@ class TeamEntry(Part):
     """Command line of a program that reads sights and writes commands as lines."""
     version: str = ""
     """Version of the team, for display."""
+    digest: Annotated[str, Field(pattern=r"^([0-9a-f]{32})?$")] = ""
+    """Digest of its files as they were submitted; with other files, the cup does not begin."""
     challenge: float = 0.0
     """Points of the technical challenge, a tie-break."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] | None = None
     """Number of robots; None for that of the cup."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_remote(cls, content: Any) -> Any:
+        if isinstance(content, dict) and "remote" in content:
+            raise ValueError(
+                "a remote team cannot be started again after a crash, and nobody can check which program played; "
+                "give its brain, command or stdio, or play single matches with touchline match --remote"
+            )
+        return content
 
     @model_validator(mode="after")
     def _check_one_program(self) -> "TeamEntry":

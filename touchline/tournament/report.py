@@ -43,7 +43,7 @@ def report_text(state: CupState) -> str:
         sentence = "the order is significant" if rated.significant else "the order is not significant"
         lines += [*aligned(("", "rating", "interval of 95 %"), cells), sentence, ""]
     else:
-        lines.append("no ratings: they need scipy; pip install 'touchline[study]'")
+        lines.append("no ratings: they need scipy; pip install 'touchline[sim]'")
     lines.append(f"winner  {state.winner}" if state.winner is not None else "the cup is not complete")
     return "\n".join(lines)
 

@@ -4,6 +4,7 @@ import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,11 +14,12 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
+from touchline.experiment import study_plan  # noqa: E402
 from touchline.experiment.cells import cells_of  # noqa: E402
 from touchline.experiment.compare_studies import compare_studies  # noqa: E402
 from touchline.experiment.comparisons import answers, comparison_groups  # noqa: E402
 from touchline.experiment.run_study import StudyResult, run_study  # noqa: E402
-from touchline.experiment.study_config import load_study  # noqa: E402
+from touchline.experiment.study_config import Study, load_study  # noqa: E402
 from touchline.experiment.study_folder import read_study  # noqa: E402
 from touchline.experiment.study_plan import StudyPlan  # noqa: E402
 from touchline.experiment.verify_study import verify_study  # noqa: E402
@@ -36,7 +38,32 @@ teams.magenta.size = 1
 [factors]
 radio.loss = [0, 0.4]
 """
+STILL = """
+from touchline import Command
+
+
+class Still:
+    def __init__(self, briefing):
+        pass
+
+    def act(self, sight):
+        return Command(answers_tick=sight.tick)
+"""
 Run = Callable[..., StudyResult]
+
+
+class Labels:
+    """Collects the labels of the matches that were played."""
+
+    def __init__(self, played: list[str]) -> None:
+        self.played = played
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del outcome
+        self.played.append(planned.label)
 
 
 @pytest.fixture
@@ -54,18 +81,13 @@ def run(tmp_path: Path, home: Path) -> Run:
         study = load_study(path)
         plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
 
-        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
-            del outcome
-            if played is not None:
-                played.append(planned.label)
-
-        return run_study(plan, home, ThisProcess(), ended, **options)
+        return run_study(plan, home, ThisProcess(), Labels(played if played is not None else []), **options)
 
     return play
 
 
 def check(home: Path, sample: int | None = None) -> list[str]:
-    return verify_study(home, ThisProcess(), sample, None, lambda planned, outcome: None).faults
+    return verify_study(home, ThisProcess(), sample, None, lambda check: None).faults
 
 
 def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home: Path) -> None:
@@ -88,7 +110,7 @@ def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home:
 
 def test_a_study_is_reproduced_to_the_byte(run: Run, home: Path) -> None:
     run(SHORT)
-    verdict = verify_study(home, ThisProcess(), None, None, lambda planned, outcome: None)
+    verdict = verify_study(home, ThisProcess(), None, None, lambda check: None)
     assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
     assert verdict.notes == []
 
@@ -150,6 +172,8 @@ def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path:
     assert (table["worlds"] > 50).all()
     assert "Worlds" in (home / "report.html").read_text()
     assert check(home, sample=1) == []
+    again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
+    assert (again.faults, again.byte_identical) == ([], True)
 
 
 def test_a_function_that_is_not_there_is_named_before_any_match(run: Run) -> None:
@@ -184,6 +208,65 @@ def test_a_team_against_itself_shows_no_effect_and_one_robot_less_shows_one(run:
     assert effect.estimate.contains_zero is False
     assert effect.estimate.value > 0
     assert 'class="found"' in (home / "report.html").read_text()
+
+
+def test_a_study_is_verified_from_its_recordings_without_its_teams(run: Run, home: Path, tmp_path: Path) -> None:
+    (tmp_path / "still_robot.py").write_text(STILL)
+    run(f"record = true\n{SHORT}".replace("[settings]", '[settings]\ncyan = "still_robot:Still"'))
+    (tmp_path / "still_robot.py").unlink()
+    verdict = verify_study(home, ThisProcess(), None, None, lambda check: None)
+    assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
+    first, second = sorted((home / "recordings").glob("*.mcap"))[:2]
+    first.write_bytes(second.read_bytes())
+    faults = check(home)
+    assert any(f"recordings/{first.name} was changed after the study" in fault for fault in faults)
+    assert any("its configuration is not that of the plan" in fault for fault in faults)
+
+
+def test_recordings_of_inputs_alone_are_small_and_are_verified(run: Run, home: Path) -> None:
+    run(f'record = "inputs"\n{SHORT}')
+    whole = verify_study(home, ThisProcess(), None, None, lambda check: None)
+    assert (whole.faults, whole.played_again, whole.byte_identical) == ([], 4, None)
+    again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
+    assert (again.faults, again.byte_identical) == ([], True)
+
+
+def test_a_row_that_was_taken_out_of_the_table_is_missed(run: Run, home: Path) -> None:
+    run(SHORT)
+    table = pd.read_csv(home / "results.csv")
+    table.drop(index=1).to_csv(home / "results.csv", index=False, lineterminator="\n")
+    assert "cell 2, seed 1: has no result, and was played to its end again" in check(home)
+
+
+def test_seeds_that_were_judged_are_not_judged_again(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    judged = list[int]()
+    is_narrow = study_plan.is_narrow
+
+    def count(table: Any, study: Study, limit: float) -> bool:
+        judged.append(len(table))
+        return is_narrow(table, study, limit)
+
+    monkeypatch.setattr(study_plan, "is_narrow", count)
+    run("until_interval = 1e-9\nmost_seeds = 6\n" + SHORT.replace('responses = ["', 'responses = ["distance", "'))
+    assert judged == [4, 8]
+
+
+def test_a_team_on_the_network_is_refused_in_one_process_before_any_match(run: Run) -> None:
+    played = list[str]()
+    with pytest.raises(TouchlineError, match=r'teams\.cyan has a command.*write way = "processes"'):
+        run(SHORT.replace("[settings]", '[settings]\nteams.cyan.command = ["robot"]'), played)
+    assert played == []
+
+
+@pytest.mark.processes
+def test_processes_and_one_process_give_the_same_table_to_the_byte(run: Run, home: Path, tmp_path: Path) -> None:
+    short = SHORT.replace('"1-2"', '"1"').replace("[0, 0.4]", "[0.4]")
+    run(short)
+    table = (home / "results.csv").read_bytes()
+    shutil.rmtree(home)
+    run(f'way = "processes"\n{short}')
+    assert (home / "results.csv").read_bytes() == table
+    assert not list((home / "logs").iterdir())
 
 
 def test_two_runs_of_a_study_are_compared_seed_by_seed(run: Run, home: Path, tmp_path: Path) -> None:

@@ -52,6 +52,8 @@ def test_keys_of_the_match_are_those_of_a_match_file(tmp_path: Path) -> None:
         (TEAMS.replace('"B"', '"A"'), 'two teams are named "A"'),
         (TEAMS.replace('brain = "nubot"', ""), '"B" has none; give one of brain, command and stdio'),
         (TEAMS + 'command = ["x"]\n', '"B" has brain and command; give one'),
+        (TEAMS + "remote = true\n", "a remote team cannot be started again after a crash"),
+        (TEAMS + 'digest = "12"\n', "32 hexadecimal digits, as touchline tournament digest prints them"),
         (TEAMS + 'colour = "red"\n', "colour is not known"),
         (TEAMS.replace('brain = "nubot"', 'command = ["x"]'), 'team "B" is a program on the network; write way'),
         ('[format]\nkind = "league"\n' + TEAMS, "format.kind is 'league'; one of"),
