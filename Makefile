@@ -56,6 +56,7 @@ clean: ## remove .venv and all caches; recordings in runs/ stay
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(READY): requirements.lock pyproject.toml
+	@echo "Installing Touchline and its packages into .venv; this takes a few minutes, once"
 	@test -x .venv/bin/python || ( $(NEW_VENV) )
 	.venv/bin/python -m pip install --quiet --require-hashes -r requirements.lock
 	.venv/bin/python -m pip install --quiet --no-deps --no-build-isolation -e .

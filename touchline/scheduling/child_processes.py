@@ -14,6 +14,7 @@ from contextlib import closing, suppress
 from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
+from multiprocessing.connection import wait as wait_for
 from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 from typing import Any, TypeVar
@@ -30,6 +31,9 @@ _PRELOAD = "touchline.scheduling.preload"
 """What the fork server imports once for all processes; not imported here."""
 _POLL_TICKS = 100
 """Ticks between two checks of whether the result is still wanted."""
+_EXIT_STATUS = threading.Lock()
+"""Held by who starts a process or reads an exit status: starting one reads the status of all that have ended, and of
+two threads that read the same one, the second gets 255."""
 
 
 class DiedProcessError(Exception):
@@ -83,16 +87,17 @@ class ChildProcesses(Executor):
             with self._lock:
                 if self._is_closed:
                     raise DiedProcessError("it was not started any more")
-                process.start()
+                with _EXIT_STATUS:
+                    process.start()
                 self._running.add(process)
             theirs.close()
             try:
                 result = ours.recv()
             except EOFError:
-                process.join()
-                raise DiedProcessError(_end_of(process), process.exitcode or 0, read_note(Path(folder))) from None
+                status = _join(process)
+                raise DiedProcessError(_end_of(status), status, read_note(Path(folder))) from None
             finally:
-                process.join()
+                _join(process)
                 with self._lock:
                     self._running.discard(process)
         if isinstance(result, BaseException):
@@ -131,11 +136,17 @@ def _without_folders(folders: tuple[str, ...], call: Callable[[Poll], Result], p
     return call(poll)
 
 
-def _end_of(process: ForkServerProcess) -> str:
-    status = process.exitcode or 0
-    return (
-        f"its process {f'was ended by {signal.Signals(-status).name}' if status < 0 else f'ended with status {status}'}"
-    )
+def _join(process: ForkServerProcess) -> int:
+    """Wait for the end of a process; returns its exit status."""
+    wait_for([process.sentinel])
+    with _EXIT_STATUS:
+        process.join()
+        return process.exitcode or 0
+
+
+def _end_of(status: int) -> str:
+    how = f"was ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
+    return f"its process {how}"
 
 
 def _run(call: Callable[[Poll], Any], connection: Connection, folder: Path) -> None:
