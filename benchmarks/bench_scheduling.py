@@ -35,7 +35,6 @@ from touchline.scheduling.planned_match import PlannedMatch, Way
 from touchline.scheduling.play import play
 from touchline.scheduling.run import run_plan
 from touchline.scheduling.store import RunStore
-from touchline.scheduling.with_processes import play_with_processes
 
 MOST_OVERHEAD_S = {Way.IN_PROCESS: 0.1, Way.PROCESSES: 1.5}
 LEAST_SPEED_UP = 1.8
@@ -160,7 +159,7 @@ def _over_zenoh(config: MatchConfig) -> tuple[float, float, float, float, float]
     with tempfile.TemporaryDirectory() as name:
         recording = Path(name) / "match.mcap"
         used, began = _children_s(), time.time()
-        outcome = play_with_processes(PlannedMatch(config, way=Way.PROCESSES, recording=recording))
+        outcome = play(PlannedMatch(config, way=Way.PROCESSES, recording=recording))
         assert isinstance(outcome, Played), outcome
         with RunStore(Path(name)) as store:
             store.add(outcome)

@@ -151,10 +151,14 @@ def _print_digest(brain: str) -> None:
 
 def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *, json: bool) -> None:
     from touchline.scheduling.executors.chosen_executor import chosen_executor
+    from touchline.scheduling.progress import progress_of
     from touchline.tournament.verify_cup import verify_cup
 
-    with chosen_executor(jobs, None) as chosen:
-        verdict = verify_cup(folder, chosen.executor, sample, brains)
+    with (
+        chosen_executor(jobs, None) as chosen,
+        progress_of(0, f"verify {folder.name}", at_once=chosen.at_once, json=json) as progress,
+    ):
+        verdict = verify_cup(folder, chosen.executor, sample, brains, progress)
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:

@@ -92,6 +92,8 @@ def verify_study(
                     plan.measured[check.identity] = measure(functions, Path(check.again.recording))
             checked(check)
         again = result_table(plan, stored.seeds, outcomes)
+    newer = [name for name in again.columns if name not in stored.table.columns]
+    again = again.drop(columns=newer)
     faults += [
         fault
         for planned in chosen
@@ -103,7 +105,8 @@ def verify_study(
         whole = csv_bytes(again) == (folder / CSV).read_bytes()
         if not whole and not faults:
             faults.append(f"{CSV} differs from the table of the matches that were simulated again")
-    return Verdict(faults, _notes(stored, home), len(chosen), whole)
+    notes = [*_notes(stored, home), *(f"{name} is a figure that the study does not have" for name in newer)]
+    return Verdict(faults, notes, len(chosen), whole)
 
 
 def _rows(

@@ -95,7 +95,7 @@ class ChildProcesses(Executor):
                 result = ours.recv()
             except EOFError:
                 status = _join(process)
-                raise DiedProcessError(_end_of(process), status, read_note(Path(folder))) from None
+                raise DiedProcessError(_end_of(status), status, read_note(Path(folder))) from None
             finally:
                 _join(process)
                 with self._lock:
@@ -144,11 +144,9 @@ def _join(process: ForkServerProcess) -> int:
         return process.exitcode or 0
 
 
-def _end_of(process: ForkServerProcess) -> str:
-    status = _join(process)
-    return (
-        f"its process {f'was ended by {signal.Signals(-status).name}' if status < 0 else f'ended with status {status}'}"
-    )
+def _end_of(status: int) -> str:
+    how = f"was ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
+    return f"its process {how}"
 
 
 def _run(call: Callable[[Poll], Any], connection: Connection, folder: Path) -> None:

@@ -82,7 +82,8 @@ def play_in_process(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome
 def reason_of(match: InProcessMatch, error: BaseException) -> str:
     """One line for an exception in a match: robot, tick, file and line, as far as they are known."""
     who = f"{match.acting}, tick {match.simulation.now.tick}: " if match.acting is not None else ""
-    return f"{who}{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
+    kind = "" if isinstance(error, HungError) else f"{type(error).__name__}: "
+    return f"{who}{kind}{' '.join(str(error).split())}{place_of(error)}"
 
 
 def recording_of(planned: PlannedMatch, simulation: Simulation) -> AbstractContextManager[MatchRecording | None]:

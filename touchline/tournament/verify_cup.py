@@ -1,7 +1,7 @@
 """Verifies a cup: its matches by their recordings, the files of its teams, and the table that follows from them."""
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,8 +11,9 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.launch.team_code import team_code
 from touchline.scheduling.outcome import Played
+from touchline.scheduling.progress import Progress
 from touchline.scheduling.store import RunStore
-from touchline.scheduling.verify import Depth, MatchCheck, sampled, verify_run
+from touchline.scheduling.verify import Depth, sampled, verify_run
 from touchline.tournament.cup_documents import RESULT, StoredCup, stored_cup
 from touchline.tournament.cup_plan import CupPlan, config_with, digests_of
 from touchline.tournament.cup_state import CupState
@@ -42,7 +43,7 @@ def verify_cup(
     executor: Executor,
     sample: int | None = None,
     code_folder: Path | None = None,
-    checked: Callable[[MatchCheck], None] = lambda _: None,
+    progress: Progress | None = None,
 ) -> CupVerdict:
     """Check a cup. Results are compared for all matches; `sample` of them are simulated again, drawn at random.
 
@@ -51,7 +52,7 @@ def verify_cup(
         executor: where matches are checked.
         sample: number of matches to simulate again; None for all.
         code_folder: where teams are looked for; by default where they were when the cup was played.
-        checked: called with each match that was checked.
+        progress: shows each match that was checked.
 
     Raises:
         TouchlineError: the folder has no cup.
@@ -74,10 +75,13 @@ def verify_cup(
     faults += code_faults
     ticks = 0
     ended = [one for one in matches if one.identity in outcomes]
+    if progress is not None:
+        progress.planned(0, len(ended))
     for check in verify_run(ended, outcomes, folder, executor, lambda one: Depth(one.identity in again, code=False)):
         faults += [f"{check.label}: {fault}" for fault in check.faults]
         ticks += check.ticks
-        checked(check)
+        if progress is not None:
+            progress.ended("; ".join((check.label, *check.faults)), failed=bool(check.faults))
     faults += _table_faults(state, folder)
     return CupVerdict(faults, notes, len(again), ticks)
 

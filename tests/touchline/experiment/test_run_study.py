@@ -14,7 +14,7 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.experiment import study_plan  # noqa: E402
+from touchline.experiment import study_folder, study_plan  # noqa: E402
 from touchline.experiment.cells import cells_of  # noqa: E402
 from touchline.experiment.compare_studies import compare_studies  # noqa: E402
 from touchline.experiment.comparisons import answers, comparison_groups  # noqa: E402
@@ -221,6 +221,18 @@ def test_a_study_is_verified_from_its_recordings_without_its_teams(run: Run, hom
     faults = check(home)
     assert any(f"recordings/{first.name} was changed after the study" in fault for fault in faults)
     assert any("its configuration is not that of the plan" in fault for fault in faults)
+
+
+def test_a_study_that_is_older_than_a_figure_is_reproduced_without_it(run: Run, home: Path) -> None:
+    run(SHORT)
+    table = pd.read_csv(home / "results.csv").drop(columns="fouls")
+    (home / "results.csv").write_bytes(study_folder.csv_bytes(table))
+    table.to_parquet(home / "results.parquet", index=False)
+    digests = json.loads((home / "digests.json").read_text())
+    study_folder.write_digests(home, digests["seeds"], digests["code"])
+    verdict = verify_study(home, ThisProcess(), None, None, lambda check: None)
+    assert (verdict.faults, verdict.byte_identical) == ([], True)
+    assert verdict.notes == ["fouls is a figure that the study does not have"]
 
 
 def test_recordings_of_inputs_alone_are_small_and_are_verified(run: Run, home: Path) -> None:

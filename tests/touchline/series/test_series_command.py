@@ -36,9 +36,8 @@ def test_without_scipy_the_extra_that_brings_it_is_named(match_file: Path, monke
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "scipy" else find_spec(name))
     result = series(match_file)
     assert result.exit_code != 0
-    assert "intervals need scipy, which is not installed; pip install 'touchline[sim]'" in " ".join(
-        result.output.split()
-    )
+    output = " ".join(result.output.split())
+    assert "intervals need scipy, which is not installed; pip install 'touchline[sim]'" in output
 
 
 def test_figures_do_not_depend_on_the_number_of_jobs(match_file: Path) -> None:
