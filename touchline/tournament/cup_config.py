@@ -25,12 +25,12 @@ REMEDIES = {
     "teams.digest": "32 hexadecimal digits, as touchline tournament digest prints them",
     "format.kind": 'one of "round-robin", "groups", "knock-out", "swiss"',
     "format.best_of": "1 to 15 matches",
-    "way": 'one of "in process", "processes"',
+    "way": 'one of "in_process", "processes"',
 }
 """Key → remedy for an invalid value."""
 _OWN_KEYS = ("teams", "seed", "name", "pace", "record")
 """Keys of a match file that a cup decides itself."""
-IN_PROCESS, PROCESSES = "in process", "processes"
+IN_PROCESS, PROCESSES = "in_process", "processes"
 """Ways to play a match."""
 _PROGRAMS = ("brain", "command", "stdio")
 MOST_TEAMS = 64
@@ -152,7 +152,7 @@ class CupConfig(Part):
     """Title of its pages; the name where it is empty."""
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
     """Seed from which those of all matches follow, and of lots."""
-    way: Literal["in process", "processes"] = "in process"
+    way: Literal["in_process", "processes"] = "in_process"
     """How matches are played: brains in Python and stdio programs in one process, or each robot in a process."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
     """Number of robots of each team."""
