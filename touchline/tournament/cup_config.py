@@ -3,7 +3,7 @@
 import tomllib
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
@@ -13,6 +13,7 @@ from schemas.config.roster import MAX_ROBOTS
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.message import Name, Part
+from touchline.scheduling.planned_match import Way
 from touchline.tournament.formats.swiss import most_rounds
 from touchline.tournament.standings import Points
 from touchline.tournament.tie_breaks import CRITERIA, DEFAULT_ORDER, ORDERS, Ranking
@@ -30,8 +31,6 @@ REMEDIES = {
 """Key → remedy for an invalid value."""
 _OWN_KEYS = ("teams", "seed", "name", "pace", "record")
 """Keys of a match file that a cup decides itself."""
-IN_PROCESS, PROCESSES = "in_process", "processes"
-"""Ways to play a match."""
 _PROGRAMS = ("brain", "command", "stdio")
 MOST_TEAMS = 64
 
@@ -152,7 +151,7 @@ class CupConfig(Part):
     """Title of its pages; the name where it is empty."""
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
     """Seed from which those of all matches follow, and of lots."""
-    way: Literal["in_process", "processes"] = "in_process"
+    way: Way = Way.IN_PROCESS
     """How matches are played: brains in Python and stdio programs in one process, or each robot in a process."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
     """Number of robots of each team."""
@@ -179,8 +178,8 @@ class CupConfig(Part):
         if own is not None:
             raise ValueError(f"match.{own} is decided by the cup; leave it out")
         for team in self.teams:
-            if self.way == IN_PROCESS and team.command is not None:
-                raise ValueError(f'team "{team.name}" is a program on the network; write way = "{PROCESSES}"')
+            if self.way is Way.IN_PROCESS and team.command is not None:
+                raise ValueError(f'team "{team.name}" is a program on the network; write way = "{Way.PROCESSES}"')
         if problem := _format_problem(self.format, len(names)):
             raise ValueError(problem)
         if self.until_significant is not None and self.format.kind is not FormatKind.ROUND_ROBIN:

@@ -12,9 +12,9 @@ from schemas.game import Card
 from schemas.side import Side
 from touchline.scheduling.code_digest import code_digest
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome, Played
-from touchline.scheduling.planned_match import PlannedMatch, Way
+from touchline.scheduling.planned_match import PlannedMatch
 from touchline.series.team_names import brain_of
-from touchline.tournament.cup_config import PROCESSES, CupConfig, TeamEntry
+from touchline.tournament.cup_config import CupConfig, TeamEntry
 from touchline.tournament.cup_state import CupState, Ended, Slot, state_of
 from touchline.tournament.match_result import MatchResult, Pair
 
@@ -78,7 +78,7 @@ class CupPlan:
             self._matches[slot] = PlannedMatch(
                 config=match_config(self.cup, slot),
                 code={side: self.digests[name] for side, name in zip(Side, slot.sides, strict=True)},
-                way=Way.PROCESSES if self.cup.way == PROCESSES else Way.IN_PROCESS,
+                way=self.cup.way,
                 brain_folder=self.code_folder,
                 recording=self.folder / RECORDINGS / f"{slot.file_name}.mcap",
                 logs=self.folder / LOGS / slot.file_name,

@@ -144,6 +144,19 @@ def test_changed_files_of_a_team_are_not_played(match_of: MatchOf, folder: Path,
     assert (outcome.kind, outcome.culprit) == (FailureKind.WORKER, None)
 
 
+def test_what_tools_leave_in_the_folder_of_a_team_is_no_part_of_its_digest(match_of: MatchOf, tmp_path: Path) -> None:
+    config = match_of(**{"teams.cyan.brain": "own.team:Own"})
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "team.py").write_text("class Own: ...")
+    digest = code_digest(config, Side.CYAN, tmp_path)
+    for name in ("__pycache__", ".pytest_cache", "runs"):
+        (tmp_path / "own" / name).mkdir()
+        (tmp_path / "own" / name / "left").write_text("left")
+    assert code_digest(config, Side.CYAN, tmp_path) == digest
+    (tmp_path / "own" / "numbers.toml").write_text("speed = 2.0")
+    assert code_digest(config, Side.CYAN, tmp_path) != digest
+
+
 @pytest.mark.processes
 def test_processes_and_one_process_play_the_same_match(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     planned = PlannedMatch(match_of(), brain_folder=folder)

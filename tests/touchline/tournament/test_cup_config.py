@@ -52,6 +52,7 @@ def test_keys_of_the_match_are_those_of_a_match_file(tmp_path: Path) -> None:
         (TEAMS.replace('"B"', '"A"'), 'two teams are named "A"'),
         (TEAMS.replace('brain = "nubot"', ""), '"B" has none; give one of brain, command and stdio'),
         (TEAMS + 'command = ["x"]\n', '"B" has brain and command; give one'),
+        ('way = "in process"\n' + TEAMS, 'one of "in_process", "processes"'),
         (TEAMS + "remote = true\n", "a remote team cannot be started again after a crash"),
         (TEAMS + 'digest = "12"\n', "32 hexadecimal digits, as touchline tournament digest prints them"),
         (TEAMS + 'colour = "red"\n', "colour is not known"),
