@@ -32,7 +32,7 @@ bench-network: $(READY) ## measure match quality over delay, loss and cuts, for 
 bench-play: $(READY) ## play the ladder of the shipped teams, for example: make bench-play ARGS="--matches 4 --duration 120"
 	@.venv/bin/python benchmarks/bench_play.py $(ARGS)
 
-bench-scheduling: $(READY) ## measure plans of many matches, for example: make bench-scheduling ARGS="--matches 4 --flat 20"
+bench-scheduling: $(READY) ## measure plans of many matches, for example: make bench-scheduling ARGS="many --matches 1000 --seconds 30"
 	@.venv/bin/python benchmarks/bench_scheduling.py $(ARGS)
 
 soak: $(READY) ## play in real time and fail if memory, threads or descriptors grow: make soak ARGS="--minutes 10"

@@ -2,92 +2,34 @@
 
 import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from schemas.errors import MatchFailedError, TouchlineError
+from support.short_study import SHORT, Run
 
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.experiment import study_folder, study_plan  # noqa: E402
-from touchline.experiment.cells import cells_of  # noqa: E402
+from touchline.experiment import study_plan  # noqa: E402
 from touchline.experiment.compare_studies import compare_studies  # noqa: E402
 from touchline.experiment.comparisons import answers, comparison_groups  # noqa: E402
-from touchline.experiment.run_study import StudyResult, run_study  # noqa: E402
-from touchline.experiment.study_config import Study, load_study  # noqa: E402
+from touchline.experiment.study_config import Study  # noqa: E402
 from touchline.experiment.study_folder import read_study  # noqa: E402
-from touchline.experiment.study_plan import StudyPlan  # noqa: E402
 from touchline.experiment.verify_study import verify_study  # noqa: E402
 from touchline.scheduling.executors.this_process import ThisProcess  # noqa: E402
-from touchline.scheduling.outcome import Outcome  # noqa: E402
-from touchline.scheduling.planned_match import PlannedMatch  # noqa: E402
 
-SHORT = """
-seeds = "1-2"
-both_sides = false
-responses = ["possession_s.difference", "distance"]
-[settings]
-duration = 1.5
-teams.cyan.size = 1
-teams.magenta.size = 1
-[factors]
-radio.loss = [0, 0.4]
+LINES = """
+import json, sys
+
+sys.stdin.readline()
+for line in sys.stdin:
+    sight = json.loads(line)
+    print(json.dumps({"answers_tick": sight["tick"], "drive": {"vx": 1.0}}), flush=True)
 """
-STILL = """
-from touchline import Command
-
-
-class Still:
-    def __init__(self, briefing):
-        pass
-
-    def act(self, sight):
-        return Command(answers_tick=sight.tick)
-"""
-Run = Callable[..., StudyResult]
-
-
-class Labels:
-    """Collects the labels of the matches that were played."""
-
-    def __init__(self, played: list[str]) -> None:
-        self.played = played
-
-    def planned(self, done: int, due: int) -> None:
-        del done, due
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-        del outcome
-        self.played.append(planned.label)
-
-
-@pytest.fixture
-def home(tmp_path: Path) -> Path:
-    return tmp_path / "study"
-
-
-@pytest.fixture
-def run(tmp_path: Path, home: Path) -> Run:
-    """Plays the study of a text into `home`, and collects the labels of the matches that were played."""
-
-    def play(text: str, played: list[str] | None = None, **options: bool) -> StudyResult:
-        path = tmp_path / "try.toml"
-        path.write_text(text)
-        study = load_study(path)
-        plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
-
-        return run_study(plan, home, ThisProcess(), Labels(played if played is not None else []), **options)
-
-    return play
-
-
-def check(home: Path, sample: int | None = None) -> list[str]:
-    return verify_study(home, ThisProcess(), sample, None, lambda check: None).faults
 
 
 def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home: Path) -> None:
@@ -106,34 +48,6 @@ def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home:
     report = (home / "report.html").read_text()
     assert report.count("<svg ") >= 4
     assert "http" not in report.replace("http://www.w3.org", "")
-
-
-def test_a_study_is_reproduced_to_the_byte(run: Run, home: Path) -> None:
-    run(SHORT)
-    verdict = verify_study(home, ThisProcess(), None, None, lambda check: None)
-    assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
-    assert verdict.notes == []
-
-
-def test_a_study_folder_can_be_moved_and_verified_without_its_study_file(run: Run, home: Path, tmp_path: Path) -> None:
-    run(SHORT)
-    (tmp_path / "try.toml").unlink()
-    moved = shutil.move(home, tmp_path / "published")
-    (Path(moved) / "run.sqlite").unlink()
-    assert check(Path(moved), sample=1) == []
-
-
-def test_verification_names_the_match_whose_result_was_changed(run: Run, home: Path) -> None:
-    run(SHORT)
-    table = pd.read_csv(home / "results.csv")
-    table.loc[2, "distance"] += 1.0
-    table.to_csv(home / "results.csv", index=False, lineterminator="\n")
-    faults = check(home)
-    assert any("results.csv was changed" in fault for fault in faults)
-    assert any("results.parquet and results.csv have different values" in fault for fault in faults)
-    assert [fault for fault in faults if fault.startswith("cell")] == [
-        fault for fault in faults if fault.startswith("cell 1, seed 2: distance is")
-    ]
 
 
 def test_a_study_that_is_run_again_plays_only_what_has_no_result(run: Run, home: Path) -> None:
@@ -171,7 +85,8 @@ def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path:
     table = pd.read_csv(home / "results.csv")
     assert (table["worlds"] > 50).all()
     assert "Worlds" in (home / "report.html").read_text()
-    assert check(home, sample=1) == []
+    sample = verify_study(home, ThisProcess(), 1, None, lambda check: None)
+    assert sample.faults == []
     again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
     assert (again.faults, again.byte_identical) == ([], True)
 
@@ -210,46 +125,6 @@ def test_a_team_against_itself_shows_no_effect_and_one_robot_less_shows_one(run:
     assert 'class="found"' in (home / "report.html").read_text()
 
 
-def test_a_study_is_verified_from_its_recordings_without_its_teams(run: Run, home: Path, tmp_path: Path) -> None:
-    (tmp_path / "still_robot.py").write_text(STILL)
-    run(f"record = true\n{SHORT}".replace("[settings]", '[settings]\ncyan = "still_robot:Still"'))
-    (tmp_path / "still_robot.py").unlink()
-    verdict = verify_study(home, ThisProcess(), None, None, lambda check: None)
-    assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
-    first, second = sorted((home / "recordings").glob("*.mcap"))[:2]
-    first.write_bytes(second.read_bytes())
-    faults = check(home)
-    assert any(f"recordings/{first.name} was changed after the study" in fault for fault in faults)
-    assert any("its configuration is not that of the plan" in fault for fault in faults)
-
-
-def test_a_study_that_is_older_than_a_figure_is_reproduced_without_it(run: Run, home: Path) -> None:
-    run(SHORT)
-    table = pd.read_csv(home / "results.csv").drop(columns="fouls")
-    (home / "results.csv").write_bytes(study_folder.csv_bytes(table))
-    table.to_parquet(home / "results.parquet", index=False)
-    digests = json.loads((home / "digests.json").read_text())
-    study_folder.write_digests(home, digests["seeds"], digests["code"])
-    verdict = verify_study(home, ThisProcess(), None, None, lambda check: None)
-    assert (verdict.faults, verdict.byte_identical) == ([], True)
-    assert verdict.notes == ["fouls is a figure that the study does not have"]
-
-
-def test_recordings_of_inputs_alone_are_small_and_are_verified(run: Run, home: Path) -> None:
-    run(f'record = "inputs"\n{SHORT}')
-    whole = verify_study(home, ThisProcess(), None, None, lambda check: None)
-    assert (whole.faults, whole.played_again, whole.byte_identical) == ([], 4, None)
-    again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
-    assert (again.faults, again.byte_identical) == ([], True)
-
-
-def test_a_row_that_was_taken_out_of_the_table_is_missed(run: Run, home: Path) -> None:
-    run(SHORT)
-    table = pd.read_csv(home / "results.csv")
-    table.drop(index=1).to_csv(home / "results.csv", index=False, lineterminator="\n")
-    assert "cell 2, seed 1: has no result, and was played to its end again" in check(home)
-
-
 def test_seeds_that_were_judged_are_not_judged_again(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     judged = list[int]()
     is_narrow = study_plan.is_narrow
@@ -271,8 +146,12 @@ def test_a_team_on_the_network_is_refused_in_one_process_before_any_match(run: R
 
 
 @pytest.mark.processes
-def test_processes_and_one_process_give_the_same_table_to_the_byte(run: Run, home: Path, tmp_path: Path) -> None:
-    short = SHORT.replace('"1-2"', '"1"').replace("[0, 0.4]", "[0.4]")
+@pytest.mark.parametrize("program", ["", 'teams.cyan.stdio = ["python3", "robot.py"]'], ids=["brains", "lines"])
+def test_processes_and_one_process_give_the_same_table_to_the_byte(
+    run: Run, home: Path, tmp_path: Path, program: str
+) -> None:
+    (tmp_path / "robot.py").write_text(LINES)
+    short = SHORT.replace('"1-2"', '"1"').replace("[0, 0.4]", "[0.4]").replace("[settings]", f"[settings]\n{program}")
     run(short)
     table = (home / "results.csv").read_bytes()
     shutil.rmtree(home)
