@@ -26,7 +26,6 @@ from typing import Any
 
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.process.leash import adopt_orphans
 from schemas.topics import APPLIED
 from touchline.scheduling.child_processes import ChildProcesses, Poll, cores
 from touchline.scheduling.outcome import Outcome, Played
@@ -81,15 +80,15 @@ class TimedProcesses(ChildProcesses):
 
     def __init__(self, jobs: int, folder: Path) -> None:
         super().__init__(jobs)
-        self._folder = folder
+        self.folder = folder
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call the function of a planned match."""
-        return super().submit(timed, fn, str(self._folder), *args, **kwargs)
+        return super().submit(timed, fn, str(self.folder), *args, **kwargs)
 
     def timing(self, planned: PlannedMatch) -> Timing:
         """The instants of a match that has ended."""
-        return Timing(**json.loads((self._folder / planned.identity).read_text()))
+        return Timing(**json.loads((self.folder / planned.identity).read_text()))
 
 
 def timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMatch, poll: Poll) -> Any:
@@ -144,38 +143,47 @@ def in_one_process(rounds: int, seconds: float) -> tuple[float, float]:
 
 def with_processes(rounds: int, seconds: float) -> tuple[float, float]:
     """Median overhead of a match with processes: wall time and CPU time in s."""
-    adopt_orphans()
     wall, cpu = [], []
-    for seed in range(1, rounds + 1):
-        used, began, first, last, ended = _over_zenoh(match_of(seed, seconds))
-        wall.append(first - began + ended - last)
-        shorter = _over_zenoh(match_of(seed, seconds / 2))[0]
-        cpu.append(2 * shorter - used)
+    with tempfile.TemporaryDirectory() as name, TreeTimedProcesses(1, Path(name)) as executor:
+        _over_zenoh(match_of(0, 1.0), executor)  # the fork server has been started
+        for seed in range(1, rounds + 1):
+            used, began, first, last, ended = _over_zenoh(match_of(seed, seconds), executor)
+            wall.append(first - began + ended - last)
+            cpu.append(2 * _over_zenoh(match_of(seed, seconds / 2), executor)[0] - used)
     return statistics.median(wall), statistics.median(cpu)
 
 
-def _over_zenoh(config: MatchConfig) -> tuple[float, float, float, float, float]:
+class TreeTimedProcesses(TimedProcesses):
+    """Child processes that note the CPU time of all processes of their matches."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        """Call the function of a planned match."""
+        return ChildProcesses.submit(self, tree_timed, fn, str(self.folder), *args, **kwargs)
+
+
+def tree_timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMatch, poll: Poll) -> Any:
+    """Play a match, and note the CPU time of all its processes."""
+    delivery = play_planned(planned, poll)
+    ended = resource.getrusage(resource.RUSAGE_CHILDREN)
+    running = 0.0
+    for child in Path("/proc/self/task").glob("*/children"):
+        for pid in child.read_text().split():
+            fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+            running += sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")  # its own, and of its children
+    (Path(folder) / planned.identity).write_text(str(time.process_time() + ended.ru_utime + ended.ru_stime + running))
+    return delivery
+
+
+def _over_zenoh(config: MatchConfig, executor: TimedProcesses) -> tuple[float, float, float, float, float]:
     """CPU time of all processes of a match; when it began, its first tick and its last, and when it ended."""
-    with tempfile.TemporaryDirectory() as name:
+    with tempfile.TemporaryDirectory() as name, RunStore(Path(name)) as store:
         recording = Path(name) / "match.mcap"
-        used, began = _children_s(), time.time()
-        outcome = play(PlannedMatch(config, way=Way.PROCESSES, recording=recording))
-        assert isinstance(outcome, Played), outcome
-        with RunStore(Path(name)) as store:
-            store.add(outcome)
-        ended = time.time()
+        planned = PlannedMatch(config, way=Way.PROCESSES, recording=recording)
+        log, began = Log(), time.time()
+        run_plan(ListPlan((planned,)), executor, store, log)
         ticks = [message.sent_ns / 1e9 for message in open_recording(recording).messages(APPLIED.key)]
-    while True:
-        try:
-            os.wait()
-        except ChildProcessError:
-            return _children_s() - used, began, ticks[0], ticks[-1], ended
-
-
-def _children_s() -> float:
-    """CPU time of all descendants that have ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+        used = float((executor.folder / planned.identity).read_text())
+        return used, began, ticks[0], ticks[-1], log.ended_at[planned.identity]
 
 
 def overhead(matches: int, seconds: float) -> None:

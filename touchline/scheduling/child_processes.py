@@ -27,6 +27,8 @@ Result = TypeVar("Result")
 Poll = Callable[[], None]
 """Called by the function with each tick: it ends the process when those who wait for its result are gone."""
 
+FORKED = "touchline-child"
+"""What the names of these processes begin with."""
 _PRELOAD = "touchline.scheduling.preload"
 """What the fork server imports once for all processes; not imported here."""
 _POLL_TICKS = 100
@@ -83,7 +85,7 @@ class ChildProcesses(Executor):
         context.set_forkserver_preload([_PRELOAD, module])
         ours, theirs = context.Pipe()
         with closing(ours), tempfile.TemporaryDirectory(prefix="touchline-") as folder:
-            process = context.Process(target=_run, args=(call, theirs, Path(folder)), daemon=True)
+            process = context.Process(target=_run, args=(call, theirs, Path(folder)), name=FORKED)
             with self._lock:
                 if self._is_closed:
                     raise DiedProcessError("it was not started any more")

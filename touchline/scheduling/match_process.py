@@ -22,7 +22,7 @@ from schemas.config.match_parts import RecordingConfig
 from schemas.config.settings import Settings
 from schemas.config.settings_file import run_process
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.process.clock import WallClock
+from schemas.process.clock import Clock, WallClock
 from touchline.launch.check_brains import check_teams
 from touchline.launch.confinement import team_confinements
 from touchline.launch.match_files import losses_of, published_by
@@ -52,8 +52,15 @@ class MatchProcessSettings(Settings):
     """Where brains are looked for first."""
 
 
-def play(settings: MatchProcessSettings) -> Outcome:
-    """Play the match."""
+def play(settings: MatchProcessSettings, clock: Clock) -> Outcome:
+    """Play the match; its log is on stderr."""
+    outcome = _outcome(settings, clock)
+    if isinstance(outcome, Failed):
+        sys.stderr.write(f"{outcome.reason}\n")
+    return outcome
+
+
+def _outcome(settings: MatchProcessSettings, clock: Clock) -> Outcome:
     config, identity, logs = settings.config, settings.identity, str(settings.folder)
     whole = settings.recording if settings.recording and not has_inputs_only(config) else settings.folder / RECORDING
     record = RecordingConfig(wait=True) if has_inputs_only(config) else config.record.model_copy(update={"wait": True})
@@ -72,7 +79,6 @@ def play(settings: MatchProcessSettings) -> Outcome:
         check_robot_names(config)
         confinements = team_confinements(config, settings.brain_folder, settings.folder.parent)
         plan = prepare_credentials(replace(plan, confinements=confinements), tls=False)
-        clock = WallClock()
         check = partial(check_teams, config, settings.brain_folder, confinements=confinements)
         result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by, check).play()
     except TeamError as error:
@@ -115,10 +121,7 @@ def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
 
 def run(settings: MatchProcessSettings) -> int:
     """Play the match, and print its outcome."""
-    outcome = play(settings)
-    if isinstance(outcome, Failed):
-        sys.stderr.write(f"{outcome.reason}\n")
-    sys.stdout.buffer.write(to_json(outcome))
+    sys.stdout.buffer.write(to_json(play(settings, WallClock())))
     return 0
 
 

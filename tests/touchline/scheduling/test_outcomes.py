@@ -1,5 +1,6 @@
 """How planned matches end, and whose fault it is if they do not."""
 
+import os
 import signal
 from collections.abc import Callable
 from dataclasses import replace
@@ -167,6 +168,44 @@ def test_processes_and_one_process_play_the_same_match(match_of: MatchOf, folder
     assert there.chain == here.chain
     assert there.goals == here.goals
     assert verify(tmp_path / "match.mcap").identical
+
+
+@pytest.mark.processes
+def test_a_forked_process_launches_the_others_of_its_match_itself(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = PlannedMatch(match_of(), way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
+    with ChildProcesses(1) as executor:
+        played = executor.submit(play_here, planned).result().outcome
+        not_built = replace(planned, config=match_of(magenta="NotBuilt"), logs=tmp_path / "failed")
+        failed = executor.submit(play_here, not_built).result().outcome
+    assert isinstance(played, Played), played
+    assert played.chain == play(PlannedMatch(match_of(), brain_folder=folder)).chain
+    assert (failed.kind, failed.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
+    assert "full time" in (tmp_path / "logs" / "match.log").read_text()
+    assert failed.reason in (tmp_path / "failed" / "match.log").read_text()
+
+
+@pytest.mark.processes
+def test_a_match_that_is_cancelled_leaves_no_process(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    long = match_of(duration=600.0)
+    planned = PlannedMatch(long, way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
+    executor = ChildProcesses(1)
+    future = executor.submit(play_here, planned)
+    wait_for((tmp_path / "logs" / "cyan1.log").exists, "a robot")
+    programs = [pid for pid in descendants(os.getpid()) if "logs/host.json" in command_line(pid)]
+    assert len(programs) == 1
+    executor.shutdown(cancel_futures=True)
+    assert isinstance(future.exception(), DiedProcessError)
+    wait_for(lambda: not any(map(is_running, programs)), "the end of the host")
+
+
+def command_line(pid: int) -> str:
+    """The words of a process; empty if it has ended."""
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_text()
+    except OSError:
+        return ""
 
 
 @pytest.mark.processes
