@@ -10,6 +10,7 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
+from support.process_story import descendants, is_running, wait_for
 from touchline.scheduling.child_processes import ChildProcesses, DiedProcessError
 from touchline.scheduling.code_digest import code_digest
 from touchline.scheduling.hang_limit import HangLimit, HungError
