@@ -22,7 +22,7 @@ def test_a_shot_goes_beside_the_keeper(setup):
 
 
 def test_a_shot_from_near_is_surer_than_one_from_which_the_keeper_has_time_to_move(setup):
-    near, far = (best_shot((x, 0.0), 0.0, [(10.8, 0.0)], setup.pitch, PARAMETERS) for x in (6.8, 4.6))
+    near, far = (best_shot((x, 0.0), 0.0, [(10.8, 0.0)], setup.pitch, PARAMETERS) for x in (7.2, 5.0))
     assert near is not None
     assert far is not None
     assert near.chance > 0.9
