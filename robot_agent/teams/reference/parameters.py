@@ -90,6 +90,14 @@ class Parameters:
     """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
     pass_prepares: float = 0.25
     """Value of a pass into the other half, without which a goal would not count."""
+    turn_rate: float = 2.8
+    """rad/s of a turn with the ball."""
+    at_ball: float = 0.5
+    """m from the ball to an opponent that fights for it."""
+    comes_speed: float = 2.5
+    """m/s at which an opponent comes."""
+    wins_duel: float = 0.8
+    """s after which an opponent at the ball surely has it."""
     turn_cost: float = 0.04
     """Value a radian of turning: an opponent comes nearer meanwhile."""
     chosen_bonus: float = 0.12

@@ -79,12 +79,21 @@ def passes(
             late = _NOTICES + math.dist(_soon(body), target) / _RUNS - far / _MEAN_SPEED
             sure *= max(0.0, min(1.0, 1.0 - late))
             turn = abs(wrap(math.atan2(target[1] - ball[1], target[0] - ball[0]) - heading))
+            sure *= in_time(turn, ball, opponents, parameters)
             gain = sure * (worth(target, opponents, pitch) + parameters.pass_bonus)
             gain -= (1.0 - sure) * cost_of_loss(target, pitch, parameters) + parameters.turn_cost * turn
             if chosen is not None and chosen[0] == name and math.dist(chosen[1], target) < parameters.chosen_near:
                 gain += parameters.chosen_bonus
             found.append(Pass(name, target, sure, gain))
     return found
+
+
+def in_time(turn: float, ball: Point, opponents: Sequence[Point], parameters: Parameters) -> float:
+    """The chance that a turn by `turn` rad ends before an opponent is at the ball, 0 to 1."""
+    nearest = min((math.dist(ball, opponent) for opponent in opponents), default=math.inf)
+    comes = max(0.0, nearest - parameters.at_ball) / parameters.comes_speed
+    late = turn / parameters.turn_rate - comes
+    return max(0.0, min(1.0, 1.0 - late / parameters.wins_duel))
 
 
 def _soon(mate: Body) -> Point:
