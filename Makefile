@@ -14,8 +14,8 @@ help: ## show this list
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
 
-test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/touchline
-	.venv/bin/pytest -n 2 --dist loadfile $(ARGS)
+test: $(READY) ## run the tests, file by file in three processes, for example: make test ARGS=tests/touchline
+	.venv/bin/pytest -n 3 --dist loadfile $(ARGS)
 
 check: $(READY) ## format, lint, types, and the contracts on imports
 	.venv/bin/ruff format --check
@@ -32,7 +32,7 @@ bench-network: $(READY) ## measure match quality over delay, loss and cuts, for 
 bench-play: $(READY) ## play the ladder of the shipped teams, for example: make bench-play ARGS="--matches 4 --duration 120"
 	@.venv/bin/python benchmarks/bench_play.py $(ARGS)
 
-bench-scheduling: $(READY) ## measure plans of many matches, for example: make bench-scheduling ARGS="--matches 4 --flat 20"
+bench-scheduling: $(READY) ## measure plans of many matches, for example: make bench-scheduling ARGS="many --matches 1000 --seconds 30"
 	@.venv/bin/python benchmarks/bench_scheduling.py $(ARGS)
 
 soak: $(READY) ## play in real time and fail if memory, threads or descriptors grow: make soak ARGS="--minutes 10"
@@ -56,6 +56,7 @@ clean: ## remove .venv and all caches; recordings in runs/ stay
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(READY): requirements.lock pyproject.toml
+	@echo "Installing Touchline and its packages into .venv; this takes a few minutes, once"
 	@test -x .venv/bin/python || ( $(NEW_VENV) )
 	.venv/bin/python -m pip install --quiet --require-hashes -r requirements.lock
 	.venv/bin/python -m pip install --quiet --no-deps --no-build-isolation -e .

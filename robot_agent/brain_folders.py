@@ -4,7 +4,21 @@ No file in these folders hides a module of Python, of Touchline or of an install
 """
 
 import sys
+from collections.abc import Collection
 from pathlib import Path
+
+_added: list[str] = []
+"""Folders that this process has appended to its module path."""
+
+
+def added_folders() -> tuple[str, ...]:
+    """The folders of brains that this process has appended to its module path."""
+    return tuple(_added)
+
+
+def remove_folders(folders: Collection[str]) -> None:
+    """Take folders off the module path, for a process that has inherited it from one with other brains."""
+    sys.path[:] = [entry for entry in sys.path if entry not in folders]
 
 
 class BrainFolders:
@@ -26,7 +40,9 @@ class BrainFolders:
     def add_to_module_path(self) -> None:
         """Append the folders to Python's module path; those that are on it stay where they are."""
         known = {Path(entry).resolve() for entry in sys.path}
-        sys.path.extend(str(path) for path in self.paths if path not in known)
+        new = [str(path) for path in self.paths if path not in known]
+        sys.path.extend(new)
+        _added.extend(new)
 
     def __str__(self) -> str:
         """The folders as the end of a sentence."""

@@ -6,12 +6,13 @@ It runs before a match is launched, in a process of its own: a brain may print, 
 import os
 import sys
 from pathlib import Path
+from typing import NoReturn
 
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
-from schemas.config.settings_file import run_process
+from schemas.config.settings_file import exit_status, run_process
 from schemas.messages.setup import Setup
 from schemas.side import Side
 
@@ -44,7 +45,17 @@ def run(settings: BuildCheckSettings) -> int:
     return 0
 
 
-if __name__ == "__main__":
-    status = run_process("robot_agent.build_check", BuildCheckSettings, run)
+def build(settings: BuildCheckSettings) -> NoReturn:
+    """Build the brains, and end this process."""
+    _end(exit_status(lambda: run(settings)))
+
+
+def _end(status: int) -> NoReturn:
+    """End this process at once: a brain may have started a thread that does not end."""
+    sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(status)  # a brain may have started a thread that does not end
+    os._exit(status)
+
+
+if __name__ == "__main__":
+    _end(run_process("robot_agent.build_check", BuildCheckSettings, run))

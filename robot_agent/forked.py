@@ -1,4 +1,6 @@
-"""A robot's process that is forked by a fork server, instead of started as a Python of its own.
+"""A process of a team that is forked by a fork server, instead of started as a Python of its own.
+
+It runs a robot, or builds a team's brains before the launch.
 
 The function that runs in it is imported by the supervisor, too: this module loads nothing heavy. `PRELOAD` is what the
 fork server imports once for all robots. Nothing there starts threads or draws random numbers: a fork would have no such
@@ -16,13 +18,17 @@ from contextlib import suppress
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from robot_agent import run
 from robot_agent.settings import AgentSettings
 from schemas.config.settings_file import exit_status
 from schemas.process.leash import OwnConfinement, confine
 
-PRELOAD = ("robot_agent.process", "robot_agent.forked")
+if TYPE_CHECKING:
+    from robot_agent.build_check import BuildCheckSettings
+
+PRELOAD = ("robot_agent.process", "robot_agent.build_check", "robot_agent.forked")
 """Modules that every robot needs, this one among them."""
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable that keeps the current directory off the module path; set for the fork server alone."""
@@ -31,9 +37,29 @@ SAFE_PATH = "PYTHONSAFEPATH"
 def run_forked(
     settings: AgentSettings, environment: Mapping[str, str], confinement: OwnConfinement, log: str, held: Connection
 ) -> None:
-    """Run one robot as `python -m robot_agent` would: group, log, environment and module path are its own; exits.
+    """Run one robot as `python -m robot_agent` would; exits."""
+    _begin(environment, confinement, log, held, settings.robot)
+    sys.exit(exit_status(lambda: run(settings)))
 
-    `environment` is the whole one. `held` is closed when it leads its group: signals are sent to that group.
+
+def build_forked(
+    settings: "BuildCheckSettings",
+    environment: Mapping[str, str],
+    confinement: OwnConfinement,
+    log: str,
+    held: Connection,
+) -> None:
+    """Build a team's brains as `python -m robot_agent.build_check` would; exits."""
+    from robot_agent.build_check import build
+
+    _begin(environment, confinement, log, held, "build_check")
+    build(settings)
+
+
+def _begin(environment: Mapping[str, str], confinement: OwnConfinement, log: str, held: Connection, name: str) -> None:
+    """Give this process a group, log, environment and module path of its own, and this name.
+
+    `environment` is the whole one. `held` is closed when the process leads its group: signals are sent to that group.
     """
     os.setpgid(0, 0)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored by the fork server, if its launcher ignored it
@@ -47,8 +73,7 @@ def run_forked(
     os.environ.update(environment)
     confine(confinement)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-    Path("/proc/self/comm").write_text(settings.robot)  # as `ps -o comm`, `top` and `pgrep` show it
-    sys.exit(exit_status(lambda: run(settings)))
+    Path("/proc/self/comm").write_text(name)  # as `ps -o comm`, `top` and `pgrep` show it
 
 
 def _end_with_supervisor() -> None:

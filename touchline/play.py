@@ -59,7 +59,7 @@ class InProcessMatch:
             TouchlineError: a brain is for a robot that is not in the match.
         """
         self.acting: str | None = None
-        """The robot whose brain acts; after an exception, the robot whose brain raised it."""
+        """The robot whose brain is built or acts; after an exception, the robot whose brain raised it."""
         self.commands: dict[str, Command] = {}
         """Robot → its newest command; empty before the first."""
         self.simulation = Simulation(config)
@@ -73,11 +73,15 @@ class InProcessMatch:
             raise TouchlineError(f"{unknown} is no robot with a brain in this match; {did_you_mean(unknown, teams)}")
         self.brains: dict[str, Brain] = {}
         for name, team in teams.items():
+            self.acting = name
             try:
                 self.brains[name] = _start(given.get(name, team), Briefing.of(name, setup), brain_folder)
-            except TouchlineError as error:
+            except BaseException as error:
                 self.close()
+                if not isinstance(error, TouchlineError):
+                    raise
                 raise RobotNotStartedError(name, str(error)) from error
+        self.acting = None
 
     def close(self) -> None:
         """Free the engine, and end the programs that were started for the match."""

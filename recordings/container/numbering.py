@@ -33,10 +33,11 @@ def unfinished_files(path: Path) -> list[Path]:
 
 
 def _numbered_files(path: Path, suffix: str) -> list[Path]:
-    pattern = re.compile(re.escape(path.stem) + r"\.\d{4,}" + re.escape(suffix))
+    pattern = re.compile(re.escape(path.stem) + r"\.(\d{4,})" + re.escape(suffix))
     if not path.parent.is_dir():
         return []
-    return sorted(file for file in path.parent.iterdir() if pattern.fullmatch(file.name))
+    found = [(int(match[1]), file) for file in path.parent.iterdir() if (match := pattern.fullmatch(file.name))]
+    return [file for _, file in sorted(found)]
 
 
 def check_free(path: Path) -> None:

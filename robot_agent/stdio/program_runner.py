@@ -15,7 +15,8 @@ class ProgramRunner(Runner):
         assert isinstance(brain, StdioProgram)
 
     def answer(self, sight: Sight) -> None:
-        """Send the commands that the program writes within a while; a repeated sight gets the same command again.
+        """Send the commands that the program writes within a while; a sight that is repeated later gets the same
+        command again.
 
         Raises:
             ProgramEndedError: the program has ended.
@@ -24,8 +25,7 @@ class ProgramRunner(Runner):
         assert isinstance(program, StdioProgram)
         self._clock.sim_ns = round(sight.time * 1e9)
         if sight.tick == self._last_tick:
-            self.repeated += 1
-            self._commands.put_payload(self._last_answer)
+            self._repeat()
             return
         owed = True
         while owed:
@@ -34,6 +34,5 @@ class ProgramRunner(Runner):
                 self._commands.put_payload(payload)
             if found.answer is not None:
                 self._last_tick, self._last_answer = found.tick, found.answer
-                self._commands.put_payload(found.answer)
-                self.answered += 1
+                self._send()
             owed = found.answer is not None and found.tick != sight.tick  # it has answered an older sight

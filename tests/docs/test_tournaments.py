@@ -5,8 +5,8 @@ from pathlib import Path
 
 from schemas.side import Side
 from touchline.tournament.cup_config import CupConfig, FormatConfig, TableConfig, TeamEntry, load_cup
+from touchline.tournament.cup_plan import match_config
 from touchline.tournament.cup_state import state_of
-from touchline.tournament.playing.planned_match import match_config
 from touchline.tournament.tie_breaks import CRITERIA, ORDERS
 
 

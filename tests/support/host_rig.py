@@ -48,6 +48,9 @@ class _SeatClock(SteppedClock):
         super().__init__()
         self._wall = wall
 
+    def now(self) -> float:
+        return self._wall.now()
+
     def unix_ns(self) -> int:
         return self._wall.unix_ns()
 

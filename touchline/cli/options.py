@@ -162,6 +162,16 @@ def need_pybullet() -> None:
         raise TouchlineError(missing_engine_text())
 
 
+def need_scipy() -> None:
+    """Check that this machine can compute intervals; what simulates is installed with what does that.
+
+    Raises:
+        TouchlineError: scipy is missing; the message has the command that installs it.
+    """
+    if importlib.util.find_spec("scipy") is None:
+        raise TouchlineError("intervals need scipy, which is not installed; pip install 'touchline[sim]'")
+
+
 def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelection":
     """The selection for these key expressions.
 

@@ -57,11 +57,11 @@ def drill(
     try:
         with (
             closing(play_drills(planned, jobs or cores())) as played,
-            progress_of(len(planned), scene) as report,
+            progress_of(len(planned), scene, at_once=jobs or cores(), json=json) as progress,
         ):
             for row in played:
                 rows.append(row)
-                report(_sentence(row))
+                progress.ended(_sentence(row), failed=row.verdict is None)
     except KeyboardInterrupt:
         interrupted = True
     rows.sort(key=lambda row: row.seed)

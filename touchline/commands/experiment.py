@@ -2,12 +2,10 @@
 
 import json as json_text
 import signal
-from collections.abc import Iterator, Mapping
-from concurrent.futures import Executor
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from typer.core import TyperGroup
@@ -16,6 +14,11 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+
+if TYPE_CHECKING:
+    from touchline.scheduling.outcome import Outcome
+    from touchline.scheduling.planned_match import PlannedMatch
+    from touchline.scheduling.verify import MatchCheck
 
 NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
 _DEFAULT = "run"
@@ -83,9 +86,8 @@ def run(
     from touchline.experiment.study_config import load_study
     from touchline.experiment.study_folder import REPORT, read_study
     from touchline.experiment.study_plan import StudyPlan
-    from touchline.scheduling.outcome import Failed, Outcome
-    from touchline.scheduling.planned_match import PlannedMatch
-    from touchline.scheduling.run import Remote
+    from touchline.scheduling.executors.chosen_executor import chosen_executor
+    from touchline.scheduling.progress import ProgressReporter, progress_of
 
     given = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "record": record}
     study = load_study(file, {key: value for key, value in given.items() if value is not None})
@@ -93,16 +95,12 @@ def run(
     folder = into or Path("runs") / study.name
     plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
     with (
-        _executor(jobs, dask) as executor,
-        _progress(len(plan.matches(study.first_seeds)), study.name) as report,
+        chosen_executor(jobs, dask) as chosen,
+        progress_of(len(plan.matches(study.first_seeds)), study.name, at_once=chosen.at_once, json=json) as progress,
         _stoppable(folder),
     ):
-
-        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
-            text = f"failed: {outcome.reason}" if isinstance(outcome, Failed) else _score(outcome.goals)
-            report(f"{planned.label}: {text}")
-
-        result = run_study(plan, folder, executor, ended, fresh=fresh, remote=Remote() if dask else None)
+        reporter = ProgressReporter(progress, _match_sentence)
+        result = run_study(plan, folder, chosen.executor, reporter, fresh=fresh, remote=chosen.remote)
     failed = result.failed
     stored = read_study(folder)
     responses = [name for name in study.responses if name in stored.table]
@@ -150,16 +148,18 @@ def compare(
 @app.command()
 def verify(
     folder: Folder,
-    sample: Annotated[int | None, typer.Option(min=0, help="Play only this many matches again.")] = None,
+    sample: Annotated[int | None, typer.Option(min=0, help="Simulate only this many matches again.")] = None,
     brains: Brains = None,
     jobs: Jobs = 0,
     json: options.Json = False,
 ) -> None:
-    """Check a study: digests, table and recordings, and matches played again. Exit status 1 if something does not fit.
+    """Check a study: digests, table, and matches simulated again. Exit status 1 if something does not fit.
+
+    A match is simulated from its recording, where the study has one; otherwise it is played again.
 
     Example: touchline experiment verify studies/sides --sample 4
     """
-    _check(folder, sample, brains, jobs, json=json)
+    _check(folder, sample, brains, jobs, from_recordings=True, json=json)
 
 
 @app.command()
@@ -168,23 +168,34 @@ def reproduce(folder: Folder, brains: Brains = None, jobs: Jobs = 0, json: optio
 
     Example: touchline experiment reproduce studies/sides
     """
-    _check(folder, None, brains, jobs, json=json)
+    _check(folder, None, brains, jobs, from_recordings=False, json=json)
 
 
-def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, json: bool) -> None:
+def _check(
+    folder: Path, sample: int | None, brains: Path | None, jobs: int, *, from_recordings: bool, json: bool
+) -> None:
     _need_packages()
     from dataclasses import asdict
 
     from touchline.experiment.study_folder import read_study
     from touchline.experiment.verify_study import verify_study
+    from touchline.scheduling.executors.chosen_executor import chosen_executor
+    from touchline.scheduling.progress import progress_of
 
     stored = read_study(folder)
     planned = len({match.identity for match in stored.plan.matches(stored.seeds)})
     with (
-        _executor(jobs, None) as executor,
-        _progress(planned if sample is None else min(sample, planned), folder.name) as report,
+        chosen_executor(jobs, None) as chosen,
+        progress_of(
+            planned if sample is None else min(sample, planned), folder.name, at_once=chosen.at_once, json=json
+        ) as progress,
     ):
-        verdict = verify_study(folder, executor, sample, brains, lambda planned, _: report(planned.label))
+
+        def checked(check: "MatchCheck") -> None:
+            sentence = "; ".join((check.label, *check.faults))
+            progress.ended(sentence, failed=bool(check.faults))
+
+        verdict = verify_study(folder, chosen.executor, sample, brains, checked, from_recordings=from_recordings)
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:
@@ -192,21 +203,17 @@ def _check(folder: Path, sample: int | None, brains: Path | None, jobs: int, *, 
             typer.echo(line)
         if not verdict.faults:
             same = "; the table of results is the same to the byte" if verdict.byte_identical else ""
-            typer.echo(f"identical: {verdict.played_again} matches played again{same}")
+            typer.echo(f"identical: {verdict.played_again} matches simulated again{same}")
     if verdict.faults:
         raise typer.Exit(FAILED)
 
 
-def _score(goals: Mapping[Side, int]) -> str:
-    return f"cyan {goals[Side.CYAN]} : {goals[Side.MAGENTA]} magenta"
+def _match_sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
+    from touchline.scheduling.outcome import Failed
 
-
-@contextmanager
-def _progress(total: int, title: str) -> Any:
-    from touchline.scheduling.progress import progress_of
-
-    with progress_of(total, title) as report:
-        yield report
+    if isinstance(outcome, Failed):
+        return f"{planned.label}: failed: {outcome.reason}"
+    return f"{planned.label}: cyan {outcome.goals[Side.CYAN]} : {outcome.goals[Side.MAGENTA]} magenta"
 
 
 @contextmanager
@@ -217,26 +224,6 @@ def _stoppable(folder: Path) -> Any:
     except KeyboardInterrupt:
         typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
         raise typer.Exit(128 + signal.SIGINT) from None
-
-
-@contextmanager
-def _executor(jobs: int, dask: str | None) -> Iterator[Executor]:
-    """Where matches are played; those that run are ended if the study is interrupted."""
-    from touchline.scheduling.child_processes import ChildProcesses, cores
-
-    if jobs < 0:
-        raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
-    executor: Executor
-    if dask is not None:
-        from touchline.scheduling.executors.dask_cluster import DaskCluster
-
-        executor = DaskCluster(dask)
-    else:
-        executor = ChildProcesses(jobs or cores())
-    try:
-        yield executor
-    finally:
-        executor.shutdown(cancel_futures=True)
 
 
 def _need_packages() -> None:

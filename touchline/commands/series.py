@@ -56,8 +56,10 @@ def series(
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
     options.need_pybullet()
+    options.need_scipy()
     from touchline.scheduling.child_processes import cores
     from touchline.scheduling.progress import progress_of
+    from touchline.series.match_row import FailedMatch
     from touchline.series.plan import plan_series, with_brains
     from touchline.series.play_series import play_series
     from touchline.series.seeds import seeds_of
@@ -81,11 +83,11 @@ def series(
     rows: list[Row] = []
     interrupted = False
     try:
-        with progress_of(len(plan.matches), " – ".join(plan.teams)) as report:
+        with progress_of(len(plan.matches), " – ".join(plan.teams), at_once=jobs or cores(), json=json) as progress:
 
             def add(row: "Row") -> None:
                 rows.append(row)
-                report(sentence_of(row, plan))
+                progress.ended(sentence_of(row, plan), failed=isinstance(row, FailedMatch))
 
             play_series(plan, jobs or cores(), add)
     except KeyboardInterrupt:

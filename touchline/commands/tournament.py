@@ -3,8 +3,9 @@
 import json as json_text
 import signal
 from contextlib import ExitStack, closing
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -13,19 +14,32 @@ from touchline.cli import options
 from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:
-    from touchline.tournament.cup_state import CupState, Ended, Slot
+    from touchline.tournament.cup_config import CupConfig
+    from touchline.tournament.cup_state import CupState
 
-VERIFY = "verify"
+VERIFY, DIGEST = "verify", "digest"
 
 
 def tournament(
-    file: Annotated[Path, typer.Argument(metavar="CUP.toml | verify", help="The cup file; or verify, and a folder.")],
-    folder: Annotated[Path | None, typer.Argument(metavar="[FOLDER]", help="The folder of a cup to verify.")] = None,
+    file: Annotated[
+        Path,
+        typer.Argument(
+            metavar="CUP.toml | verify | digest", help="The cup file; or verify, and a folder; or digest, and a brain."
+        ),
+    ],
+    folder: Annotated[
+        Path | None,
+        typer.Argument(metavar="[FOLDER | BRAIN]", help="The folder of a cup to verify; a team, as my_team:MyTeam."),
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="The folder of the cup; by default runs/ and its name.")
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with the cup of the folder.")] = False,
     jobs: Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")] = 0,
+    dask: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
+    ] = None,
     until_significant: Annotated[
         int | None,
         typer.Option(metavar="MATCHES", help="Add rounds until the order is significant, up to this many matches."),
@@ -34,14 +48,20 @@ def tournament(
         bool, typer.Option("--web", help="Serve the pages while the cup runs, and print the address.")
     ] = False,
     port: Annotated[int, typer.Option(help="Port of --web; 0 for a free one.")] = 0,
-    sample: Annotated[int, typer.Option(help="Of verify: simulate this many matches again; 0 for all.")] = 0,
-    json: options.Json = False,
+    sample: Annotated[int, typer.Option(min=0, help="Of verify: simulate this many matches again; 0 for all.")] = 0,
+    brains: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Of verify: where teams are looked for; by default as then.")
+    ] = None,
+    json: Annotated[
+        bool, typer.Option("--json", help="Print the result as one JSON object, and progress as JSON lines on stderr.")
+    ] = False,
 ) -> None:
     """Play a cup between many teams: table, bracket, ratings, and a folder of pages with every match.
 
     Each result is stored at once: after a crash or Ctrl-C, --resume goes on and repeats no finished match. A team that
-    does not start, crashes or hangs forfeits. `touchline tournament verify FOLDER` simulates the matches again, and
-    compares results and table. The exit status is 1 if a match has no result, or does not fit.
+    does not start, crashes, hangs or breaks the access rules forfeits. `touchline tournament verify FOLDER` simulates
+    the matches again, and compares digests, results and table. The exit status is 1 if a match has no result, or does
+    not fit. `touchline tournament digest my_team:MyTeam` prints the digest of a team's files.
 
     Example: touchline tournament matches/cup.toml --web
     """
@@ -49,55 +69,55 @@ def tournament(
     if str(file) == VERIFY:
         if folder is None:
             raise TouchlineError("verify needs the folder of a cup: touchline tournament verify runs/cup")
-        _verify(folder, jobs, sample, json=json)
+        _verify(folder, jobs, sample or None, brains, json=json)
+        return
+    if str(file) == DIGEST:
+        if folder is None:
+            raise TouchlineError("digest needs a brain: touchline tournament digest my_team:MyTeam")
+        _print_digest(str(folder))
         return
     if folder is not None:
         raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
-    from touchline.scheduling.child_processes import cores
-    from touchline.tournament.cup_config import SignificanceConfig, load_cup
-    from touchline.tournament.playing.run_cup import CupRun
-    from touchline.tournament.progress import progress_of
-    from touchline.tournament.ratings import need_scipy
+    from touchline.scheduling.executors.chosen_executor import chosen_executor
+    from touchline.scheduling.progress import progress_of
+    from touchline.tournament.run_cup import CupRun
     from touchline.tournament.serve import served
 
-    if jobs < 0:
-        raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
+    cup = _cup_of(file, until_significant)
+    place = out or Path("runs") / cup.name
+    with ExitStack() as stack:
+        chosen = stack.enter_context(chosen_executor(jobs, dask))
+        run = stack.enter_context(closing(CupRun(cup, file.parent.resolve(), place, resume=resume)))
+        if web:
+            typer.echo(f"pages  {stack.enter_context(served(place, port))}", err=json)
+        state, interrupted = run.state, False
+        failed = sum(one.reason is not None for match in state.matches if (one := match.ended) is not None)
+        try:
+            with progress_of(
+                len(state.due), cup.title or cup.name, at_once=chosen.at_once, failed=failed, json=json
+            ) as progress:
+                state = run.play(chosen.executor, progress, chosen.remote)
+        except KeyboardInterrupt:
+            interrupted, state = True, run.state
+    _print(state, place, json=json)
+    if interrupted:
+        typer.echo(f"interrupted; --resume goes on with the matches that are missing in {place}", err=True)
+        raise typer.Exit(128 + signal.SIGINT)
+    if not state.is_complete:
+        raise typer.Exit(FAILED)
+
+
+def _cup_of(file: Path, until_significant: int | None) -> "CupConfig":
+    from touchline.tournament.cup_config import SignificanceConfig, load_cup
+    from touchline.tournament.ratings import need_scipy
+
     cup = load_cup(file)
     if until_significant is not None:
         changes = {"until_significant": SignificanceConfig(budget=until_significant)}
         cup = type(cup).model_validate(cup.model_copy(update=changes).model_dump())
     if cup.until_significant is not None:
         need_scipy("until_significant")
-    place = out or Path("runs") / cup.name
-    with ExitStack() as stack:
-        run = stack.enter_context(closing(CupRun(cup, file.parent.resolve(), place, resume=resume)))
-        if web:
-            typer.echo(f"pages  {stack.enter_context(served(place, port))}", err=json)
-        state, interrupted = run.state, False
-        try:
-            with progress_of(state) as report:
-
-                def ended(now: "CupState", slot: "Slot", end: "Ended") -> None:
-                    report(now, _sentence(slot, end))
-
-                state = run.play(jobs or cores(), ended)
-        except KeyboardInterrupt:
-            interrupted, state = True, run.state
-    _print(state, place, json=json)
-    if interrupted:
-        raise typer.Exit(128 + signal.SIGINT)
-    if not state.is_complete:
-        raise typer.Exit(FAILED)
-
-
-def _sentence(slot: "Slot", end: "Ended") -> str:
-    """One line on a match that has ended."""
-    from touchline.tournament.site.links import score_text
-
-    cyan, magenta = slot.sides
-    score = score_text(end.result, cyan) if end.result is not None else "failed"
-    reason = f"   {end.reason}" if end.reason is not None else ""
-    return f"{slot.name}: {cyan} {score} {magenta}{reason}"
+    return cup
 
 
 def _print(state: "CupState", folder: Path, *, json: bool) -> None:
@@ -110,17 +130,41 @@ def _print(state: "CupState", folder: Path, *, json: bool) -> None:
     typer.echo(f"pages  {folder / 'index.html'}")
 
 
-def _verify(folder: Path, jobs: int, sample: int, *, json: bool) -> None:
-    from touchline.scheduling.child_processes import cores
-    from touchline.tournament.playing.verify_cup import verify_cup
+def _print_digest(brain: str) -> None:
+    """Print the digest of the files of a brain in the current directory.
 
-    faults, checked = verify_cup(folder, jobs or cores(), sample)
+    Raises:
+        TouchlineError: there is no such file.
+    """
+    from schemas.side import Side
+    from touchline.launch.team_code import team_code
+    from touchline.scheduling.code_digest import code_digest
+    from touchline.tournament.cup_config import CupConfig, TeamEntry
+    from touchline.tournament.cup_plan import config_with
+
+    teams = [TeamEntry(name=name, brain=brain) for name in ("one", "other")]
+    config = config_with(teams[0], CupConfig(teams=teams))
+    if not team_code(config, Side.CYAN, Path.cwd()).own:
+        raise TouchlineError(f"{brain}: no file of it is in {Path.cwd()}; a digest is for a team's own files")
+    typer.echo(code_digest(config, Side.CYAN, Path.cwd()))
+
+
+def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *, json: bool) -> None:
+    from touchline.scheduling.executors.chosen_executor import chosen_executor
+    from touchline.scheduling.progress import progress_of
+    from touchline.tournament.verify_cup import verify_cup
+
+    with (
+        chosen_executor(jobs, None) as chosen,
+        progress_of(0, f"verify {folder.name}", at_once=chosen.at_once, json=json) as progress,
+    ):
+        verdict = verify_cup(folder, chosen.executor, sample, brains, progress)
     if json:
-        content: dict[str, Any] = {"checked": checked, "faults": faults}
-        typer.echo(json_text.dumps(content, ensure_ascii=False))
+        typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:
-        for fault in faults:
-            typer.echo(fault)
-        typer.echo(f"{checked} matches simulated again, {len(faults) or 'no'} fault{'s' if len(faults) != 1 else ''}")
-    if faults:
+        for line in (*verdict.notes, *verdict.faults):
+            typer.echo(line)
+        faults = f"{len(verdict.faults) or 'no'} fault{'s' if len(verdict.faults) != 1 else ''}"
+        typer.echo(f"{verdict.simulated} matches simulated again, {verdict.ticks} ticks, {faults}")
+    if verdict.faults:
         raise typer.Exit(FAILED)

@@ -2,6 +2,7 @@
 
 import io
 import re
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -16,7 +17,10 @@ from touchline.experiment.cells import Cell, level_text
 from touchline.experiment.match_figures import DIFFERENCE
 from touchline.experiment.sentences import response_text
 
-_SIZE = (5.2, 3.4)
+_SIZE = (4.2, 3.0)
+"""Width and height in inches: small, so that the texts can be read where a phone scales the plot down."""
+_LABEL_WIDTH = 26
+"""Most letters in a line of an axis label."""
 _STYLE: Any = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 11, "axes.axisbelow": True}
 _COLOURS = ("#0b6e75", "#b3306e", "#7a5c00", "#3b4cc0", "#5b7f2a", "#8a4b2f")
 _MARKERS = "osD^vP"
@@ -46,11 +50,11 @@ def plot_of_means(means: pd.DataFrame, cells: Sequence[Cell], response: str) -> 
         axes.set_xticks(range(len(levels)), levels)
         axes.set_xlim(-0.5, len(levels) - 0.5)
         axes.set_xlabel(axis)
-        axes.set_ylabel(response_text(response))
+        axes.set_ylabel(textwrap.fill(response_text(response), _LABEL_WIDTH))
         if response.endswith(DIFFERENCE):
             axes.axhline(0, color="#666", linewidth=0.8)
         if any(lines):
-            axes.legend(fontsize=9, frameon=False, loc="best")
+            axes.legend(fontsize=9, frameon=False, loc="lower left", bbox_to_anchor=(0, 1), ncols=2)  # above all points
         return _svg(figure)
 
 
@@ -67,7 +71,7 @@ def plot_of_comparisons(comparisons: Sequence[Comparison], response: str) -> str
             axes.plot([estimate.value], [place], "o", color=colour, markersize=6)
         axes.set_yticks(range(len(comparisons)), [_wrapped(one) for one in reversed(comparisons)], fontsize=9)
         axes.set_ylim(-0.6, len(comparisons) - 0.4)
-        axes.set_xlabel(response_text(response))
+        axes.set_xlabel(textwrap.fill(response_text(response), 2 * _LABEL_WIDTH))
         return _svg(figure)
 
 

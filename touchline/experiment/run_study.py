@@ -1,6 +1,7 @@
 """Runs a study to its end on an executor, and writes results and report."""
 
 import json
+import shutil
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -14,15 +15,14 @@ from touchline.experiment.report import report_of
 from touchline.experiment.result_table import result_table
 from touchline.experiment.study_folder import REPORT, VERSIONS, write_digests, write_plan, write_results
 from touchline.experiment.study_plan import StudyPlan
-from touchline.play import InProcessMatch
+from touchline.experiment.team_checks import check_study_teams
 from touchline.scheduling.outcome import Failed, Outcome, Played
+from touchline.scheduling.outcomes import Outcomes
 from touchline.scheduling.plan import Plan
 from touchline.scheduling.planned_match import PlannedMatch
-from touchline.scheduling.run import Remote, Store, run_plan
+from touchline.scheduling.run import Remote, Reporter, Store, run_plan
 from touchline.scheduling.store import FILE, RunStore
 
-Ended = Callable[[PlannedMatch, Outcome], None]
-"""Called with each match that has ended, and its outcome."""
 _CODE = "code"
 """Name of the document with the digests of all code, in the state of a run."""
 
@@ -40,7 +40,7 @@ def run_study(
     plan: StudyPlan,
     folder: Path,
     executor: Executor,
-    ended: Ended,
+    report: Reporter,
     *,
     fresh: bool = False,
     remote: Remote | None = None,
@@ -52,7 +52,7 @@ def run_study(
         MatchFailedError: no match was played to its end.
     """
     functions = load_functions(plan.study.functions, plan.brain_folder)
-    engine = _engine(plan)
+    engine = check_study_teams(plan)
     code = {"touchline": library_digest(), **team_digests(plan.cells, plan.brain_folder)}
     if fresh:
         (folder / FILE).unlink(missing_ok=True)
@@ -60,13 +60,13 @@ def run_study(
     (folder / VERSIONS).write_text(as_text(versions(engine)), "utf-8")
     with RunStore(folder) as store:
         _check_code(store, code)
-        outcomes = play_measured(plan, plan, store, executor, functions, ended, remote)
+        outcomes = play_measured(plan, plan, store, executor, functions, report, remote)
     seeds = plan.seeds_due(outcomes)
     failed = _failed(plan, seeds, outcomes)
     if len(failed) == len(plan.matches(seeds)):
         raise MatchFailedError(f"all {len(failed)} matches failed: {failed[0].reason}; mend it and run with --fresh")
-    write_results(folder, plan, seeds, outcomes)
     table = result_table(plan, seeds, outcomes)
+    write_results(folder, table)
     (folder / REPORT).write_text(report_of(plan, table, seeds, failed, versions(engine)), "utf-8")
     write_digests(folder, seeds, code)
     return StudyResult(seeds, len(table), failed)
@@ -78,43 +78,34 @@ def play_measured(
     store: Store,
     executor: Executor,
     functions: Mapping[str, Callable[..., Any]],
-    ended: Ended,
+    report: Reporter,
     remote: Remote | None = None,
-) -> dict[str, Outcome]:
+) -> Outcomes:
     """Play all that is due, and apply the study's functions to each recording."""
 
     def add(outcome: Outcome) -> None:
-        if functions and isinstance(outcome, Played) and outcome.recording is not None:
+        if isinstance(outcome, Played) and outcome.recording is not None:
             study.measured[outcome.identity] = measure(functions, store.folder / outcome.recording)
 
-    class Reporter:
-        """Measures each recording as soon as it is there."""
+    class Measuring:
+        """Measures each recording as soon as it is there, and removes the logs of matches that were played."""
 
         def planned(self, done: int, due: int) -> None:
-            """Nothing to be shown: each match is reported as it ends."""
+            """Show how many matches there are."""
+            report.planned(done, due)
 
         def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-            """Measure a match, and pass it on."""
+            """Measure a match, and show it."""
+            if functions:
+                add(outcome)
+            if isinstance(outcome, Played) and planned.logs is not None:
+                shutil.rmtree(planned.logs, ignore_errors=True)
+            report.ended(planned, outcome)
+
+    if functions:
+        for outcome in store.outcomes().values():
             add(outcome)
-            ended(planned, outcome)
-
-    for outcome in store.outcomes().values():
-        add(outcome)
-    return run_plan(due, executor, store, Reporter(), remote=remote)
-
-
-def _engine(plan: StudyPlan) -> dict[str, str]:
-    """The fingerprint of the engine; builds each cell's first match, so that an error is reported before any is played.
-
-    Raises:
-        TouchlineError: a team cannot be loaded, or a number is invalid.
-    """
-    engine: dict[str, str] = {}
-    for match in plan.matches(plan.study.first_seeds[:1]):
-        built = InProcessMatch(match.config, brain_folder=plan.brain_folder)
-        engine = built.simulation.setup().engine
-        built.close()
-    return engine
+    return run_plan(due, executor, store, Measuring(), remote=remote)
 
 
 def _check_code(store: RunStore, code: Mapping[str, str]) -> None:

@@ -3,13 +3,14 @@
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError
 from schemas.wire.message import Name, Part
+from touchline.scheduling.planned_match import Way
 from touchline.series.seeds import seeds_of
 
 FunctionPath = Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")]
@@ -21,6 +22,8 @@ REMEDIES = {
     "cells": 'write [[cells]] above each cell, and below it key = level, for example "radio.loss" = 0.2',
     "settings": "write [settings], and below it keys of a match file",
     "functions": 'write name = "module:function" below [functions]',
+    "way": '"in_process" or "processes"',
+    "record": 'true, false or "inputs"',
     "responses": 'names of figures, for example ["goals.difference", "goals"]',
     "until_interval": "width of the interval of the first response, above 0",
     "most_seeds": "most seeds of a cell, from 2",
@@ -45,6 +48,8 @@ class Study(Part):
     """Seeds of each cell: the same ones in all cells."""
     both_sides: bool = True
     """Each seed is played twice, the second time with the teams on each other's side."""
+    way: Way = Way.IN_PROCESS
+    """How the matches are played: each in one process, or with processes, for teams whose programs need them."""
     settings: dict[str, Any] = Field(default_factory=dict)
     """Keys of the match file with the value that they have in all cells."""
     factors: dict[str, Annotated[list[Any], Field(min_length=1)]] = Field(default_factory=dict)
@@ -55,8 +60,9 @@ class Study(Part):
     """Figures that the report compares; the table of results has all figures. The first is the primary one."""
     functions: dict[Name, FunctionPath] = Field(default_factory=dict)
     """Name of a response → `module:function`, which is called with the recording of a match and returns a number."""
-    record: bool = False
-    """Each match leaves its recording in the folder of the study."""
+    record: bool | Literal["inputs"] = False
+    """Each match leaves its recording in the folder of the study; `inputs` for one that has no more than it takes to
+    simulate the match again."""
     until_interval: Annotated[float, Field(gt=0)] | None = None
     """Seeds are added until the 95 % interval of the primary response is at most this wide; None for `seeds` alone."""
     most_seeds: Annotated[int, Field(ge=2, le=100_000)] = 200
@@ -93,6 +99,8 @@ class Study(Part):
         for cell in self.cells:
             if set(cell) != set(self.cells[0]):
                 raise ValueError(f"cells have different keys, {_keys(self.cells[0])} and {_keys(cell)}; give each all")
+        if self.functions and self.record == "inputs":
+            raise ValueError('record is "inputs", and functions need whole recordings; leave record out')
         varied = [*self.factors, *(self.cells[0] if self.cells else ())]
         if doubled := next((key for key in varied if key in self.settings), None):
             raise ValueError(f"{doubled} is both a setting and varied; leave one out")

@@ -14,10 +14,8 @@ from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from touchline.experiment.cells import Cell
 from touchline.experiment.digests import as_text, file_digest
-from touchline.experiment.result_table import result_table
 from touchline.experiment.study_config import Study
 from touchline.experiment.study_plan import RECORDINGS, StudyPlan
-from touchline.scheduling.outcome import Outcome
 
 PLAN, VERSIONS, DIGESTS = "plan.json", "versions.json", "digests.json"
 CSV, PARQUET, REPORT = "results.csv", "results.parquet", "report.html"
@@ -71,9 +69,8 @@ def read_plan(folder: Path) -> StudyPlan:
     return StudyPlan(study, cells, (folder / home).resolve() if home is not None else None)
 
 
-def write_results(folder: Path, plan: StudyPlan, seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> None:
+def write_results(folder: Path, table: pd.DataFrame) -> None:
     """Write the table of results as CSV and Parquet."""
-    table = result_table(plan, seeds, outcomes)
     (folder / CSV).write_bytes(csv_bytes(table))
     table.to_parquet(folder / PARQUET, index=False)
 

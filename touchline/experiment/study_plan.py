@@ -13,12 +13,15 @@ from touchline.experiment.cells import Cell
 from touchline.experiment.match_figures import Value
 from touchline.experiment.result_table import result_table
 from touchline.experiment.study_config import Study
+from touchline.scheduling.inputs_only import with_inputs_only
 from touchline.scheduling.outcome import Outcome
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.series.plan import with_sides_swapped
 
 RECORDINGS = "recordings"
 """The folder of the recordings, in that of a study."""
+LOGS = "logs"
+"""The folder of the logs of matches that failed, in that of a study."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +56,15 @@ class StudyPlan:
     cells: Sequence[Cell]
     brain_folder: Path | None = None
     """Where brains and functions are looked for first."""
-    recordings: Path | None = None
-    """The folder that gets the recordings, where the study wants any."""
+    folder: Path | None = None
+    """The folder of the study, which gets recordings, where it wants any, and logs; None for neither."""
     measured: dict[str, Mapping[str, Value]] = field(default_factory=dict, repr=False, compare=False)
     """Identity of a match → values of the study's functions."""
-    _swapped: dict[int, MatchConfig] = field(default_factory=dict, repr=False, compare=False)
+    _swapped: dict[int, MatchConfig] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _of_seeds: dict[int, tuple[StudyMatch, ...]] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _planned: dict[str, PlannedMatch] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _narrow: dict[int, bool] = field(init=False, default_factory=dict, repr=False, compare=False)
+    """Number of seeds, all of which were played → whether the interval is narrow enough."""
 
     def due(self, outcomes: Mapping[str, Outcome]) -> list[PlannedMatch]:
         """All matches that can be played now and have no outcome; none when the study is complete."""
@@ -67,9 +74,17 @@ class StudyPlan:
 
     def planned(self, match: StudyMatch) -> PlannedMatch:
         """The match as it is played."""
-        wants = self.recordings is not None and (self.study.record or self.study.functions)
-        path = self.recordings / recording_name(match.identity) if wants and self.recordings is not None else None
-        return PlannedMatch(match.config, brain_folder=self.brain_folder, recording=path, label=match.title)
+        if match.identity not in self._planned:
+            wants = self.folder is not None and (self.study.record or self.study.functions)
+            self._planned[match.identity] = PlannedMatch(
+                with_inputs_only(match.config) if self.study.record == "inputs" else match.config,
+                way=self.study.way,
+                brain_folder=self.brain_folder,
+                recording=self.folder / recording_name(match.identity) if wants and self.folder is not None else None,
+                logs=self.folder / LOGS / match.identity if self.folder is not None else None,
+                label=match.title,
+            )
+        return self._planned[match.identity]
 
     def seeds_due(self, outcomes: Mapping[str, Outcome]) -> list[int]:
         """The seeds to be played, in view of the outcomes so far.
@@ -85,14 +100,20 @@ class StudyPlan:
             matches = self.matches(seeds)
             if any(one.identity not in outcomes for one in matches):
                 break
-            if is_narrow(result_table(self, seeds, outcomes), self.study, self.study.until_interval):
+            if number not in self._narrow:
+                table = result_table(self, seeds, outcomes)
+                self._narrow[number] = is_narrow(table, self.study, self.study.until_interval)
+            if self._narrow[number]:
                 break
             number = min(most, number + len(first))
         return self._all_seeds[:number]
 
     def matches(self, seeds: Sequence[int]) -> list[StudyMatch]:
         """The matches of these seeds, seed by seed, so that pairs are complete early."""
-        return [match for seed in seeds for match in self._of_seed(seed)]
+        for seed in seeds:
+            if seed not in self._of_seeds:
+                self._of_seeds[seed] = tuple(self._of_seed(seed))
+        return [match for seed in seeds for match in self._of_seeds[seed]]
 
     def _of_seed(self, seed: int) -> Iterator[StudyMatch]:
         for number, cell in enumerate(self.cells):

@@ -1,7 +1,6 @@
-"""Checks a study that was played: digests, results and recordings, and matches that are played again."""
+"""Checks a study that was played: digests, results and recordings, and matches that are simulated again."""
 
-import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,26 +9,23 @@ from typing import Any
 
 import pandas as pd
 
-from recordings.reading.recording import open_recording
-from recordings.stats.match_statistics import figures_of_recording
-from schemas.errors import TouchlineError
+from schemas.side import Side
 from touchline.experiment.digests import file_digest, library_digest, team_digests
-from touchline.experiment.match_figures import by_team, flat_figures
-from touchline.experiment.recording_functions import load_functions
+from touchline.experiment.match_figures import FIRST, SECOND
+from touchline.experiment.recording_functions import load_functions, measure
 from touchline.experiment.result_table import result_table
-from touchline.experiment.run_study import Ended, play_measured
-from touchline.experiment.study_folder import (
-    CSV,
-    DIGESTS,
-    PARQUET,
-    StoredStudy,
-    csv_bytes,
-    read_study,
-)
-from touchline.experiment.study_plan import RECORDINGS, StudyMatch, StudyPlan, recording_name
-from touchline.scheduling.outcome import Failed, Outcome
+from touchline.experiment.study_folder import CSV, DIGESTS, PARQUET, StoredStudy, csv_bytes, read_study
+from touchline.experiment.study_plan import StudyMatch, recording_name
+from touchline.scheduling.outcome import Outcome, Played
+from touchline.scheduling.outcomes import Outcomes
 from touchline.scheduling.plan import ListPlan
+from touchline.scheduling.planned_match import PlannedMatch
+from touchline.scheduling.run import run_plan
 from touchline.scheduling.store import MemoryStore
+from touchline.scheduling.verify import Depth, MatchCheck, sampled, verify_run
+
+Checked = Callable[[MatchCheck], None]
+"""Called with what was found about each match."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,45 +37,114 @@ class Verdict:
     notes: list[str]
     """What differs without being a fault, such as another version of this library."""
     played_again: int
+    """Matches that were simulated again from their recordings, or played again."""
     byte_identical: bool | None
-    """Whether the whole table of results is the same to the byte; None if only a sample was played again."""
+    """Whether the whole table of results is the same to the byte; None if not all figures were computed again."""
+
+
+@dataclass(frozen=True, slots=True)
+class ResultRow:
+    """What the table of results says of a match."""
+
+    chain: str
+    goals: Mapping[Side, int]
+    recording: str | None = None
+    """Path of its recording in the folder of the study; None to play the match again."""
 
 
 def verify_study(
-    folder: Path, executor: Executor, sample: int | None, brain_folder: Path | None, ended: Ended
+    folder: Path,
+    executor: Executor,
+    sample: int | None,
+    brain_folder: Path | None,
+    checked: Checked,
+    *,
+    from_recordings: bool = True,
 ) -> Verdict:
-    """Check the files of a study, and play a random sample of its matches again, or all of them.
+    """Check the files of a study, and simulate a random sample of its matches again, or all of them.
+
+    Args:
+        folder: that of the study.
+        executor: where matches are simulated.
+        sample: number of matches; None for all.
+        brain_folder: where brains and functions are looked for; None as then.
+        checked: is told of each match.
+        from_recordings: simulate a match from its recording, where there is one, instead of playing it again.
 
     Raises:
         TouchlineError: the folder has no study that was played.
     """
     stored = read_study(folder)
     home = brain_folder or stored.plan.brain_folder
-    faults = [*_file_faults(stored), *_table_faults(stored), *_recording_faults(stored)]
-    distinct = {match.identity: match for match in stored.plan.matches(stored.seeds)}
-    matches = list(distinct.values())
-    chosen = matches if sample is None else random.Random(0).sample(matches, min(sample, len(matches)))
+    functions = load_functions(stored.plan.study.functions, home)
+    faults = [*_file_faults(stored), *_table_faults(stored)]
+    matches = {match.identity: match for match in stored.plan.matches(stored.seeds)}
+    rows = dict(_rows(stored, matches.values(), from_recordings=from_recordings))
     with TemporaryDirectory() as scratch:
-        plan = replace(stored.plan, brain_folder=home, recordings=Path(scratch), measured={})
-        outcomes = _played_again(plan, chosen, Path(scratch), executor, ended)
-    again = result_table(plan, stored.seeds, outcomes)
+        plan = replace(stored.plan, brain_folder=home, folder=Path(scratch), measured={})
+        chosen = sampled([plan.planned(match) for match in matches.values()], sample)
+        outcomes = Outcomes()
+        for check in _checks(chosen, rows, folder, executor, Depth(recordings=bool(functions))):
+            faults += [f"{check.label}: {fault}" for fault in check.faults]
+            if check.again is not None:
+                outcomes[check.identity] = check.again
+                if functions and check.again.recording is not None:
+                    plan.measured[check.identity] = measure(functions, Path(check.again.recording))
+            checked(check)
+        again = result_table(plan, stored.seeds, outcomes)
+    newer = [name for name in again.columns if name not in stored.table.columns]
+    again = again.drop(columns=newer)
     faults += [
-        fault for match in chosen for fault in _match_faults(match, outcomes[match.identity], stored.table, again)
+        fault
+        for planned in chosen
+        if planned.identity in rows and planned.identity in outcomes
+        for fault in _figure_faults(matches[planned.identity], stored.table, again)
     ]
     whole = None
-    if sample is None:
+    if sample is None and len(outcomes) == len(rows):
         whole = csv_bytes(again) == (folder / CSV).read_bytes()
         if not whole and not faults:
-            faults.append(f"{CSV} differs from the table of the matches that were played again")
-    return Verdict(faults, _notes(stored, home), len(chosen), whole)
+            faults.append(f"{CSV} differs from the table of the matches that were simulated again")
+    notes = [*_notes(stored, home), *(f"{name} is a figure that the study does not have" for name in newer)]
+    return Verdict(faults, notes, len(chosen), whole)
 
 
-def _played_again(
-    plan: StudyPlan, matches: Sequence[StudyMatch], folder: Path, executor: Executor, ended: Ended
-) -> dict[str, Outcome]:
-    functions = load_functions(plan.study.functions, plan.brain_folder)
-    due = ListPlan(tuple(plan.planned(match) for match in matches))
-    return play_measured(plan, due, MemoryStore(folder), executor, functions, ended)
+def _rows(
+    stored: StoredStudy, matches: Iterable[StudyMatch], *, from_recordings: bool
+) -> Iterator[tuple[str, ResultRow]]:
+    """The identities of the matches that have a row, and what it says."""
+    known = set(stored.table["identity"])
+    for match in matches:
+        if match.identity not in known:
+            continue
+        row, path = _row(stored.table, match), recording_name(match.identity)
+        goals = pd.to_numeric(pd.Series([row.get(f"{team}.goals") for team in (FIRST, SECOND)]), errors="coerce")
+        counted = dict(zip(match.sides, goals.fillna(-1).astype(int), strict=True))
+        recorded = from_recordings and (stored.folder / path).exists()
+        yield match.identity, ResultRow(str(row["chain"]), counted, path if recorded else None)
+
+
+def _checks(
+    chosen: Sequence[PlannedMatch], rows: Mapping[str, ResultRow], folder: Path, executor: Executor, depth: Depth
+) -> Iterator[MatchCheck]:
+    """Check matches with a row against it; a match without one has failed, and should fail again."""
+    yield from verify_run([one for one in chosen if one.identity in rows], rows, folder, executor, lambda _: depth)
+    failed = {one.identity: one for one in chosen if one.identity not in rows}
+
+    class Silent:
+        """Shows nothing."""
+
+        def planned(self, done: int, due: int) -> None:
+            """Nothing to show."""
+
+        def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+            """Nothing to show."""
+
+    with TemporaryDirectory() as scratch:
+        again = run_plan(ListPlan(tuple(failed.values())), executor, MemoryStore(Path(scratch)), Silent())
+    for identity, outcome in again.items():
+        faults = ("has no result, and was played to its end again",) if isinstance(outcome, Played) else ()
+        yield MatchCheck(identity, failed[identity].label, faults)
 
 
 def _file_faults(stored: StoredStudy) -> Iterator[str]:
@@ -102,43 +167,14 @@ def _table_faults(stored: StoredStudy) -> Iterator[str]:
             yield f"{CSV}: cell {row.cell}, seed {row.seed}: {row.identity} is no match of the plan"
 
 
-def _recording_faults(stored: StoredStudy) -> Iterator[str]:
-    """The goals in the table are those in the recordings."""
-    if not (stored.folder / RECORDINGS).exists():
-        return
-    known = set(stored.table["identity"])
-    for match in stored.plan.matches(stored.seeds):
-        path = stored.folder / recording_name(match.identity)
-        if not path.exists() or match.identity not in known:
-            continue
-        try:
-            figures = by_team(flat_figures(figures_of_recording(open_recording(path))), match.sides)
-        except TouchlineError as error:
-            yield f"{match.title}: {error}"
-            continue
-        row = _row(stored.table, match)
-        for name in ("first.goals", "second.goals"):
-            if row[name] != figures[name]:
-                yield f"{match.title}: {name} is {row[name]:g} in {CSV} and {figures[name]} in {path.name}"
-
-
-def _match_faults(match: StudyMatch, outcome: Outcome, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
-    known = not rows.empty and match.identity in set(rows["identity"])
-    if isinstance(outcome, Failed):
-        if known:
-            yield f"{match.title}: has a result, and failed when it was played again: {outcome.reason}"
-        return
-    if not known:
-        yield f"{match.title}: has no result, and was played to its end again"
-        return
+def _figure_faults(match: StudyMatch, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
+    """The figures of a match are those of the table; its hash chain is not compared here."""
     stored_row, new = _row(rows, match), _row(again, match)
-    if stored_row["chain"] != new["chain"]:
-        yield f"{match.title}: another match: hash chain {new['chain']} in place of {stored_row['chain']}"
     different = [name for name in new.index if name != "chain" and not _equal(stored_row.get(name), new[name])]
     if different:
         name = different[0]
         more = f", and {len(different) - 1} more figures" if len(different) > 1 else ""
-        yield f"{match.title}: {name} is {stored_row.get(name)} in {CSV} and {new[name]} when played again{more}"
+        yield f"{match.title}: {name} is {stored_row.get(name)} in {CSV} and {new[name]} when simulated again{more}"
 
 
 def _row(table: pd.DataFrame, match: StudyMatch) -> "pd.Series[Any]":

@@ -11,8 +11,9 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import BinaryIO
+from typing import IO
 
 from robot_agent.build_check import BuildCheckSettings
 from robot_agent.stdio.command_line import check_command_line
@@ -23,7 +24,9 @@ from schemas.process import leash
 from schemas.process.leash import adopt_orphans
 from schemas.side import Side
 from touchline.launch.confinement import Confinement, team_confinements
+from touchline.launch.fork_server import PATIENCE_S, ForkServer
 from touchline.launch.python_process import PYTHON, module_path_environment
+from touchline.launch.robot_fork import RobotProcess
 from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.run_folder import RUNS
 from touchline.launch.team_error import TeamError
@@ -58,14 +61,17 @@ def check_teams(
             if team.stdio is not None:
                 check_command_line(f"teams.{side.value}.stdio", team.stdio, brain_folder)
     confinements = confinements or team_confinements(config, brain_folder, RUNS)
+    built = [side for side in here if config.team(side).program is None]
     adopt_orphans()
+    server = ForkServer()
+    if not all(confinements[side].is_isolated for side in built):
+        server.prepare(ROBOT_ENVIRONMENT)
     with ExitStack() as running:
         running.callback(UsageWatch().end_left_behind)
         checks = []
-        for side in (side for side in here if config.team(side).program is None):
-            log = running.enter_context(tempfile.TemporaryFile())
+        for side in built:
             folder = Path(running.enter_context(tempfile.TemporaryDirectory(prefix="touchline-")))
-            checks.append(_BuildCheck(config, side, brain_folder, log, confinements[side].in_folder(folder)))
+            checks.append(_BuildCheck(config, side, brain_folder, confinements[side].in_folder(folder), server))
             running.callback(checks[-1].end)
         for check in checks:
             with _blamed_on(check.side):
@@ -96,9 +102,9 @@ class _BuildCheck:
     """The process that builds the brains of one team."""
 
     def __init__(
-        self, config: MatchConfig, side: Side, brain_folder: Path | None, log: BinaryIO, confinement: Confinement
+        self, config: MatchConfig, side: Side, brain_folder: Path | None, confinement: Confinement, server: ForkServer
     ) -> None:
-        """The process writes into `log`."""
+        """An isolated team's process is started by its command line, any other is forked."""
         self.side = side
         self._key = f"teams.{side.value}.brain"
         self._brain = config.team(side).brain
@@ -107,22 +113,17 @@ class _BuildCheck:
         folder = brain_folder.absolute() if brain_folder is not None else None
         settings = BuildCheckSettings(config=config, side=side, brain_folder=folder, launch_folder=Path.cwd())
         named = {"TOUCHLINE_SIDE": side.value, "TOUCHLINE_MATCH": config.name}
-        self._log = log
+        environment = confinement.environment({**ROBOT_ENVIRONMENT, **module_path_environment(), **named})
         confinement.make_folder()
-        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), json.dumps(confinement.own()))
-        check = confinement.command((*PYTHON, "-m", "robot_agent.build_check", "--settings", "-"))
-        own = {**ROBOT_ENVIRONMENT, **module_path_environment(), **named}
-        with tempfile.TemporaryFile() as file:
-            file.write(settings.model_dump_json().encode())
-            file.seek(0)
-            self._popen = subprocess.Popen(
-                [*launcher, *check],
-                env=confinement.environment(own),
-                stdin=file,
-                stdout=self._log,
-                stderr=subprocess.STDOUT,
-                process_group=0,
-            )
+        self._log = tempfile.NamedTemporaryFile(prefix="touchline-")  # noqa: SIM115 - closed by `end`
+        forked = None
+        if not confinement.is_isolated:
+            forked = server.fork_build(settings, environment, confinement.own(), Path(self._log.name))
+        self._process = (
+            _ForkedBuild(*forked)
+            if forked is not None
+            else _LaunchedBuild(settings, environment, confinement, self._log)
+        )
 
     def wait(self, report: Callable[[str], None]) -> None:
         """Wait until the brains are built.
@@ -130,17 +131,15 @@ class _BuildCheck:
         Raises:
             TouchlineError: a brain cannot be built, or takes too long.
         """
-        try:
-            status = self._popen.wait(NOTICE_S)
-        except subprocess.TimeoutExpired:
+        status = self._process.wait(NOTICE_S)
+        if status is None:
             report(f"waiting for {self._brain} to be built")
-            try:
-                status = self._popen.wait(self._patience)
-            except subprocess.TimeoutExpired:
-                raise TouchlineError(
-                    f'{self._key} is "{self._brain}"; its robots were not built within {self._patience:g} s; '
-                    "shorten __init__, or raise patience.attendance in the match file"
-                ) from None
+            status = self._process.wait(self._patience)
+        if status is None:
+            raise TouchlineError(
+                f'{self._key} is "{self._brain}"; its robots were not built within {self._patience:g} s; '
+                "shorten __init__, or raise patience.attendance in the match file"
+            )
         if status != 0:
             raise TouchlineError(self._fault(status))
 
@@ -156,6 +155,62 @@ class _BuildCheck:
 
     def end(self) -> None:
         """End the process and all it started."""
-        with suppress(ProcessLookupError):
-            os.killpg(self._popen.pid, signal.SIGKILL)
+        self._process.end()
+        self._log.close()
+
+
+class _ForkedBuild:
+    """A process of the robots' fork server."""
+
+    def __init__(self, process: RobotProcess, group_ready: Connection) -> None:
+        self._process, self._group_ready = process, group_ready
+
+    def wait(self, seconds: float) -> int | None:
+        """Exit status, negative for a signal; None if it still runs after this time."""
+        self._process.join(seconds)
+        return self._process.exitcode
+
+    def end(self) -> None:
+        """End the process and its group."""
+        self._group_ready.poll(PATIENCE_S)
+        assert self._process.pid is not None
+        _end_group(self._process.pid)
+        self._process.join()
+
+
+class _LaunchedBuild:
+    """A program of its own, confined as the robots of its team."""
+
+    def __init__(
+        self, settings: BuildCheckSettings, environment: Mapping[str, str], confinement: Confinement, log: IO[bytes]
+    ) -> None:
+        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), json.dumps(confinement.own()))
+        check = confinement.command((*PYTHON, "-m", "robot_agent.build_check", "--settings", "-"))
+        with tempfile.TemporaryFile() as file:
+            file.write(settings.model_dump_json().encode())
+            file.seek(0)
+            self._popen = subprocess.Popen(
+                [*launcher, *check],
+                env=environment,
+                stdin=file,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                process_group=0,
+            )
+
+    def wait(self, seconds: float) -> int | None:
+        """Exit status, negative for a signal; None if it still runs after this time."""
+        try:
+            return self._popen.wait(seconds)
+        except subprocess.TimeoutExpired:
+            return None
+
+    def end(self) -> None:
+        """End the process and its group."""
+        _end_group(self._popen.pid)
         self._popen.wait()
+
+
+def _end_group(pid: int) -> None:
+    with suppress(ProcessLookupError):
+        os.killpg(pid, signal.SIGKILL)

@@ -1,4 +1,4 @@
-"""Launches robots with a fork server of the standard library, which has the common modules imported.
+"""Launches robots, and builds brains before, with a fork server of the standard library that has the modules imported.
 
 A robot is launched by its command line instead if the kernel is not Linux, if the robot has its own program, or if it
 is restarted after a crash, or if it is isolated.
@@ -7,14 +7,16 @@ is restarted after a crash, or if it is isolated.
 import os
 import signal
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from multiprocessing import Pipe, resource_tracker
 from multiprocessing.connection import Connection
 from pathlib import Path
 
-from robot_agent.forked import SAFE_PATH, run_forked
+from robot_agent.build_check import BuildCheckSettings
+from robot_agent.forked import SAFE_PATH, build_forked, run_forked
 from robot_agent.settings import AgentSettings
+from schemas.process.leash import OwnConfinement
 from touchline.launch.child_process import (
     ChildProcess,
     ProcessHandle,
@@ -27,7 +29,7 @@ from touchline.launch.python_process import module_path_environment
 from touchline.launch.robot_environment import server_environment
 from touchline.launch.robot_fork import ROBOTS, RobotProcess
 
-_PATIENCE_S = 2.0
+PATIENCE_S = 2.0
 """Wall time for a forked robot to lead its process group; normally a few milliseconds."""
 
 
@@ -49,7 +51,7 @@ class ForkedRobot(ProcessHandle):
         return self._robot.exitcode
 
     def _signal_group(self, number: signal.Signals) -> None:
-        self._group_ready.poll(_PATIENCE_S)
+        self._group_ready.poll(PATIENCE_S)
         super()._signal_group(number)
 
 
@@ -92,15 +94,28 @@ class ForkServer:
         make_folder_of(process)
         with log.open("ab") as out:
             begin = out.tell()
+        started = self._start(run_forked, settings, *confinement_of(process), str(log))
+        return ForkedRobot(process, log, begin, *started) if started is not None else None
+
+    def fork_build(
+        self, settings: BuildCheckSettings, environment: Mapping[str, str], confinement: OwnConfinement, log: Path
+    ) -> tuple[RobotProcess, Connection] | None:
+        """The process that builds a team's brains, and what closes when it leads its group; None without a server.
+
+        `environment` is the whole one of the process; `prepare` has been called.
+        """
+        return self._start(build_forked, settings, environment, confinement, str(log)) if self._can_fork else None
+
+    def _start(self, function: Callable[..., None], *arguments: object) -> tuple[RobotProcess, Connection] | None:
         group_ready, held = Pipe(duplex=False)
-        robot = RobotProcess(target=run_forked, args=(settings, *confinement_of(process), str(log), held))
+        process = RobotProcess(target=function, args=(*arguments, held))
         try:
             with held:
-                robot.start()
+                process.start()
         except (OSError, EOFError):
             self._can_fork = False
             return None
-        return ForkedRobot(process, log, begin, robot, group_ready)
+        return process, group_ready
 
 
 @contextmanager

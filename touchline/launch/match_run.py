@@ -74,13 +74,18 @@ class MatchRun:
         clock: Clock,
         losses: Callable[[MatchPlan], dict[str, int]],
         published: Callable[[MatchPlan], Iterable[ReceivedMessage]],
+        check: Callable[[], None] = lambda: None,
     ) -> None:
-        """`losses` returns the losses of a finished recording, `published` the host's events and last state."""
+        """`losses` returns the losses of a finished recording, `published` the host's events and last state.
+
+        `check` is called while the host starts; what it raises ends the match.
+        """
         self._plan = plan
         self._screen = screen
         self._clock = clock
         self._losses = losses
         self._published = published
+        self._check = check
         self._has_clients = False
         self._names = TeamNames.of_match(plan.config)
         self._remote = RemoteTeams(plan.config)
@@ -110,6 +115,7 @@ class MatchRun:
                 if self._plan.config.isolate is Isolation.NONE:
                     self._fork_server.prepare(ROBOT_ENVIRONMENT)
                     self._limits.add_helpers()
+                self._check()
                 follower = self._follow(stop) if self._launch_clients(stop) else None
                 empty = self._empty_side()
             except BaseException:
@@ -125,7 +131,8 @@ class MatchRun:
             raise InterruptedMatchError(stop.received)
         try:
             if empty is not None:
-                raise TeamLeftError(empty, self._abandonment(empty, follower))
+                has_begun = follower is not None and follower.state is not None
+                raise TeamLeftError(empty, self._abandonment(empty, follower), has_begun=has_begun)
             return self._outcome(follower)
         except BaseException:
             self._supervisor.end(AT_ONCE)
@@ -284,5 +291,4 @@ class MatchRun:
         return replace(MatchResult.of(follower, self._recording()), names=self._names)
 
     def _recording(self) -> RecordingOutcome:
-        ended, log = self._supervisor.ended.get("recorder"), self._supervisor.last_lines("recorder")
-        return outcome_of(self._plan, ended, log, self._losses)
+        return outcome_of(self._plan, *self._supervisor.failure("recorder"), self._losses)

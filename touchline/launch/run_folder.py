@@ -99,13 +99,22 @@ def _why_not_writable(out: Path) -> str:
 
 def _new_folder(stem: str, isolate: Isolation) -> Path:
     """A new folder: two matches of the same second get different folders."""
-    if isolate is not Isolation.USER:
-        return _free_folder(stem)
-    os.umask(0o077)  # logs and recording are for none of the teams' users
+    with_private_files(isolate)
     folder = _free_folder(stem)
-    for one in (folder, folder.parent):
-        one.chmod(one.stat().st_mode | 0o011)  # robots enter their own folders in it
+    let_robots_enter(folder, isolate)
     return folder
+
+
+def with_private_files(isolate: Isolation) -> None:
+    """Let files that this process makes from now on, as logs and recordings, be for none of the teams' users."""
+    if isolate is Isolation.USER:
+        os.umask(0o077)
+
+
+def let_robots_enter(folder: Path, isolate: Isolation) -> None:
+    """Let the teams' users enter their own folders in the folder of a run."""
+    for one in (folder, folder.parent) if isolate is Isolation.USER else ():
+        one.chmod(one.stat().st_mode | 0o011)
 
 
 def _free_folder(stem: str) -> Path:

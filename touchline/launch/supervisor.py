@@ -95,7 +95,9 @@ class Supervisor:
         self._running: dict[str, RunningProcess] = {}
         self._restarts: Counter[str] = Counter()
         self.ended: dict[str, int] = {}
-        """Name → exit status of the processes that ended and were not restarted."""
+        """Name → exit status of the processes that ended and were not restarted, in the order in which they ended."""
+        self._crashes: dict[str, tuple[int, list[str]]] = {}
+        """Name → exit status and last lines of the newest crash after which a process was restarted."""
 
     def start(self) -> None:
         """Launch all processes, in their order."""
@@ -145,6 +147,17 @@ class Supervisor:
     def last_lines(self, name: str) -> list[str]:
         """The last lines of a process's log."""
         return self._running[name].last_lines() if name in self._running else []
+
+    def failure(self, name: str) -> tuple[int | None, list[str]]:
+        """Exit status and last lines of a process: None and none if it was not started.
+
+        A process that was restarted and failed after the end of the host found no host any more. Its failure is the
+        crash after which it was restarted.
+        """
+        ends, status = list(self.ended), self.ended.get(name)
+        if status and name in self._crashes and "host" in ends[: ends.index(name)]:
+            return self._crashes[name]
+        return status, self.last_lines(name)
 
     def end(
         self,
@@ -196,6 +209,7 @@ class Supervisor:
         fails_always = fails_always or _cannot_begin(process, status)
         if self._restarts[process.name] < process.restarts and not fails_always:
             self._restarts[process.name] += 1
+            self._crashes[process.name] = status, self.last_lines(process.name)
             try:
                 self._running[process.name] = self._launch(process.restarted())
             except (TouchlineError, OSError) as error:  # a full disk

@@ -15,6 +15,8 @@ class TeamError(TouchlineError):
 class TeamLeftError(MatchFailedError):
     """A match ended because no robot of a team was left, or came."""
 
-    def __init__(self, side: Side, reason: str) -> None:
+    def __init__(self, side: Side, reason: str, *, has_begun: bool) -> None:
+        """`has_begun` is whether the match had a state."""
         super().__init__(reason)
         self.side = side
+        self.has_begun = has_begun

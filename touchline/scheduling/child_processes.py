@@ -6,6 +6,7 @@ a process that dies costs its own match only.
 
 import os
 import signal
+import tempfile
 import threading
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
@@ -13,20 +14,36 @@ from contextlib import closing, suppress
 from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
+from multiprocessing.connection import wait as wait_for
 from multiprocessing.context import ForkServerProcess
+from pathlib import Path
 from typing import Any, TypeVar
+
+from robot_agent.brain_folders import added_folders, remove_folders
+from touchline.scheduling.process_note import ProcessNote, open_note, read_note
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 Poll = Callable[[], None]
 """Called by the function with each tick: it ends the process when those who wait for its result are gone."""
 
+_PRELOAD = "touchline.scheduling.preload"
+"""What the fork server imports once for all processes; not imported here."""
 _POLL_TICKS = 100
 """Ticks between two checks of whether the result is still wanted."""
+_EXIT_STATUS = threading.Lock()
+"""Held by who starts a process or reads an exit status: starting one reads the status of all that have ended, and of
+two threads that read the same one, the second gets 255."""
 
 
 class DiedProcessError(Exception):
     """The process ended before it had a result; one line."""
+
+    def __init__(self, reason: str, status: int = 0, note: ProcessNote | None = None) -> None:
+        """`status` is that of the process, negative for the signal that ended it; `note` is what it has left."""
+        super().__init__(reason)
+        self.status = status
+        self.note = note or ProcessNote()
 
 
 def cores() -> int:
@@ -49,7 +66,8 @@ class ChildProcesses(Executor):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call the function as soon as fewer than `jobs` processes run."""
-        return self._threads.submit(self._call, partial(fn, *args, **kwargs), fn.__module__)
+        call = partial(_without_folders, added_folders(), partial(fn, *args, **kwargs))
+        return self._threads.submit(self._call, call, fn.__module__)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """End the executor; with `cancel_futures` the processes that run are killed, too."""
@@ -62,23 +80,24 @@ class ChildProcesses(Executor):
 
     def _call(self, call: Callable[[Poll], Any], module: str) -> Any:
         context = get_context("forkserver")
-        context.set_forkserver_preload([module])
+        context.set_forkserver_preload([_PRELOAD, module])
         ours, theirs = context.Pipe()
-        with closing(ours):
-            process = context.Process(target=_run, args=(call, theirs), daemon=True)
+        with closing(ours), tempfile.TemporaryDirectory(prefix="touchline-") as folder:
+            process = context.Process(target=_run, args=(call, theirs, Path(folder)), daemon=True)
             with self._lock:
                 if self._is_closed:
                     raise DiedProcessError("it was not started any more")
-                process.start()
+                with _EXIT_STATUS:
+                    process.start()
                 self._running.add(process)
             theirs.close()
             try:
                 result = ours.recv()
             except EOFError:
-                process.join()
-                raise DiedProcessError(_end_of(process)) from None
+                status = _join(process)
+                raise DiedProcessError(_end_of(status), status, read_note(Path(folder))) from None
             finally:
-                process.join()
+                _join(process)
                 with self._lock:
                     self._running.discard(process)
         if isinstance(result, BaseException):
@@ -111,15 +130,28 @@ def run_in_processes(
         children.shutdown(cancel_futures=True)
 
 
-def _end_of(process: ForkServerProcess) -> str:
-    status = process.exitcode or 0
-    return (
-        f"its process {f'was ended by {signal.Signals(-status).name}' if status < 0 else f'ended with status {status}'}"
-    )
+def _without_folders(folders: tuple[str, ...], call: Callable[[Poll], Result], poll: Poll) -> Result:
+    """Call the function without the folders of brains that the process which waits has on its module path."""
+    remove_folders(folders)
+    return call(poll)
 
 
-def _run(call: Callable[[Poll], Any], connection: Connection) -> None:
-    """The process of an item."""
+def _join(process: ForkServerProcess) -> int:
+    """Wait for the end of a process; returns its exit status."""
+    wait_for([process.sentinel])
+    with _EXIT_STATUS:
+        process.join()
+        return process.exitcode or 0
+
+
+def _end_of(status: int) -> str:
+    how = f"was ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
+    return f"its process {how}"
+
+
+def _run(call: Callable[[Poll], Any], connection: Connection, folder: Path) -> None:
+    """The process of an item; its note is in the folder."""
+    open_note(folder)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that waits, which ends this one
     os.dup2(2, 1)  # what brains print is no part of the result
     try:

@@ -9,7 +9,9 @@ from schemas.config.match_config import MatchConfig
 from schemas.side import Side
 from touchline.launch.team_code import team_code
 
-_SKIPPED = frozenset({"__pycache__", ".git", ".venv", "runs"})
+_CACHES = frozenset({"__pycache__", ".pytest_cache", ".mypy_cache", ".ruff_cache"})
+_SKIPPED = _CACHES | {".git", ".venv", "runs"}
+"""Folders whose content is no part of a team: what tools and matches leave."""
 
 
 def code_digest(config: MatchConfig, side: Side, brain_folder: Path | None = None) -> str:

@@ -4,8 +4,11 @@ Its log is on stderr, the outcome on stdout.
 """
 
 import secrets
+import shutil
+import signal
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from pydantic import Field
@@ -13,7 +16,6 @@ from pydantic import Field
 from recordings.container.key_selection import KeySelection
 from recordings.editing.filtering import filter_recording
 from recordings.reading.recording import open_recording
-from schemas.access.accounts import Account
 from schemas.bus.endpoint import FREE_ENDPOINT
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import RecordingConfig
@@ -21,17 +23,17 @@ from schemas.config.settings import Settings
 from schemas.config.settings_file import run_process
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.process.clock import WallClock
-from schemas.side import Side
 from touchline.launch.check_brains import check_teams
 from touchline.launch.confinement import team_confinements
 from touchline.launch.match_files import losses_of, published_by
-from touchline.launch.match_run import MatchRun
-from touchline.launch.processes import MatchPlan, check_robot_names
-from touchline.launch.run_folder import RECORDING, prepare_credentials
+from touchline.launch.match_run import InterruptedMatchError, MatchRun
+from touchline.launch.processes import CREDENTIALS, MatchPlan, check_robot_names
+from touchline.launch.run_folder import RECORDING, let_robots_enter, prepare_credentials, with_private_files
 from touchline.launch.team_error import TeamError, TeamLeftError
 from touchline.scheduling.inputs_only import KEYS, has_inputs_only
 from touchline.scheduling.measurement import measured
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome, Played, to_json
+from touchline.scheduling.team_faults import fault_of, last_health
 from touchline.watch.screen import PlainScreen
 
 
@@ -64,26 +66,41 @@ def play(settings: MatchProcessSettings) -> Outcome:
         brain_folder=settings.brain_folder,
         launch_token=secrets.token_hex(16),
     )
+    with_private_files(config.isolate)
+    let_robots_enter(settings.folder, config.isolate)
     try:
         check_robot_names(config)
         confinements = team_confinements(config, settings.brain_folder, settings.folder.parent)
-        check_teams(config, settings.brain_folder, confinements=confinements)
         plan = prepare_credentials(replace(plan, confinements=confinements), tls=False)
         clock = WallClock()
-        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by).play()
+        check = partial(check_teams, config, settings.brain_folder, confinements=confinements)
+        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by, check).play()
     except TeamError as error:
         return Failed(identity, FailureKind.DID_NOT_START, str(error), error.side, logs)
     except TeamLeftError as error:
-        return Failed(identity, FailureKind.CRASHED, str(error), error.side, logs)
+        kind = FailureKind.CRASHED if error.has_begun else FailureKind.DID_NOT_START
+        return Failed(identity, kind, str(error), error.side, logs)
     except (TouchlineError, MatchFailedError) as error:
         return Failed(identity, FailureKind.WORKER, str(error), None, logs)
-    culprit = next((side for side in Side if Account.of_team(side).value in result.cut_off), None)
-    if culprit is not None:
-        reason = f"{result.names.with_side(culprit)} was cut off, because it went on above the limits of its account"
-        return Failed(identity, FailureKind.BROKE_ACCESS_RULES, reason, culprit, logs)
+    except InterruptedMatchError as error:
+        reason = f"it was interrupted by {signal.Signals(error.number).name}"
+        return Failed(identity, FailureKind.WORKER, reason, None, logs)
+    finally:
+        _keep_logs_alone(settings.folder)
     if result.recording.fault:
         return Failed(identity, FailureKind.WORKER, result.recording.fault, None, logs)
+    found = fault_of(last_health(open_recording(whole)), config)
+    if found is not None:
+        kind, culprit, reason = found
+        return Failed(identity, kind, reason, culprit, logs)
     return _kept(measured(whole, identity), whole, settings.recording)
+
+
+def _keep_logs_alone(folder: Path) -> None:
+    """Remove credentials and settings from the folder of the logs: that of a cup or a study is published."""
+    shutil.rmtree(folder / CREDENTIALS, ignore_errors=True)
+    for path in folder.glob("*.json"):
+        path.unlink()
 
 
 def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
@@ -98,7 +115,10 @@ def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
 
 def run(settings: MatchProcessSettings) -> int:
     """Play the match, and print its outcome."""
-    sys.stdout.buffer.write(to_json(play(settings)))
+    outcome = play(settings)
+    if isinstance(outcome, Failed):
+        sys.stderr.write(f"{outcome.reason}\n")
+    sys.stdout.buffer.write(to_json(outcome))
     return 0
 
 

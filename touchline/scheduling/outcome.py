@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Annotated
 
-from pydantic import TypeAdapter
+from pydantic import Field, TypeAdapter
 
 from recordings.stats.figures import MatchFigures
 from schemas.side import Side
@@ -17,11 +18,12 @@ class FailureKind(StrEnum):
     CRASHED = "crashed"
     """A brain raised an exception, or no robot of a team was left."""
     HUNG = "hung"
-    """A brain did not answer."""
+    """A brain, or each robot of a team, did not answer."""
     BROKE_ACCESS_RULES = "broke_access_rules"
-    """A team used a key or a right that it does not have, and was cut off."""
+    """A team sent more than the limits of its account allow."""
     WORKER = "worker"
-    """The process or the machine that played the match was lost, again and again."""
+    """The process or the machine that played the match was lost, or could not play it: it is played again when the
+    run goes on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +61,8 @@ class Failed:
 
 
 Outcome = Played | Failed
-_ADAPTER: TypeAdapter[Outcome] = TypeAdapter(Outcome)
+_ADAPTER: TypeAdapter[Outcome] = TypeAdapter(Annotated[Outcome, Field(union_mode="left_to_right")])
+"""Either type has required fields that the other lacks, so the first that fits is the right one."""
 
 
 def to_json(outcome: Outcome) -> bytes:

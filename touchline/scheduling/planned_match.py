@@ -5,10 +5,12 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 from pathlib import Path
 
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.side import Side
+from touchline.scheduling.hang_limit import HANG_S
 
 
 class Way(StrEnum):
@@ -20,7 +22,7 @@ class Way(StrEnum):
     """Host, robots and recorder in processes of their own, over Zenoh: for rivals, and for programs in any language."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PlannedMatch:
     """One match of a plan."""
 
@@ -35,6 +37,8 @@ class PlannedMatch:
     """The file that gets its recording; None for none."""
     logs: Path | None = None
     """The folder that gets the logs of its processes, or the traceback of a brain that raised; None for none."""
+    hang_s: float = HANG_S
+    """Wall time in s for a decision of a brain, or to build it, after which its team hangs: in one process."""
     label: str = ""
     """Its name for people."""
 
@@ -43,7 +47,7 @@ class PlannedMatch:
         """Seed of all random numbers of the match."""
         return self.config.seed
 
-    @property
+    @cached_property
     def identity(self) -> str:
         """A digest of configuration and code: equal for matches with equal results."""
         content = {

@@ -10,13 +10,15 @@ from typing import Any, Protocol
 
 from schemas.errors import TouchlineError
 from touchline.scheduling.child_processes import DiedProcessError
+from touchline.scheduling.in_process import outcome_of_death
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome
+from touchline.scheduling.outcomes import Outcomes
 from touchline.scheduling.plan import Plan
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.worker import Delivery, play_here, play_on_worker
 
-_ATTEMPTS = 2
-"""How often a match is begun whose process or machine is lost. One that is lost again is probably itself the reason."""
+_ATTEMPTS = 3
+"""How often a run begins a match whose process or machine is lost. One that is lost again is probably the reason."""
 
 
 class Reporter(Protocol):
@@ -36,11 +38,14 @@ class Store(Protocol):
     def folder(self) -> Path:
         """The folder of the run."""
 
-    def outcomes(self) -> dict[str, Outcome]:
+    def outcomes(self) -> Outcomes:
         """Identity → outcome of all matches that have ended."""
 
     def add(self, outcome: Outcome, wall_s: float, worker: str) -> None:
         """Store an outcome."""
+
+    def forget_lost(self) -> None:
+        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,10 +64,11 @@ def run_plan(
     *,
     remote: Remote | None = None,
     at_once: int | None = None,
-) -> dict[str, Outcome]:
+) -> Outcomes:
     """Play all that is due until nothing is; returns all outcomes, those of before among them.
 
-    An interruption leaves what is stored: the next call goes on from there.
+    An interruption leaves what is stored: the next call goes on from there. It plays matches again that have failed
+    because their workers were lost.
 
     Args:
         plan: which matches are due.
@@ -72,6 +78,7 @@ def run_plan(
         remote: for executors whose workers do not see the folder of the run.
         at_once: most matches that the executor is given at a time; None for all that are due.
     """
+    store.forget_lost()
     outcomes = store.outcomes()
     running: dict[Future[Any], PlannedMatch] = {}
     lost: Counter[str] = Counter()
@@ -102,7 +109,8 @@ def run_plan(
 def _submitted(planned: PlannedMatch, executor: Executor, folder: Path, remote: Remote | None) -> "Future[Any]":
     if remote is None:
         return executor.submit(play_here, planned)
-    return executor.submit(play_on_worker, planned, folder, remote.keep)
+    home = planned.brain_folder.absolute() if planned.brain_folder is not None else None
+    return executor.submit(play_on_worker, replace(planned, brain_folder=home), folder, remote.keep)
 
 
 def _delivered(future: "Future[Any]", planned: PlannedMatch) -> Delivery:
@@ -110,7 +118,7 @@ def _delivered(future: "Future[Any]", planned: PlannedMatch) -> Delivery:
     try:
         delivery: Delivery = future.result()
     except DiedProcessError as error:
-        return Delivery(Failed(planned.identity, FailureKind.WORKER, str(error)))
+        return Delivery(outcome_of_death(planned, error))
     except TouchlineError:
         raise
     except Exception as error:  # of any library that runs workers: Dask's KilledWorker, a broken pool, an import

@@ -9,7 +9,8 @@ from types import TracebackType
 from typing import Self
 
 from schemas.errors import TouchlineError
-from touchline.scheduling.outcome import Outcome, from_json, to_json
+from touchline.scheduling.outcome import Failed, FailureKind, Outcome, to_json
+from touchline.scheduling.outcomes import Outcomes
 
 FILE = "run.sqlite"
 """The file of a run's state, in its folder."""
@@ -39,6 +40,7 @@ class RunStore:
         try:
             if read_only:
                 self._database = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
+                self._database.execute("SELECT 1 FROM outcomes, documents LIMIT 1")
                 return
             folder.mkdir(parents=True, exist_ok=True)
             self._lock = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
@@ -63,10 +65,9 @@ class RunStore:
         """Store a text of the run."""
         self._database.execute("INSERT OR REPLACE INTO documents VALUES (?, ?)", (name, content))
 
-    def outcomes(self) -> dict[str, Outcome]:
+    def outcomes(self) -> Outcomes:
         """Identity → outcome of all matches that have ended."""
-        rows = self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity")
-        return {identity: from_json(content) for identity, content in rows}
+        return Outcomes(self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity"))
 
     def add(self, outcome: Outcome, wall_s: float = 0.0, worker: str = "") -> None:
         """Store an outcome; it is on disk when this returns. `wall_s` is how long the match took on its worker."""
@@ -78,9 +79,10 @@ class RunStore:
         """Identity → wall time in s from the start of a match to its outcome."""
         return dict(self._database.execute("SELECT identity, wall_s FROM outcomes"))
 
-    def forget(self, identity: str) -> None:
-        """Remove an outcome, so that its match is played again."""
-        self._database.execute("DELETE FROM outcomes WHERE identity = ?", (identity,))
+    def forget_lost(self) -> None:
+        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
+        kind = "json_extract(CAST(content AS TEXT), '$.kind')"
+        self._database.execute(f"DELETE FROM outcomes WHERE {kind} = ?", (FailureKind.WORKER,))
 
     def close(self) -> None:
         """Close the file, and let another process write it."""
@@ -105,13 +107,19 @@ class MemoryStore:
     def __init__(self, folder: Path) -> None:
         """Paths of recordings in `folder` are stored relative to it."""
         self.folder = folder
-        self._outcomes: dict[str, Outcome] = {}
+        self._outcomes = Outcomes()
 
-    def outcomes(self) -> dict[str, Outcome]:
+    def outcomes(self) -> Outcomes:
         """Identity → outcome of all matches that have ended."""
-        return dict(self._outcomes)
+        return self._outcomes.copy()
 
     def add(self, outcome: Outcome, wall_s: float = 0.0, worker: str = "") -> None:
         """Store an outcome."""
         del wall_s, worker
         self._outcomes[outcome.identity] = outcome
+
+    def forget_lost(self) -> None:
+        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
+        for identity, outcome in self.outcomes().items():
+            if isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER:
+                del self._outcomes[identity]

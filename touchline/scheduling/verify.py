@@ -1,24 +1,42 @@
 """Checks a finished run: simulates recordings again, and compares what its table says with them."""
 
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any, Protocol
 
 from recordings.reading.recording import open_recording
+from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.side import Side
 from schemas.topics import APPLIED
-from touchline.scheduling.child_processes import Poll
+from touchline.scheduling.child_processes import DiedProcessError, Poll
 from touchline.scheduling.code_digest import code_digest
 from touchline.scheduling.inputs_only import has_inputs_only
 from touchline.scheduling.measurement import measured
-from touchline.scheduling.outcome import Failed, Outcome, Played
+from touchline.scheduling.outcome import Failed, Played
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.play import play
 from touchline.verify.resimulate import verify
+
+
+class Result(Protocol):
+    """What a table says of a match that was played: an outcome, or a row of a published table."""
+
+    @property
+    def chain(self) -> str:
+        """The hash chain over all states."""
+
+    @property
+    def goals(self) -> Mapping[Side, int]:
+        """The goals of each side."""
+
+    @property
+    def recording(self) -> str | None:
+        """The file of its recording, as that of an outcome."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +49,8 @@ class MatchCheck:
     """Sentences on what does not fit; empty if all does."""
     ticks: int = 0
     """Number of ticks that were simulated again."""
+    again: Played | None = None
+    """The outcome as its recording shows it, or that of the match that was played again; None without either."""
 
 
 def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> list[PlannedMatch]:
@@ -41,77 +61,117 @@ def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> l
     return [one for place, one in enumerate(matches) if place in drawn]
 
 
+@dataclass(frozen=True, slots=True)
+class Depth:
+    """How much of a match is checked; its result is compared with its recording in any case."""
+
+    again: bool = True
+    """It is simulated or played again."""
+    code: bool = True
+    """The files of its teams are compared with their digests."""
+    recordings: bool = False
+    """A match that is played again leaves its recording where its plan says."""
+
+
 def verify_run(
-    matches: list[PlannedMatch], outcomes: Mapping[str, Outcome], folder: Path, executor: Executor
+    matches: list[PlannedMatch],
+    outcomes: Mapping[str, Result | Failed],
+    folder: Path,
+    executor: Executor,
+    depth_of: Callable[[PlannedMatch], Depth] = lambda _: Depth(),
 ) -> Iterator[MatchCheck]:
     """Check each match on the executor; yields each check when it is there.
 
     A match with a recording is simulated again from that. One without is played again, in the way it was planned.
     """
-    futures = [executor.submit(check_match, one, outcomes.get(one.identity), folder) for one in matches]
+    futures = {
+        executor.submit(check_match, one, outcomes.get(one.identity), folder, depth_of(one)): one for one in matches
+    }
     for future in as_completed(futures):
-        yield future.result()
+        try:
+            yield future.result()
+        except DiedProcessError as error:
+            planned = futures[future]
+            yield MatchCheck(planned.identity, planned.label, (f"it could not be checked: {error}",))
 
 
-def check_match(planned: PlannedMatch, outcome: Outcome | None, folder: Path, poll: Poll = lambda: None) -> MatchCheck:
+def check_match(
+    planned: PlannedMatch,
+    outcome: Result | Failed | None,
+    folder: Path,
+    depth: Depth | None = None,
+    poll: Poll = lambda: None,
+) -> MatchCheck:
     """Check one match against its files; `poll` is called while it is played again."""
+    depth = depth or Depth()
     if outcome is None:
         return MatchCheck(planned.identity, planned.label, ("it was not played",))
     faults = [
         f"the files of {planned.config.team(side).name or side.value} have changed since then"
         for side, digest in planned.code.items()
-        if code_digest(planned.config, side, planned.brain_folder) != digest
+        if depth.code and code_digest(planned.config, side, planned.brain_folder) != digest
     ]
     if isinstance(outcome, Failed):
         if outcome.evidence is not None and not (folder / outcome.evidence).exists():
             faults.append(f"its evidence {outcome.evidence} is gone")
         return MatchCheck(planned.identity, planned.label, tuple(faults))
-    ticks = 0
     if outcome.recording is not None:
-        ticks, more = _check_recording(folder / outcome.recording, planned, outcome)
-        faults += more
-    elif not faults:
-        faults += _check_again(planned, outcome, poll)
-    return MatchCheck(planned.identity, planned.label, tuple(faults), ticks)
-
-
-def _check_recording(path: Path, planned: PlannedMatch, outcome: Played) -> tuple[int, list[str]]:
-
-    try:
-        recording = open_recording(path)
-        verdict = verify(path)
-    except TouchlineError as error:
-        return 0, [str(error)]
-    faults = []
-    if verdict.difference is not None:
-        faults.append(f"tick {verdict.difference.tick} is the first that differs: {verdict.difference.why}")
-    elif not verdict.identical:
-        faults.append("not all of its ticks could be compared")
-    unlike = {"record", "patience"}
-    recorded = recording.manifest.config
-    if recorded is None or recorded.model_dump(exclude=unlike) != planned.config.model_dump(exclude=unlike):
-        faults.append("it is the recording of another match: its configuration is not that of the plan")
-    if has_inputs_only(planned.config):
-        chain = _last_chain(path)
-        goals: dict[Side, int] | None = None
+        ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome, simulates=depth.again)
+    elif depth.again and not faults:
+        kept = planned if depth.recordings else replace(planned, recording=None)
+        ticks, more, again = _check_again(kept, outcome, poll)
     else:
-        again = measured(path, planned.identity)
-        chain, goals = again.chain, again.goals
+        return MatchCheck(planned.identity, planned.label, tuple(faults))
+    return MatchCheck(planned.identity, planned.label, (*faults, *more), ticks, again)
+
+
+def _check_recording(
+    path: Path, planned: PlannedMatch, outcome: Result, *, simulates: bool
+) -> tuple[int, list[str], Played | None]:
+    try:
+        recorded = open_recording(path).manifest.config
+        ticks, faults = _simulated(path) if simulates else (0, [])
+        if recorded is None or _compared(recorded) != _compared(planned.config):
+            faults.append("it is the recording of another match: its configuration is not that of the plan")
+        again = None if has_inputs_only(planned.config) else measured(path, planned.identity)
+        chain = again.chain if again is not None else _last_chain(path)
+    except TouchlineError as error:
+        return 0, [str(error)], None
     if chain != outcome.chain:
         faults.append(f"its hash chain ends with {chain}, that of the table with {outcome.chain}")
-    if goals is not None and goals != outcome.goals:
-        faults.append(f"{_score(goals)} is recorded, and {_score(outcome.goals)} in the table")
-    return verdict.ticks, faults
+    if again is not None and again.goals != outcome.goals:
+        faults.append(f"{_score(again.goals)} is recorded, and {_score(outcome.goals)} in the table")
+    elif again is not None and isinstance(outcome, Played) and again.figures != outcome.figures:
+        faults.append("its figures are not those of its recording, such as cards and penalties")
+    return ticks, faults, again
 
 
-def _check_again(planned: PlannedMatch, outcome: Played, poll: Poll) -> list[str]:
+def _compared(config: MatchConfig) -> dict[str, Any]:
+    return config.model_dump(exclude={"record", "patience"})
+
+
+def _simulated(path: Path) -> tuple[int, list[str]]:
+    """The number of ticks that were simulated again, and the first that differs."""
+    verdict = verify(path)
+    if verdict.difference is not None:
+        why = f"tick {verdict.difference.tick} is the first that differs: {verdict.difference.why}"
+        return verdict.ticks, [why]
+    if not verdict.identical:
+        return verdict.ticks, ["; ".join(verdict.contradictions) or "not all of its ticks could be compared"]
+    return verdict.ticks, []
+
+
+def _check_again(planned: PlannedMatch, outcome: Result, poll: Poll) -> tuple[int, list[str], Played | None]:
     """Play a match again that has left no recording."""
     again = play(replace(planned, logs=None), poll)
     if isinstance(again, Failed):
-        return [f"played again, it failed: {again.reason}"]
-    if again.chain != outcome.chain or again.goals != outcome.goals:
-        return [f"played again, it ended {_score(again.goals)}, and {_score(outcome.goals)} is in the table"]
-    return []
+        return 0, [f"played again, it failed: {again.reason}"], None
+    if again.chain == outcome.chain and again.goals == outcome.goals:
+        return 0, [], again
+    faults = [f"played again, it ended {_score(again.goals)}, and {_score(outcome.goals)} is in the table"]
+    if again.chain != outcome.chain:
+        faults.append(f"played again, it was another match: its hash chain ends with {again.chain}")
+    return 0, faults, again
 
 
 def _last_chain(path: Path) -> str:

@@ -24,9 +24,6 @@ def play_with_processes(planned: PlannedMatch, poll: Poll = lambda: None) -> Out
     """Play a match to its end; `poll` is called while it lasts. The program ends with this process."""
     with ExitStack() as stack:
         folder = planned.logs or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="touchline-")))
-        folder.mkdir(parents=True, exist_ok=True)
-        if planned.recording is not None:
-            planned.recording.parent.mkdir(parents=True, exist_ok=True)
         settings = MatchProcessSettings(
             config=planned.config,
             identity=planned.identity,

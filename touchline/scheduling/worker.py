@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from schemas.process.clock import WallClock
-from touchline.scheduling.child_processes import ChildProcesses, Poll
+from touchline.scheduling.child_processes import ChildProcesses, DiedProcessError, Poll
+from touchline.scheduling.in_process import outcome_of_death
 from touchline.scheduling.outcome import Failed, Outcome
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.play import play
@@ -49,7 +50,10 @@ def play_on_worker(planned: PlannedMatch, folder: Path, keep: Path | None) -> De
             logs=_moved(planned.logs, folder, here),
         )
         with ChildProcesses(1) as child:
-            played: Delivery = child.submit(play_here, moved).result()
+            try:
+                played: Delivery = child.submit(play_here, moved).result()
+            except DiedProcessError as error:
+                played = Delivery(outcome_of_death(moved, error), worker=_this_worker())
         files = {path.relative_to(here).as_posix(): path.read_bytes() for path in here.rglob("*") if path.is_file()}
         return replace(played, outcome=_with_paths(played.outcome, here, folder), files=files)
 

@@ -3,11 +3,12 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from statistics import NormalDist
+
+from scipy import special
 
 LEVEL = 0.95
 """Share of intervals that contain the true value."""
-_Z = NormalDist().inv_cdf((1 + LEVEL) / 2)
+_Z = float(special.ndtri((1 + LEVEL) / 2))
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,9 +26,9 @@ class Estimate:
 
 
 def share(successes: float, trials: int) -> Estimate | None:
-    """The share of successes with Wilson's score interval; half successes, such as draws, are allowed.
+    """The share of successes with Wilson's score interval; None without a trial.
 
-    None without a trial.
+    Half successes, such as draws, are allowed: scipy has this interval for whole numbers only.
     """
     if trials == 0:
         return None
@@ -57,23 +58,4 @@ def ratio(counts: Sequence[float], sizes: Sequence[float], most: float = math.in
 
 def student_t(freedom: int) -> float:
     """The quantile of Student's t within which `LEVEL` of its values lie, on both sides of 0."""
-    low, high = 0.0, 1000.0
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if _within(middle, freedom) < LEVEL else (low, middle)
-    return (low + high) / 2
-
-
-def _within(t: float, freedom: int) -> float:
-    """Probability of a value from −t to t, with a whole number of degrees of freedom.
-
-    Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.3 and 26.7.4.
-    """
-    angle = math.atan(t / math.sqrt(freedom))
-    cosine, odd = math.cos(angle), freedom % 2
-    term, total = (cosine if odd else 1.0), 0.0
-    for power in range(2 + odd, freedom + 1, 2):
-        total += term
-        term *= cosine * cosine * (power - 1) / power
-    inside = math.sin(angle) * total
-    return 2 / math.pi * (angle + inside) if odd else inside
+    return float(special.stdtrit(freedom, (1 + LEVEL) / 2))

@@ -3,7 +3,7 @@
 import tomllib
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
@@ -13,6 +13,7 @@ from schemas.config.roster import MAX_ROBOTS
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.message import Name, Part
+from touchline.scheduling.planned_match import Way
 from touchline.tournament.formats.swiss import most_rounds
 from touchline.tournament.standings import Points
 from touchline.tournament.tie_breaks import CRITERIA, DEFAULT_ORDER, ORDERS, Ranking
@@ -22,15 +23,14 @@ REMEDIES = {
     "seed": "a whole number from 0 to 2^31 - 1",
     "teams": "write [[teams]] above each team; a cup has 2 to 64",
     "teams.name": "1 to 40 characters",
+    "teams.digest": "32 hexadecimal digits, as touchline tournament digest prints them",
     "format.kind": 'one of "round-robin", "groups", "knock-out", "swiss"',
     "format.best_of": "1 to 15 matches",
-    "way": 'one of "in process", "processes"',
+    "way": 'one of "in_process", "processes"',
 }
 """Key → remedy for an invalid value."""
 _OWN_KEYS = ("teams", "seed", "name", "pace", "record")
 """Keys of a match file that a cup decides itself."""
-IN_PROCESS, PROCESSES = "in process", "processes"
-"""Ways to play a match."""
 _PROGRAMS = ("brain", "command", "stdio")
 MOST_TEAMS = 64
 
@@ -57,10 +57,22 @@ class TeamEntry(Part):
     """Command line of a program that reads sights and writes commands as lines."""
     version: str = ""
     """Version of the team, for display."""
+    digest: Annotated[str, Field(pattern=r"^([0-9a-f]{32})?$")] = ""
+    """Digest of its files as they were submitted; with other files, the cup does not begin."""
     challenge: float = 0.0
     """Points of the technical challenge, a tie-break."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] | None = None
     """Number of robots; None for that of the cup."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_remote(cls, content: Any) -> Any:
+        if isinstance(content, dict) and "remote" in content:
+            raise ValueError(
+                "a remote team cannot be started again after a crash, and nobody can check which program played; "
+                "give its brain, command or stdio, or play single matches with touchline match --remote"
+            )
+        return content
 
     @model_validator(mode="after")
     def _check_one_program(self) -> "TeamEntry":
@@ -139,7 +151,7 @@ class CupConfig(Part):
     """Title of its pages; the name where it is empty."""
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
     """Seed from which those of all matches follow, and of lots."""
-    way: Literal["in process", "processes"] = "in process"
+    way: Way = Way.IN_PROCESS
     """How matches are played: brains in Python and stdio programs in one process, or each robot in a process."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
     """Number of robots of each team."""
@@ -166,8 +178,8 @@ class CupConfig(Part):
         if own is not None:
             raise ValueError(f"match.{own} is decided by the cup; leave it out")
         for team in self.teams:
-            if self.way == IN_PROCESS and team.command is not None:
-                raise ValueError(f'team "{team.name}" is a program on the network; write way = "{PROCESSES}"')
+            if self.way is Way.IN_PROCESS and team.command is not None:
+                raise ValueError(f'team "{team.name}" is a program on the network; write way = "{Way.PROCESSES}"')
         if problem := _format_problem(self.format, len(names)):
             raise ValueError(problem)
         if self.until_significant is not None and self.format.kind is not FormatKind.ROUND_ROBIN:

@@ -81,7 +81,7 @@ def need_scipy(what: str) -> None:
         TouchlineError: scipy is not installed.
     """
     if not is_available():
-        raise TouchlineError(f"{what} needs scipy; install it with: pip install 'touchline[study]'")
+        raise TouchlineError(f"{what} needs scipy; install it with: pip install 'touchline[sim]'")
 
 
 def rate(teams: Sequence[str], results: Iterable[MatchResult], level: float = LEVEL) -> Ratings:

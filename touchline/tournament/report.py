@@ -7,6 +7,7 @@ from touchline.series.table import aligned
 from touchline.tournament.cup_state import CupMatch, CupState, MatchState
 from touchline.tournament.ratings import Ratings, is_available, rate
 from touchline.tournament.site.links import score_text
+from touchline.tournament.site.tables import signed
 
 
 def report_of(state: CupState) -> dict[str, Any]:
@@ -39,11 +40,11 @@ def report_text(state: CupState) -> str:
             lines.append(f"{one.slot.name} {one.state}: {one.ended.reason}")
     rated = _rated(state)
     if rated is not None:
-        cells = [(one.team, f"{one.value:+.0f}", f"{one.low:+.0f} to {one.high:+.0f}") for one in rated.teams]
+        cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]
         sentence = "the order is significant" if rated.significant else "the order is not significant"
         lines += [*aligned(("", "rating", "interval of 95 %"), cells), sentence, ""]
     else:
-        lines.append("no ratings: they need scipy; pip install 'touchline[study]'")
+        lines.append("no ratings: they need scipy; pip install 'touchline[sim]'")
     lines.append(f"winner  {state.winner}" if state.winner is not None else "the cup is not complete")
     return "\n".join(lines)
 

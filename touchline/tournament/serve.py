@@ -5,18 +5,22 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
-from pathlib import Path
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
 
 from schemas.errors import TouchlineError
+from touchline.tournament.cup_plan import LOGS
 
 _HOST = "127.0.0.1"
 
 
 class _Pages(SimpleHTTPRequestHandler):
-    """Pages, recordings and evidence; the database is no page."""
+    """Pages, recordings and logs; the database is no page."""
 
     def do_GET(self) -> None:
-        if Path(self.path).suffix in (".html", ".mcap", ".log"):
+        path = PurePosixPath(unquote(self.path))
+        is_log_folder = path.parts[:2] == ("/", LOGS) and not path.suffix and ".." not in path.parts
+        if path.suffix in (".html", ".mcap", ".log", ".txt") or is_log_folder:
             super().do_GET()
         elif self.path == "/":
             self.path = "/index.html"

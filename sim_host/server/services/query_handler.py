@@ -10,7 +10,7 @@ from sim_host.server.invalid_log import InvalidLog
 
 _MOST_AT_ONCE = 32
 """Most queries in one call after a time with few, as at the start of a match."""
-_MOST_IN_A_ROW = 2
+_MOST_IN_A_ROW = 1
 """Most queries in each call while they keep coming: a flood of them must not stop the match."""
 
 

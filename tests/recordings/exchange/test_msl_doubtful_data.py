@@ -51,6 +51,14 @@ def test_a_ball_that_moves_with_a_velocity_of_zero_has_the_velocity_of_its_posit
     assert count == len(range(0, 3001, PERIOD_MS))
 
 
+def test_a_ball_without_a_place_or_far_away_does_not_hide_those_listed_after_it(log: Log) -> None:
+    unusable = [{"position": [None, 1.0, 0.11]}, {"position": [1e6, 0.0, 0.11]}]
+    log.write("A", [record(time, balls=[*unusable, *ball(2.0)]) for time in range(0, 1001, PERIOD_MS)])
+    imported, recording = log.read()
+    assert {(round(world.ball.x, 3), round(world.ball.y, 3)) for world in worlds(recording)} == {(2.0, 0.0)}
+    assert findings(imported, "ball without a position") and findings(imported, "from the centre")
+
+
 def test_velocities_in_other_axes_are_derived_from_the_positions(log: Log) -> None:
     """A robot that drives forward at 1 m/s, and says that it drives to its right."""
     times = range(0, 2001, PERIOD_MS)

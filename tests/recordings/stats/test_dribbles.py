@@ -32,6 +32,16 @@ def test_a_dribble_is_a_metre_with_the_ball_at_least(script) -> None:
     assert of(script) == (2, approx(3.5), approx(2.0))
 
 
+def test_the_way_of_a_dribble_is_measured_along_both_axes(script) -> None:
+    script.held_by = "cyan2"
+    script.shot(touches=["cyan2"])
+    for _ in range(10):
+        x, y = script.places["cyan2"]
+        script.places["cyan2"] = (x + 0.3, y + 0.4)
+        script.shot(touches=["cyan2"])
+    assert of(script) == (1, approx(5.0), approx(5.0))
+
+
 @pytest.mark.parametrize(("gap", "count"), [(3, 1), (8, 2)])
 def test_a_hold_that_flickers_is_one_dribble(script, gap: int, count: int) -> None:
     carry(script, 1.5)

@@ -211,6 +211,14 @@ def test_where_robots_wait_for_a_penalty_of_the_shoot_out(penalties, robot, plac
     assert [fault.robot for fault in faults] == ([name] if wrong else [])
 
 
+def test_stop_before_start_of_an_attempt_only_delays_it(penalties):
+    side = penalties.state.side
+    (reply,) = penalties.ask("stop").replies
+    assert reply.accepted and penalties.events[-1].kind is EventKind.STOP
+    assert penalties.state.shoot_out.taken == Score()
+    assert (penalties.state.pending.phase, penalties.state.pending.side) == (Phase.PENALTY, side)
+
+
 def test_people_count_and_end_attempts_by_word(penalties):
     side = started(penalties).state.side
     penalties.ask("goal", side)

@@ -219,6 +219,7 @@ def test_before_start_robots_wait_behind_the_ball(new_rig, ahead, wrong):
     rig.robots["magenta3"] = (x - rig.hull + ahead, 5.0)
     faults = position_faults(rig.constants, rig.state, rig.state.restart, rig.snapshot())
     assert [fault.robot for fault in faults] == (["magenta3"] if wrong else [])
+    assert all("0.01 m ahead of the ball" in fault.text for fault in faults)
 
 
 @pytest.fixture

@@ -170,6 +170,14 @@ def test_a_ball_that_does_not_move_for_long_is_dropped_where_it_lies(rig):
     assert rig.state.pending.phase is Phase.DROP_BALL and rig.state.pending.spot == (3.0, 1.0)
 
 
+def test_a_stall_names_the_robot_that_holds_the_ball(rig):
+    rig.playing((3.0, 1.0))
+    rig.velocity = (0.0, 0.0, 0.0)
+    for _ in range(round(rig.book.stall.still_duration / rig.dt) + 2):
+        rig.tick(possession="cyan2")
+    assert [event.robot for event in rig.events if event.kind is EventKind.STALL] == ["cyan2"]
+
+
 def test_a_ball_that_moves_in_between_is_not_stalled(rig):
     rig.playing((3.0, 1.0))
     rig.velocity = (0.0, 0.0, 0.0)

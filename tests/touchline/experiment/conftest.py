@@ -1,14 +1,20 @@
 """Studies of constructed results and of short matches."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from schemas.config.match_config import MatchConfig
+from support.short_study import Run
+from touchline.scheduling.executors.this_process import ThisProcess
+from touchline.scheduling.outcome import Outcome
+from touchline.scheduling.planned_match import PlannedMatch
 
 if TYPE_CHECKING:
+    from touchline.experiment.run_study import StudyResult
     from touchline.experiment.study_config import Study
     from touchline.experiment.study_plan import StudyPlan
 
@@ -71,3 +77,42 @@ def table() -> Callable[..., Any]:
         )
 
     return make
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    """The folder of a study."""
+    return tmp_path / "study"
+
+
+@dataclass
+class Labels:
+    """Collects the labels of the matches that were played."""
+
+    played: list[str]
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del outcome
+        self.played.append(planned.label)
+
+
+@pytest.fixture
+def run(tmp_path: Path, home: Path) -> Run:
+    """Plays the study of a text into `home`."""
+
+    def play(text: str, played: list[str] | None = None, *, fresh: bool = False) -> "StudyResult":
+        from touchline.experiment.cells import cells_of
+        from touchline.experiment.run_study import run_study
+        from touchline.experiment.study_config import load_study
+        from touchline.experiment.study_plan import StudyPlan
+
+        path = tmp_path / "try.toml"
+        path.write_text(text)
+        study = load_study(path)
+        plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
+        return run_study(plan, home, ThisProcess(), Labels(played if played is not None else []), fresh=fresh)
+
+    return play

@@ -39,6 +39,19 @@ def test_a_study_file_alone_runs_the_study_and_its_folder_is_reproduced(tmp_path
     assert (status, compared["response"], compared["paired"]) == (0, "distance", True)
 
 
+def test_json_has_a_line_for_each_match_on_stderr_and_the_summary_on_stdout(tmp_path: Path) -> None:
+    file, folder = tmp_path / "try.toml", tmp_path / "out"
+    file.write_text(STUDY)
+    result = CliRunner().invoke(app, ["experiment", str(file), "--into", str(folder), "--jobs", "1", "--json"])
+    assert result.exit_code == 0, result.exception
+    summary = json.loads(result.stdout)
+    assert (summary["played"], summary["seeds"], summary["failed"]) == (2, [1, 2], [])
+    assert summary["folder"] == str(folder)
+    lines = [json.loads(line) for line in result.stderr.splitlines()]
+    assert [(line["done"], line["total"], line["match_failed"]) for line in lines] == [(1, 2, False), (2, 2, False)]
+    assert lines[0]["match"].startswith("cell 1, seed 1: cyan ")
+
+
 def test_a_package_that_is_missing_is_named_with_its_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(experiment, "NEEDED", ("no_such_package",))
     status, text = run("verify", tmp_path)

@@ -2,70 +2,34 @@
 
 import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from schemas.errors import MatchFailedError, TouchlineError
+from support.short_study import SHORT, Run
 
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.experiment.cells import cells_of  # noqa: E402
+from touchline.experiment import study_plan  # noqa: E402
 from touchline.experiment.compare_studies import compare_studies  # noqa: E402
 from touchline.experiment.comparisons import answers, comparison_groups  # noqa: E402
-from touchline.experiment.run_study import StudyResult, run_study  # noqa: E402
-from touchline.experiment.study_config import load_study  # noqa: E402
+from touchline.experiment.study_config import Study  # noqa: E402
 from touchline.experiment.study_folder import read_study  # noqa: E402
-from touchline.experiment.study_plan import StudyPlan  # noqa: E402
 from touchline.experiment.verify_study import verify_study  # noqa: E402
 from touchline.scheduling.executors.this_process import ThisProcess  # noqa: E402
-from touchline.scheduling.outcome import Outcome  # noqa: E402
-from touchline.scheduling.planned_match import PlannedMatch  # noqa: E402
 
-SHORT = """
-seeds = "1-2"
-both_sides = false
-responses = ["possession_s.difference", "distance"]
-[settings]
-duration = 1.5
-teams.cyan.size = 1
-teams.magenta.size = 1
-[factors]
-radio.loss = [0, 0.4]
+LINES = """
+import json, sys
+
+sys.stdin.readline()
+for line in sys.stdin:
+    sight = json.loads(line)
+    print(json.dumps({"answers_tick": sight["tick"], "drive": {"vx": 1.0}}), flush=True)
 """
-Run = Callable[..., StudyResult]
-
-
-@pytest.fixture
-def home(tmp_path: Path) -> Path:
-    return tmp_path / "study"
-
-
-@pytest.fixture
-def run(tmp_path: Path, home: Path) -> Run:
-    """Plays the study of a text into `home`, and collects the labels of the matches that were played."""
-
-    def play(text: str, played: list[str] | None = None, **options: bool) -> StudyResult:
-        path = tmp_path / "try.toml"
-        path.write_text(text)
-        study = load_study(path)
-        plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
-
-        def ended(planned: PlannedMatch, outcome: Outcome) -> None:
-            del outcome
-            if played is not None:
-                played.append(planned.label)
-
-        return run_study(plan, home, ThisProcess(), ended, **options)
-
-    return play
-
-
-def check(home: Path, sample: int | None = None) -> list[str]:
-    return verify_study(home, ThisProcess(), sample, None, lambda planned, outcome: None).faults
 
 
 def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home: Path) -> None:
@@ -84,34 +48,6 @@ def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home:
     report = (home / "report.html").read_text()
     assert report.count("<svg ") >= 4
     assert "http" not in report.replace("http://www.w3.org", "")
-
-
-def test_a_study_is_reproduced_to_the_byte(run: Run, home: Path) -> None:
-    run(SHORT)
-    verdict = verify_study(home, ThisProcess(), None, None, lambda planned, outcome: None)
-    assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
-    assert verdict.notes == []
-
-
-def test_a_study_folder_can_be_moved_and_verified_without_its_study_file(run: Run, home: Path, tmp_path: Path) -> None:
-    run(SHORT)
-    (tmp_path / "try.toml").unlink()
-    moved = shutil.move(home, tmp_path / "published")
-    (Path(moved) / "run.sqlite").unlink()
-    assert check(Path(moved), sample=1) == []
-
-
-def test_verification_names_the_match_whose_result_was_changed(run: Run, home: Path) -> None:
-    run(SHORT)
-    table = pd.read_csv(home / "results.csv")
-    table.loc[2, "distance"] += 1.0
-    table.to_csv(home / "results.csv", index=False, lineterminator="\n")
-    faults = check(home)
-    assert any("results.csv was changed" in fault for fault in faults)
-    assert any("results.parquet and results.csv have different values" in fault for fault in faults)
-    assert [fault for fault in faults if fault.startswith("cell")] == [
-        fault for fault in faults if fault.startswith("cell 1, seed 2: distance is")
-    ]
 
 
 def test_a_study_that_is_run_again_plays_only_what_has_no_result(run: Run, home: Path) -> None:
@@ -149,7 +85,10 @@ def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path:
     table = pd.read_csv(home / "results.csv")
     assert (table["worlds"] > 50).all()
     assert "Worlds" in (home / "report.html").read_text()
-    assert check(home, sample=1) == []
+    sample = verify_study(home, ThisProcess(), 1, None, lambda check: None)
+    assert sample.faults == []
+    again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
+    assert (again.faults, again.byte_identical) == ([], True)
 
 
 def test_a_function_that_is_not_there_is_named_before_any_match(run: Run) -> None:
@@ -184,6 +123,41 @@ def test_a_team_against_itself_shows_no_effect_and_one_robot_less_shows_one(run:
     assert effect.estimate.contains_zero is False
     assert effect.estimate.value > 0
     assert 'class="found"' in (home / "report.html").read_text()
+
+
+def test_seeds_that_were_judged_are_not_judged_again(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    judged = list[int]()
+    is_narrow = study_plan.is_narrow
+
+    def count(table: Any, study: Study, limit: float) -> bool:
+        judged.append(len(table))
+        return is_narrow(table, study, limit)
+
+    monkeypatch.setattr(study_plan, "is_narrow", count)
+    run("until_interval = 1e-9\nmost_seeds = 6\n" + SHORT.replace('responses = ["', 'responses = ["distance", "'))
+    assert judged == [4, 8]
+
+
+def test_a_team_on_the_network_is_refused_in_one_process_before_any_match(run: Run) -> None:
+    played = list[str]()
+    with pytest.raises(TouchlineError, match=r'teams\.cyan has a command.*write way = "processes"'):
+        run(SHORT.replace("[settings]", '[settings]\nteams.cyan.command = ["robot"]'), played)
+    assert played == []
+
+
+@pytest.mark.processes
+@pytest.mark.parametrize("program", ["", 'teams.cyan.stdio = ["python3", "robot.py"]'], ids=["brains", "lines"])
+def test_processes_and_one_process_give_the_same_table_to_the_byte(
+    run: Run, home: Path, tmp_path: Path, program: str
+) -> None:
+    (tmp_path / "robot.py").write_text(LINES)
+    short = SHORT.replace('"1-2"', '"1"').replace("[0, 0.4]", "[0.4]").replace("[settings]", f"[settings]\n{program}")
+    run(short)
+    table = (home / "results.csv").read_bytes()
+    shutil.rmtree(home)
+    run(f'way = "processes"\n{short}')
+    assert (home / "results.csv").read_bytes() == table
+    assert not list((home / "logs").iterdir())
 
 
 def test_two_runs_of_a_study_are_compared_seed_by_seed(run: Run, home: Path, tmp_path: Path) -> None:

@@ -119,6 +119,28 @@ def test_an_agent_that_keeps_crashing_is_launched_again_three_times_and_then_lef
     assert stage.supervisor.host_status is None
 
 
+@pytest.mark.parametrize(("ended_first", "failure"), [("host", 1), ("cyan1", 2)])
+def test_a_restarted_process_that_finds_no_host_any_more_has_failed_for_the_reason_before(
+    ended_first: str, failure: int
+) -> None:
+    stage = Stage()
+    for status in (3, 3, 1):  # restarted after each
+        stage.end("cyan1", status)
+        stage.supervisor.check()
+    statuses = {"host": 0, "cyan1": 2}
+    for name in sorted(statuses, key=lambda name: name != ended_first):
+        stage.end(name, statuses[name])
+        stage.supervisor.check()
+    assert stage.supervisor.ended == statuses
+    assert stage.supervisor.failure("cyan1") == (failure, ["last word of cyan1"])
+
+
+def test_a_process_that_did_not_end_has_not_failed() -> None:
+    stage = Stage()
+    assert stage.supervisor.failure("cyan1") == (None, ["last word of cyan1"])
+    assert stage.supervisor.failure("page") == (None, [])
+
+
 def test_an_agent_that_leaves_with_status_0_is_reported_and_not_launched_again() -> None:
     stage = Stage()
     stage.end("cyan1", 0)

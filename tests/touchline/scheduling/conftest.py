@@ -11,6 +11,7 @@ from schemas.config.match_config import MatchConfig, load_match
 BRAINS = '''"""Brains for tests of plans."""
 
 import os
+import signal
 import time
 
 from touchline import Command, Drive
@@ -44,6 +45,33 @@ class Hangs(Still):
             except Exception:
                 pass
         return super().act(sight)
+
+
+class CatchesAll(Still):
+    def act(self, sight):
+        while sight.tick == 10:
+            try:
+                time.sleep(60.0)
+            except BaseException:
+                pass
+        return super().act(sight)
+
+
+class HoldsTheLock(Still):
+    def act(self, sight):
+        if sight.tick == 10:
+            sum(range(10**13))  # takes ages in C, without releasing the interpreter's lock
+        return super().act(sight)
+
+
+class HangsAtFirst(Still):
+    def __init__(self, briefing):
+        time.sleep(60.0)
+
+
+class IsKilled(Still):
+    def act(self, sight):
+        os.kill(os.getpid(), signal.SIGKILL)
 
 
 class Dies(Still):

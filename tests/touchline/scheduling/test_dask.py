@@ -1,10 +1,5 @@
 """A run on a Dask scheduler with real workers, on loopback."""
 
-import json
-import os
-import signal
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -12,7 +7,7 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
-from support.process_story import descendants, wait_for
+from support.dask_cluster import Cluster
 from touchline.scheduling.executors import dask_cluster
 from touchline.scheduling.executors.this_process import ThisProcess
 from touchline.scheduling.outcome import Outcome, to_json
@@ -23,45 +18,6 @@ from touchline.scheduling.store import MemoryStore
 
 pytest.importorskip("distributed", reason='needs Dask: pip install "touchline[cluster]"')
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(240)]
-
-
-class Cluster:
-    """A scheduler and two workers as processes."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._programs: list[subprocess.Popen[bytes]] = []
-        file = folder / "scheduler.json"
-        self._start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(file))
-        wait_for(file.exists, "a scheduler's file")
-        self.address: str = wait_for(lambda: json.loads(file.read_text() or "{}").get("address"), "its address")
-        self.workers = [self._worker(number) for number in range(2)]
-
-    def _worker(self, number: int) -> subprocess.Popen[bytes]:
-        options = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--name", f"worker{number}")
-        return self._start("worker", self.address, "--host", "127.0.0.1", *options)
-
-    def _start(self, kind: str, *options: str) -> subprocess.Popen[bytes]:
-        with (self._folder / f"{kind}-{len(self._programs)}.log").open("wb") as log:
-            program = subprocess.Popen(
-                [sys.executable, "-m", "dask", kind, *options],
-                cwd=self._folder,
-                stdout=log,
-                stderr=log,
-            )
-        self._programs.append(program)
-        return program
-
-    def close(self) -> None:
-        for program in reversed(self._programs):
-            children = descendants(program.pid)
-            program.kill()
-            program.wait()
-            for child in children:
-                try:
-                    os.kill(child, signal.SIGKILL)
-                except ProcessLookupError:
-                    continue
 
 
 @pytest.fixture

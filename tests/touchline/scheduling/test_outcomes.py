@@ -1,5 +1,6 @@
 """How planned matches end, and whose fault it is if they do not."""
 
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -8,13 +9,16 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
+from touchline.scheduling.child_processes import ChildProcesses, DiedProcessError
 from touchline.scheduling.code_digest import code_digest
-from touchline.scheduling.in_process import play_in_process
+from touchline.scheduling.hang_limit import HangLimit, HungError
+from touchline.scheduling.in_process import outcome_of_death, play_in_process
 from touchline.scheduling.inputs_only import with_inputs_only
 from touchline.scheduling.measurement import measured
 from touchline.scheduling.outcome import Failed, FailureKind, Played, from_json, to_json
 from touchline.scheduling.planned_match import PlannedMatch, Way
 from touchline.scheduling.play import play
+from touchline.scheduling.worker import play_here
 from touchline.verify.resimulate import verify
 
 MatchOf = Callable[..., MatchConfig]
@@ -44,20 +48,64 @@ def test_the_identity_depends_on_configuration_and_code_alone(match_of: MatchOf,
         ("Raises", FailureKind.CRASHED, "magenta1, tick 10: ValueError: no idea"),
         ("Hangs", FailureKind.HUNG, "no answer within 0.5 s"),
         ("NotBuilt", FailureKind.DID_NOT_START, "raised RuntimeError: no plan"),
+        ("HangsAtFirst", FailureKind.DID_NOT_START, "magenta1 is not built: no answer within 0.5 s"),
     ],
 )
 def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
     match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, words: str
 ) -> None:
     outcome = play_in_process(
-        PlannedMatch(match_of(magenta=brain), brain_folder=folder, logs=tmp_path / "logs"), hang_s=0.5
+        PlannedMatch(match_of(magenta=brain), brain_folder=folder, logs=tmp_path / "logs", hang_s=0.5)
     )
     assert isinstance(outcome, Failed)
     assert (outcome.kind, outcome.culprit) == (kind, Side.MAGENTA)
     assert words in outcome.reason
-    if kind is not FailureKind.DID_NOT_START:
+    assert outcome.evidence is not None
+    assert "planned_brains.py" in Path(outcome.evidence).read_text()
+
+
+def test_a_brain_that_nothing_interrupts_is_named_with_its_stack(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    brains = ("CatchesAll", "HoldsTheLock")
+    with ChildProcesses(2) as children:
+        futures = [
+            children.submit(
+                play_here, PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5)
+            )
+            for brain in brains
+        ]
+        errors = [future.exception() for future in futures]
+    for brain, error in zip(brains, errors, strict=True):
+        assert isinstance(error, DiedProcessError)
+        planned = PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5)
+        outcome = outcome_of_death(planned, error)
+        assert (outcome.kind, outcome.culprit) == (FailureKind.HUNG, Side.CYAN)
+        assert outcome.reason == "cyan1: no answer within 0.5 s"
         assert outcome.evidence is not None
         assert "planned_brains.py" in Path(outcome.evidence).read_text()
+
+
+def test_time_in_which_no_brain_has_control_is_not_counted() -> None:
+    with HangLimit(0.05) as limit:
+        limit.wait_for(None)
+        signal.raise_signal(signal.SIGALRM)
+        limit.wait_for("cyan1")
+        with pytest.raises(HungError, match=r"no answer within 0\.05 s"):
+            signal.raise_signal(signal.SIGALRM)
+
+
+def test_what_an_earlier_attempt_has_left_is_removed(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    logs, recording = tmp_path / "logs", tmp_path / "match.mcap"
+    logs.mkdir()
+    (logs / "endpoint.json").write_text("tcp/127.0.0.1:1")
+    recording.write_text("half of a recording")
+    outcome = play(PlannedMatch(match_of("Raises"), brain_folder=folder, logs=logs, recording=recording))
+    assert isinstance(outcome, Failed)
+    assert [one.name for one in logs.iterdir()] == ["traceback.txt"]
+    played = play(PlannedMatch(match_of(), brain_folder=folder, logs=logs, recording=recording))
+    assert isinstance(played, Played)
+    assert not logs.exists()
 
 
 def test_a_recording_of_inputs_alone_is_smaller_and_can_be_simulated_again(
@@ -93,6 +141,20 @@ def test_changed_files_of_a_team_are_not_played(match_of: MatchOf, folder: Path,
     outcome = play(PlannedMatch(config, {Side.CYAN: digest}, brain_folder=tmp_path))
     assert isinstance(outcome, Failed)
     assert "the files of Forward are not those of the plan" in outcome.reason
+    assert (outcome.kind, outcome.culprit) == (FailureKind.WORKER, None)
+
+
+def test_what_tools_leave_in_the_folder_of_a_team_is_no_part_of_its_digest(match_of: MatchOf, tmp_path: Path) -> None:
+    config = match_of(**{"teams.cyan.brain": "own.team:Own"})
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "team.py").write_text("class Own: ...")
+    digest = code_digest(config, Side.CYAN, tmp_path)
+    for name in ("__pycache__", ".pytest_cache", "runs"):
+        (tmp_path / "own" / name).mkdir()
+        (tmp_path / "own" / name / "left").write_text("left")
+    assert code_digest(config, Side.CYAN, tmp_path) == digest
+    (tmp_path / "own" / "numbers.toml").write_text("speed = 2.0")
+    assert code_digest(config, Side.CYAN, tmp_path) != digest
 
 
 @pytest.mark.processes
@@ -117,3 +179,4 @@ def test_a_team_that_does_not_start_is_named_with_processes_too(
     assert isinstance(outcome, Failed)
     assert (outcome.kind, outcome.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
     assert outcome.evidence == str(tmp_path / "logs")
+    assert not (tmp_path / "logs" / "credentials").exists()

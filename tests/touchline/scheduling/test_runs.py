@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import random
 import signal
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -14,14 +15,16 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
+from schemas.side import Side
 from touchline.scheduling.child_processes import ChildProcesses
+from touchline.scheduling.code_digest import code_digest
 from touchline.scheduling.executors.this_process import ThisProcess
 from touchline.scheduling.outcome import Failed, FailureKind, Outcome, Played, to_json
 from touchline.scheduling.plan import ListPlan
 from touchline.scheduling.planned_match import PlannedMatch
 from touchline.scheduling.run import Remote, run_plan
 from touchline.scheduling.store import MemoryStore, RunStore
-from touchline.scheduling.verify import verify_run
+from touchline.scheduling.verify import Depth, verify_run
 
 MatchOf = Callable[..., MatchConfig]
 
@@ -50,6 +53,10 @@ def matches(match_of: MatchOf, folder: Path, number: int, recordings: Path | Non
         )
         for seed in range(1, number + 1)
     ]
+
+
+def swapped(sides: Mapping[Side, Any]) -> dict[Side, Any]:
+    return {side: sides[side.opponent] for side in Side}
 
 
 def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
@@ -121,8 +128,17 @@ def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, t
     assert len(outcomes) == 4
 
 
-def test_a_match_that_ends_its_process_costs_itself_alone(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    lost = PlannedMatch(match_of(magenta="Dies"), brain_folder=folder, label="lost")
+@pytest.mark.parametrize(
+    ("brain", "kind", "culprit", "reason"),
+    [
+        ("Dies", FailureKind.CRASHED, Side.MAGENTA, "magenta1: its process ended with status 7"),
+        ("IsKilled", FailureKind.WORKER, None, "its process was ended by SIGKILL"),
+    ],
+)
+def test_a_match_whose_process_ends_costs_itself_alone(
+    match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, culprit: Side | None, reason: str
+) -> None:
+    lost = PlannedMatch(match_of(magenta=brain), brain_folder=folder, label="lost")
     with ChildProcesses(2) as executor:
         outcomes = run_plan(
             ListPlan((lost, *matches(match_of, folder, 2))), executor, MemoryStore(tmp_path), Log(), at_once=2
@@ -130,8 +146,53 @@ def test_a_match_that_ends_its_process_costs_itself_alone(match_of: MatchOf, fol
     assert [isinstance(one, Played) for one in outcomes.values()].count(True) == 2
     failed = outcomes[lost.identity]
     assert isinstance(failed, Failed)
-    assert failed.kind is FailureKind.WORKER
-    assert failed.reason == "its process ended with status 7"
+    assert (failed.kind, failed.culprit, failed.reason) == (kind, culprit, reason)
+
+
+def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    one, other = matches(match_of, folder, 2)
+    with RunStore(tmp_path) as store:
+        store.add(Failed(one.identity, FailureKind.WORKER, "no disk"))
+        store.add(Failed(other.identity, FailureKind.CRASHED, "no idea", Side.CYAN))
+        log = Log()
+        with ThisProcess() as executor:
+            outcomes = run_plan(ListPlan((one, other)), executor, store, log)
+        assert store.outcomes() == outcomes
+    assert log.ended_labels == ["seed 1"]
+    assert isinstance(outcomes[one.identity], Played)
+
+
+def test_teams_whose_files_have_the_same_name_do_not_meet(
+    match_of: MatchOf, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "path", [one for one in sys.path if Path(one) != folder])  # a match was played here before
+    text = (folder / "planned_brains.py").read_text()
+    (tmp_path / "planned_brains.py").write_text(text.replace("vx=1.0", "vx=-1.0"))
+    forward, backward = (
+        PlannedMatch(match_of(), {Side.CYAN: code_digest(match_of(), Side.CYAN, home)}, brain_folder=home)
+        for home in (folder, tmp_path)
+    )
+    with ChildProcesses(1) as executor:
+        outcomes = run_plan(
+            ListPlan((forward, backward, *matches(match_of, folder, 1))), executor, MemoryStore(tmp_path), Log()
+        )
+    chains = [one.chain for one in outcomes.values() if isinstance(one, Played)]
+    assert len(chains) == 3, outcomes[backward.identity]
+    assert chains[0] != chains[1]
+    assert chains[0] == chains[2]
+
+
+def _loaded_modules(poll: Callable[[], None]) -> set[str]:
+    poll()
+    return set(sys.modules)
+
+
+def test_a_process_of_a_match_begins_with_the_modules_of_a_match(match_of: MatchOf) -> None:
+    with ChildProcesses(1) as executor:
+        loaded = executor.submit(_loaded_modules).result()
+    assert {"pybullet", "robot_agent.teams.simple.team", "recordings.stats.match_statistics"} <= loaded
 
 
 class KilledWorkerError(Exception):
@@ -223,3 +284,19 @@ def test_a_match_without_a_recording_is_verified_by_playing_it_again(
         forged = {identity: replace(played, chain="0" * 32)}
         (check,) = verify_run(planned, forged, tmp_path, executor)
     assert check.faults
+
+
+def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found_without_a_simulation(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = matches(match_of, folder, 1, tmp_path / "recordings")
+    with ThisProcess() as executor:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, MemoryStore(tmp_path), Log())
+        ((identity, played),) = outcomes.items()
+        assert isinstance(played, Played)
+        forged = {identity: replace(played, figures=replace(played.figures, sides=swapped(played.figures.sides)))}
+        shallow = Depth(again=False)
+        (check,) = verify_run(planned, forged, tmp_path, executor, lambda _: shallow)
+        (untouched,) = verify_run(planned, outcomes, tmp_path, executor, lambda _: shallow)
+    assert check.faults == ("its figures are not those of its recording, such as cards and penalties",)
+    assert (untouched.faults, untouched.ticks) == ((), 0)

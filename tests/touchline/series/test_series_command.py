@@ -1,5 +1,6 @@
 """`touchline series`, with short matches in real processes."""
 
+import importlib.util
 import json
 import os
 import signal
@@ -30,6 +31,15 @@ def rows(*words: str | Path) -> dict[str, Any]:
     return found
 
 
+def test_without_scipy_the_extra_that_brings_it_is_named(match_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    find_spec = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "scipy" else find_spec(name))
+    result = series(match_file)
+    assert result.exit_code != 0
+    output = " ".join(result.output.split())
+    assert "intervals need scipy, which is not installed; pip install 'touchline[sim]'" in output
+
+
 def test_figures_do_not_depend_on_the_number_of_jobs(match_file: Path) -> None:
     one, two = (series(match_file, "--seeds", "1-3", "--both-sides", "--jobs", jobs) for jobs in ("1", "2"))
     assert (one.exit_code, two.exit_code) == (0, 0)
@@ -57,7 +67,7 @@ def test_a_brain_that_raises_costs_its_match_only(match_file: Path) -> None:
 
 def test_a_process_that_dies_costs_its_match_only(match_file: Path) -> None:
     (failed,) = rows(match_file, "--seeds", "4", "--cyan", "few_brains:Dies")["failed"]
-    assert failed["reason"] == "its process ended with status 7"
+    assert failed["reason"] == "cyan1: its process ended with status 7"
 
 
 def test_brains_keep_nothing_from_one_match_to_the_next(match_file: Path) -> None:

@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 from support.bad_teams import SOURCE
+from support.cups import play
 from touchline.tournament.cup_config import CupConfig, TeamEntry
 from touchline.tournament.cup_state import CupState
-from touchline.tournament.playing.run_cup import CupRun
+from touchline.tournament.run_cup import CupRun
 
 TEAMS = ["Crashes", "Hangs", "NeverStarts", "Floods"]
 
@@ -18,7 +19,7 @@ def played(tmp_path: Path, teams: list[str], *, duration: float, **keys: object)
     entries = [TeamEntry(name=name, brain=f"bad_teams:{name}") for name in teams]
     cup = CupConfig(teams=entries, size=1, match={"duration": duration}, **keys)  # type: ignore[arg-type]
     with closing(CupRun(cup, tmp_path, tmp_path / "cup", resume=False)) as run:
-        return run.play(2, lambda *_: None)
+        return play(run, 2)
 
 
 def forfeits(state: CupState) -> dict[str, str]:
@@ -35,7 +36,7 @@ def reasons(state: CupState) -> str:
 
 
 def test_in_one_process_a_match_each_who_fails_first_forfeits(tmp_path: Path) -> None:
-    state = played(tmp_path, ["Sound", *TEAMS[:3]], duration=4.0, hang=2.0)
+    state = played(tmp_path, ["Sound", *TEAMS[:3]], duration=4.0, hang=5.0)
     assert state.is_complete, reasons(state)
     assert forfeits(state) == {
         "Crashes Sound": "Crashes",
@@ -54,7 +55,7 @@ def test_in_one_process_a_match_each_who_fails_first_forfeits(tmp_path: Path) ->
         "Crashes": (3, 3, 3, 6),
         "NeverStarts": (4, 0, 0, 9),
     }
-    logs = "\n".join(file.read_text() for file in sorted((tmp_path / "cup" / "evidence").rglob("*.log")))
+    logs = "\n".join(file.read_text() for file in sorted((tmp_path / "cup" / "logs").rglob("*.*")))
     for part in ("ValueError: no ball", "RuntimeError: no camera", "in act"):
         assert part in logs
     page = (tmp_path / "cup" / "index.html").read_text()
@@ -80,6 +81,6 @@ def test_with_processes_teams_that_crash_hang_never_start_and_cheat_forfeit(tmp_
         ("NeverStarts", 0),
     ]
     assert "Floods broke the access rules: account" in reasons(state)
-    logs = "\n".join(file.read_text() for file in sorted((tmp_path / "cup" / "evidence").rglob("*.log")))
+    logs = "\n".join(file.read_text() for file in sorted((tmp_path / "cup" / "logs").rglob("*.*")))
     for part in ("ValueError: no ball", "RuntimeError: no camera", "far more than the host reads"):
         assert part in logs

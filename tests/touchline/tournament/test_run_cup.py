@@ -1,121 +1,139 @@
-"""A cup that is played: resumed after it was killed, equal for any number of processes, and verified."""
+"""A cup that is played: resumed after it was killed, equal for any number of processes, and served by the command."""
 
 import json
 import os
 import random
-import shutil
 import signal
-import sqlite3
 import subprocess
 import sys
-import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from contextlib import closing
-from multiprocessing import active_children
+from dataclasses import replace
+from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
 from schemas.errors import TouchlineError
+from support.cups import CUP, ShownLines, mini_cup, play
 from touchline.command_line import app
+from touchline.scheduling.executors.this_process import ThisProcess
+from touchline.scheduling.outcome import Outcome, to_json
+from touchline.scheduling.store import RunStore
 from touchline.tournament.cup_config import load_cup
-from touchline.tournament.playing.outcome import FailureKind, Outcome
-from touchline.tournament.playing.run_cup import CupRun
-from touchline.tournament.playing.store import CupStore
-from touchline.tournament.playing.verify_cup import verify_cup
-from touchline.tournament.playing.worker import Workers
 from touchline.tournament.report import report_of
+from touchline.tournament.run_cup import CupRun
 
-CUP = """
-name = "mini"
-size = 1
-[match]
-duration = 2.0
-scene = "one_against_keeper"
-[[teams]]
-name = "One"
-brain = "reference"
-[[teams]]
-name = "Two"
-brain = "simple"
-[[teams]]
-name = "Three"
-brain = "random"
-"""
-KILLS = 4
+KILLS = 20
 
 
-@pytest.fixture(scope="module")
-def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of a cup that was played by one process."""
-    folder = tmp_path_factory.mktemp("cup")
-    file = folder / "mini.toml"
-    file.write_text(CUP)
-    with closing(CupRun(load_cup(file), folder, folder / "out", resume=False)) as run:
-        state = run.play(1, lambda *_: None)
-    assert state.is_complete
-    return folder
+def stored(folder: Path) -> dict[str, bytes]:
+    """Identity → outcome, byte for byte; empty before the state of the cup was made."""
+    try:
+        with RunStore(folder / "out", read_only=True) as store:
+            return bytes_of(store.outcomes())
+    except TouchlineError:
+        return {}
+
+
+def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
+    return {identity: to_json(outcome) for identity, outcome in outcomes.items()}
 
 
 def report_in(folder: Path) -> object:
     """The report on a stored cup."""
-    cup = load_cup(folder / "mini.toml")
-    with closing(CupRun(cup, folder, folder / "out", resume=True)) as run:
+    with closing(mini_cup(folder, resume=True)) as run:
         return report_of(run.state)
 
 
-def test_two_processes_give_the_same_results_and_chains_as_one(undisturbed: Path, tmp_path: Path) -> None:
-    file = tmp_path / "mini.toml"
-    file.write_text(CUP)
-    with closing(CupRun(load_cup(file), tmp_path, tmp_path / "out", resume=False)) as run:
-        run.play(2, lambda *_: None)
-    assert report_in(tmp_path) == report_in(undisturbed)
+def test_one_worker_and_eight_give_the_same_bytes(undisturbed: Path, tmp_path: Path) -> None:
+    with closing(mini_cup(tmp_path)) as run:
+        play(run, 8)
+    assert stored(tmp_path) == stored(undisturbed)
+    assert (tmp_path / "out" / "result.json").read_bytes() == (undisturbed / "out" / "result.json").read_bytes()
 
 
-def test_a_cup_that_is_killed_again_and_again_and_resumed_has_the_table_of_the_undisturbed_one(
+def _play_in_child(folder: Path) -> None:
+    """Play what is missing of the cup in this process, one match after the other."""
+    with closing(mini_cup(folder, resume=True)) as run, ThisProcess() as executor:
+        run.play(executor, ShownLines())
+
+
+def test_a_cup_that_is_killed_at_any_instant_and_resumed_has_the_table_of_the_undisturbed_one(
     undisturbed: Path, tmp_path: Path
 ) -> None:
+    """Killed 20 times, each time a random while after it has begun; a cup that has ended meanwhile begins anew."""
+    drawn, before, kills, ended = random.Random(5), dict[str, bytes](), 0, 0
+    context = get_context("fork")
+    while kills < KILLS:
+        folder = tmp_path / str(ended)
+        folder.mkdir(exist_ok=True)
+        child = context.Process(target=_play_in_child, args=(folder,))
+        child.start()
+        child.join(drawn.uniform(0.05, 0.5))
+        is_killed = child.is_alive() and child.pid is not None
+        if is_killed:
+            os.kill(child.pid or 0, signal.SIGKILL)
+        child.join()
+        now = stored(folder)
+        assert before.items() <= now.items(), "no finished match is lost or played again"
+        kills, before = kills + is_killed, now
+        if not is_killed:
+            assert (now, report_in(folder)) == (stored(undisturbed), report_in(undisturbed))
+            ended, before = ended + 1, {}
+    _play_in_child(folder)
+    assert (stored(folder), report_in(folder)) == (stored(undisturbed), report_in(undisturbed))
+
+
+@pytest.mark.processes
+def test_ctrl_c_ends_a_cup_tidily_and_resume_finishes_it(undisturbed: Path, tmp_path: Path) -> None:
     (tmp_path / "mini.toml").write_text(CUP)
     command = [sys.executable, "-m", "touchline", "tournament", str(tmp_path / "mini.toml")]
-    command += ["--out", str(tmp_path / "out"), "--resume", "--jobs", "2"]
-    drawn = random.Random(5)
-    stored: dict[str, str] = {}
-    for _ in range(KILLS):
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        time.sleep(drawn.uniform(0.5, 3.0))
-        process.kill()
-        process.communicate()
-        if (tmp_path / "out" / "cup.sqlite").exists():
-            with closing(CupStore(tmp_path / "out", writes=False)) as store:
-                now = {name: outcome.to_json() for name, (_, outcome) in store.outcomes.items()}
-            assert stored.items() <= now.items(), "no finished match is lost or played again"
-            stored = now
-    assert subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+    command += ["--out", str(tmp_path / "out"), "--jobs", "1", "--json"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stderr is not None
+    first = json.loads(process.stderr.readline())
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 128 + signal.SIGINT
+    assert (first["done"], first["total"], first["running"], first["failed"]) == (1, 3, 1, 0)
+    assert json.loads(out)["complete"] is False
+    assert "interrupted; --resume goes on" in err and "Traceback" not in err
+    assert "the cup is not complete" in (tmp_path / "out" / "index.html").read_text()
+    assert subprocess.run([*command, "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
     assert report_in(tmp_path) == report_in(undisturbed)
 
 
-def test_a_worker_that_dies_costs_its_match_only_and_that_is_played_when_the_cup_is_resumed(
-    undisturbed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+class KilledWorkerError(Exception):
+    """As that of Dask."""
+
+
+class LosesWorkers(ThisProcess):
+    """Its workers are lost with each match."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        future: Future[Any] = Future()
+        future.set_exception(KilledWorkerError("lost"))
+        return future
+
+
+def test_a_match_whose_worker_was_lost_has_no_result_until_the_cup_is_resumed(
+    undisturbed: Path, tmp_path: Path
 ) -> None:
-    file = tmp_path / "mini.toml"
-    file.write_text(CUP)
-    start, killed = Workers.start, []
-
-    def start_and_kill(workers: Workers, planned: object) -> None:
-        start(workers, planned)  # type: ignore[arg-type]
-        if not killed:
-            (pid,) = (process.pid for process in active_children())
-            killed.append(pid)
-            os.kill(pid or 0, signal.SIGKILL)
-
-    monkeypatch.setattr(Workers, "start", start_and_kill)
-    with closing(CupRun(load_cup(file), tmp_path, tmp_path / "out", resume=False)) as run:
-        state = run.play(1, lambda *_: None)
-    assert [one.slot.name for one in state.failed] == ["league 1"]
-    assert state.failed[0].ended is not None and "SIGKILL" in (state.failed[0].ended.reason or "")
-    with closing(CupRun(load_cup(file), tmp_path, tmp_path / "out", resume=True)) as run:
-        assert run.play(1, lambda *_: None).is_complete
+    with closing(mini_cup(tmp_path)) as run, LosesWorkers() as executor:
+        state = run.play(executor, ShownLines())
+    assert [one.slot.name for one in state.failed] == ["league 1", "league 2", "league 3"]
+    assert not state.is_complete
+    assert "KilledWorkerError" in (tmp_path / "out" / "matches" / "league_1.html").read_text("utf-8")
+    progress = ShownLines()
+    with closing(mini_cup(tmp_path, resume=True)) as run:
+        assert play(run, 2, progress).is_complete
+    assert len(progress.lines) == 3
     assert report_in(tmp_path) == report_in(undisturbed)
+    assert 'id="pitch"' in (tmp_path / "out" / "matches" / "league_1.html").read_text("utf-8")
 
 
 def test_pages_and_recordings_of_all_matches_are_in_the_folder(undisturbed: Path) -> None:
@@ -123,36 +141,20 @@ def test_pages_and_recordings_of_all_matches_are_in_the_folder(undisturbed: Path
     names = {"league_1", "league_2", "league_3"}
     assert {file.stem for file in (out / "recordings").iterdir()} == names
     assert {file.stem for file in (out / "matches").iterdir()} == names
+    assert list((out / "logs").iterdir()) == []
     page = (out / "matches" / "league_3.html").read_text("utf-8")
     assert 'id="pitch"' in page and '<nav><a href="../index.html">' in page
     index = (out / "index.html").read_text("utf-8")
     assert "Winner" in index and "refresh" not in index
 
 
-def test_an_untouched_cup_is_verified(undisturbed: Path) -> None:
-    assert verify_cup(undisturbed / "out", 1) == ([], 3)
-    assert verify_cup(undisturbed / "out", 1, sample=1) == ([], 1)
-
-
-def test_verification_names_the_match_whose_stored_result_was_changed(undisturbed: Path, tmp_path: Path) -> None:
-    shutil.copytree(undisturbed / "out", tmp_path / "out")
-    with sqlite3.connect(tmp_path / "out" / "cup.sqlite") as database:
-        row = database.execute("SELECT outcome FROM outcomes WHERE match = 'league 3'").fetchone()
-        changed = json.loads(row[0]) | {"goals": [7, 0]}
-        database.execute("UPDATE outcomes SET outcome = ? WHERE match = 'league 3'", (json.dumps(changed),))
-    database.close()
-    (fault,) = verify_cup(tmp_path / "out", 1, sample=1)[0]
-    assert fault.startswith("league 3: its result is not that of its recording: goals is (7, 0)")
-
-
-def test_verification_names_the_match_whose_recording_is_another_ones(undisturbed: Path, tmp_path: Path) -> None:
-    shutil.copytree(undisturbed / "out", tmp_path / "out")
-    recordings = tmp_path / "out" / "recordings"
-    shutil.copy(recordings / "league_1.mcap", recordings / "league_2.mcap")
-    faults, _ = verify_cup(tmp_path / "out", 1, sample=1)
-    assert faults == ["league 2: its recording is of another match than the cup plans"]
-    (recordings / "league_3.mcap").unlink()
-    assert any(fault.startswith("league 3: ") for fault in verify_cup(tmp_path / "out", 1, sample=1)[0])
+def test_the_place_of_a_match_in_the_cup_and_the_folder_are_no_part_of_its_identity(tmp_path: Path) -> None:
+    with closing(mini_cup(tmp_path)) as run:
+        slots = [one.slot for one in run.state.matches]
+        identities = {run.plan.match(slot).identity for slot in slots}
+        moved = replace(run.plan, folder=tmp_path / "elsewhere")
+        assert identities == {moved.match(slot).identity for slot in slots}
+        assert len(identities) == 3
 
 
 def test_a_folder_with_a_cup_is_not_played_again_without_resume(undisturbed: Path) -> None:
@@ -168,28 +170,36 @@ def test_a_team_whose_files_have_changed_stops_the_cup_from_being_resumed(tmp_pa
     (tmp_path / "own_team.py").write_text("class Own: ...")
     file = tmp_path / "mini.toml"
     file.write_text(CUP.replace('"random"', '"own_team:Own"'))
-    CupRun(load_cup(file), tmp_path, tmp_path / "out", resume=False).close()
-    CupRun(load_cup(file), tmp_path, tmp_path / "out", resume=True).close()
+    mini_cup(tmp_path).close()
+    mini_cup(tmp_path, resume=True).close()
     (tmp_path / "own_team.py").write_text("class Own: pass")
     with pytest.raises(TouchlineError, match='files of team "Three" have changed since the cup began'):
-        CupRun(load_cup(file), tmp_path, tmp_path / "out", resume=True)
+        mini_cup(tmp_path, resume=True)
+
+
+def test_a_team_with_other_files_than_were_submitted_does_not_play(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "own_team.py").write_text("class Own: ...")
+    monkeypatch.chdir(tmp_path)
+    printed = CliRunner().invoke(app, ["tournament", "digest", "own_team:Own"])
+    assert printed.exit_code == 0
+    digest = printed.stdout.strip()
+    (tmp_path / "mini.toml").write_text(CUP.replace('"random"', f'"own_team:Own"\ndigest = "{digest}"'))
+    mini_cup(tmp_path).close()
+    (tmp_path / "own_team.py").write_text("class Own: pass")
+    with pytest.raises(
+        TouchlineError, match=f'the files of team "Three" have the digest .*, and {digest} was submitted'
+    ):
+        mini_cup(tmp_path)
 
 
 def test_two_processes_cannot_play_the_same_cup(undisturbed: Path) -> None:
-    cup = load_cup(undisturbed / "mini.toml")
     with (
-        closing(CupRun(cup, undisturbed, undisturbed / "out", resume=True)),
-        pytest.raises(TouchlineError, match="another process plays this cup"),
+        closing(mini_cup(undisturbed, resume=True)),
+        pytest.raises(TouchlineError, match="another process plays this run"),
     ):
-        CupRun(cup, undisturbed, undisturbed / "out", resume=True)
-
-
-def test_an_outcome_survives_the_database() -> None:
-    for one in (
-        Outcome((2, 1), (3, 4), (1, 0), (0, 2), "ab"),
-        Outcome.failed(FailureKind.HUNG, None, "two\nlines"),
-    ):
-        assert Outcome.from_json(one.to_json()) == one
+        mini_cup(undisturbed, resume=True)
 
 
 def test_the_command_reports_a_finished_cup_as_json_and_plays_nothing(undisturbed: Path) -> None:
@@ -206,8 +216,11 @@ def test_the_command_reports_a_finished_cup_as_json_and_plays_nothing(undisturbe
     [
         (["none.toml"], "none.toml: No such file or directory; give the path of a cup file"),
         (["verify"], "verify needs the folder of a cup"),
-        (["verify", "nowhere"], "nowhere: has no cup.sqlite; give the folder of a cup"),
+        (["verify", "nowhere"], "nowhere: has no run.sqlite; give the folder of a run"),
         (["cup.toml", "other"], "other: one cup file is enough"),
+        (["digest"], "digest needs a brain: touchline tournament digest my_team:MyTeam"),
+        (["digest", "none:Team"], "none:Team: no file of it is in"),
+        (["matches/cup.toml", "--dask", "tcp://127.0.0.1:9", "--jobs", "2"], "leave one out"),
     ],
 )
 def test_wrong_input_of_the_command_is_one_line(arguments: list[str], line: str) -> None:

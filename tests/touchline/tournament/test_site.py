@@ -9,6 +9,7 @@ import pytest
 from touchline.tournament.cup_config import CupConfig, FormatConfig, FormatKind, TeamEntry
 from touchline.tournament.cup_state import CupState, Ended, Slot, state_of
 from touchline.tournament.match_result import MatchResult
+from touchline.tournament.site.tables import signed
 from touchline.tournament.site.write_site import Site
 
 NAMES = ["Alpha", "Beta & <b>Co</b>", "Gamma", "Δelta", "E!", "E?"]
@@ -110,3 +111,8 @@ def test_scores_in_the_row_of_a_team_begin_with_its_goals(tmp_path: Path) -> Non
     rows = re.findall(r"<tr><td>.*?</tr>", text[text.index("Every match") : text.index("Matches</h2>")])
     scores = [re.findall(r">(\d : \d)<", row) for row in rows]
     assert sum(row.count("2 : 1") for row in scores) == sum(row.count("1 : 2") for row in scores) == 15
+
+
+@pytest.mark.parametrize(("value", "text"), [(3, "+3"), (-3.4, "−3"), (0.4, "0"), (-0.4, "0")])
+def test_numbers_have_their_sign_and_zero_has_none(value: float, text: str) -> None:
+    assert signed(value) == text

@@ -38,6 +38,12 @@ class DaskCluster(Executor):
             ) from None
         self._executor = self._client.get_executor(pure=False, retries=_RETRIES)
 
+    @property
+    def threads(self) -> int:
+        """The matches that its workers play at a time; at least 1, while no worker has joined yet."""
+        threads: dict[str, int] = self._client.ncores()
+        return max(1, sum(threads.values()))
+
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call the function on a worker."""
         future: Future[Any] = self._executor.submit(fn, *args, **kwargs)

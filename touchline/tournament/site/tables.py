@@ -22,7 +22,7 @@ def standings(rows: Sequence[Standing]) -> str:
             team_link(row.team) + _bye(row),
             *map(str, (row.played, row.won, row.drawn, row.lost)),
             f"{row.goals_for} : {row.goals_against}",
-            f"{row.goal_difference:+d}" if row.goal_difference else "0",
+            signed(row.goal_difference),
             f"<b>{row.points}</b>",
         )
         for row in rows
@@ -55,8 +55,8 @@ def ratings(rated: Ratings) -> str:
     cells = [
         (
             team_link(one.team),
-            f"<b>{one.value:+.0f}</b>",
-            f"{one.low:+.0f} to {one.high:+.0f}",
+            f"<b>{signed(one.value)}</b>",
+            f"{signed(one.low)} to {signed(one.high)}",
             _bar(one, lowest, highest),
         )
         for one in rated.teams
@@ -78,6 +78,12 @@ def ratings(rated: Ratings) -> str:
         table(("team", "rating", "interval", ""), cells, "ratings")
         + f'<p>{" ".join(sentences)}</p><p class="quiet">{about}</p>'
     )
+
+
+def signed(value: float) -> str:
+    """A whole number with its sign; 0 has none."""
+    whole = round(value)
+    return f"+{whole}" if whole > 0 else f"−{-whole}" if whole < 0 else "0"
 
 
 def _bye(row: Standing) -> str:

@@ -7,6 +7,7 @@ from touchline.tournament.cup_state import CupState
 from touchline.tournament.ratings import Ratings
 from touchline.tournament.site.index_page import match_table
 from touchline.tournament.site.markup import page, section
+from touchline.tournament.site.tables import signed
 
 
 def team_page(state: CupState, team: TeamEntry, digest: str | None, rated: Ratings | None, *, running: bool) -> str:
@@ -19,7 +20,7 @@ def team_page(state: CupState, team: TeamEntry, digest: str | None, rated: Ratin
             facts.append((stage, f"place {row.place} of {len(rows)}, {row.points} points"))
     rating = next((one for one in rated.teams if one.team == team.name), None) if rated is not None else None
     if rating is not None and rating.matches:
-        facts.append(("rating", f"{rating.value:+.0f} ({rating.low:+.0f} to {rating.high:+.0f})"))
+        facts.append(("rating", f"{signed(rating.value)} ({signed(rating.low)} to {signed(rating.high)})"))
     listed = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in facts if value)
     matches = [one for one in state.matches if team.name in one.slot.fixture.teams]
     body = (

@@ -29,7 +29,9 @@ class Site:
         rated = rate(state.cup.names, state.results) if is_available() else None
         for match in state.matches:
             address = match_address(match.slot)
-            if match.state is not MatchState.DUE and not (self._folder / address).exists():
+            if match.state is MatchState.DUE:
+                (self._folder / address).unlink(missing_ok=True)  # of a failure after which it is played again
+            elif not (self._folder / address).exists():
                 self._put(address, match_page(match, self._folder))
         for team in state.cup.teams:
             digest = self._digests.get(team.name)

@@ -1,0 +1,55 @@
+"""Cups of short matches, played without a display."""
+
+from pathlib import Path
+
+from touchline.scheduling.child_processes import ChildProcesses
+from touchline.tournament.cup_config import load_cup
+from touchline.tournament.cup_state import CupState
+from touchline.tournament.run_cup import CupRun
+
+CUP = """
+name = "mini"
+size = 1
+[match]
+duration = 2.0
+scene = "one_against_keeper"
+[[teams]]
+name = "One"
+brain = "reference"
+[[teams]]
+name = "Two"
+brain = "simple"
+[[teams]]
+name = "Three"
+brain = "random"
+"""
+
+
+class ShownLines:
+    """Progress that keeps its sentences."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, sentence: str, *, failed: bool = False) -> None:
+        self.lines.append(f"failed: {sentence}" if failed else sentence)
+
+
+def play(run: CupRun, jobs: int, progress: ShownLines | None = None) -> CupState:
+    """Play a cup in processes of this machine."""
+    executor = ChildProcesses(jobs)
+    try:
+        return run.play(executor, progress or ShownLines())
+    finally:
+        executor.shutdown(cancel_futures=True)
+
+
+def mini_cup(folder: Path, *, resume: bool = False) -> CupRun:
+    """The cup of three teams in a folder, whose results are in its folder `out`."""
+    file = folder / "mini.toml"
+    if not file.exists():
+        file.write_text(CUP)
+    return CupRun(load_cup(file), folder, folder / "out", resume=resume)
