@@ -11,6 +11,7 @@ from robot_agent.skills.dribble_to import dribble_to
 from robot_agent.skills.go_to import drive, go_to
 from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_goal import guard_place, keep_goal
+from robot_agent.skills.keep_hold import keep_hold
 from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.skills.keep_out import keep_out
 from robot_agent.skills.kick_at import kick_at
@@ -45,6 +46,7 @@ __all__ = [
     "is_in_the_way",
     "is_open",
     "keep_goal",
+    "keep_hold",
     "keep_off",
     "keep_out",
     "kick_at",

@@ -29,13 +29,15 @@ def places(
 ) -> list[Place]:
     """As many places as robots, the most important first; all outside the penalty areas.
 
+    A single robot supports an attack rather than guards.
+
     Args:
         attacks: whether our side has the ball, or is first at it.
         robots: where the robots are that share the places.
         inset: m between the lines and a robot's centre.
     """
     front = pitch.goal_line - pitch.penalty_area_depth - inset - 0.2
-    found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))]
+    found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))] if len(robots) > 1 or not attacks else []
     if not attacks and ball[0] < parameters.blocks_before:
         found.insert(0, Place(Role.BLOCKER, _before_goal(ball, parameters.block_distance, pitch, front)))
     if not attacks and ball[0] < parameters.marks_before:

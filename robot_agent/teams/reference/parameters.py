@@ -90,6 +90,14 @@ class Parameters:
     """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
     pass_prepares: float = 0.25
     """Value of a pass into the other half, without which a goal would not count."""
+    turn_rate: float = 2.8
+    """rad/s of a turn with the ball."""
+    at_ball: float = 0.5
+    """m from the ball to an opponent that fights for it."""
+    comes_speed: float = 2.5
+    """m/s at which an opponent comes."""
+    wins_duel: float = 0.8
+    """s after which an opponent at the ball surely has it."""
     turn_cost: float = 0.04
     """Value a radian of turning: an opponent comes nearer meanwhile."""
     chosen_bonus: float = 0.12
@@ -104,14 +112,16 @@ class Parameters:
     """m; from farther away a keeper has the time to move: by drill, no shot on the run from 5.5 m or more scored."""
     shot_margin: float = 0.36
     """m between a shot and an opponent's centre that its hull and the ball need."""
-    shot_sure: float = 0.3
-    """m of air beside all opponents with which a shot is sure to score."""
-    shot_speed: float = 9.2
-    """m/s of a shot along the ground, on average over 6 m."""
-    shot_reaction: float = 0.15
-    """s until an opponent moves for a shot: camera, decision, and the drive's lag."""
+    shot_open: float = 0.4
+    """m of air beside all opponents; more makes a shot no surer."""
+    shot_spread: float = 0.08
+    """m of air with which a shot scores three times of four; without any it scores every other time."""
+    shot_speed: float = 8.3
+    """m/s of a shot along the ground, on average over 4.5 m: it leaves with 10 m/s and slides."""
+    shot_reaction: float = 0.05
+    """s until an opponent moves for a shot: camera and decision."""
     shot_crossing: float = 5.0
-    """m/s² with which it then moves. By drill, shots on the run into a corner score from 5 m, none from 5.5 to 6 m."""
+    """m/s² with which it then moves, as keepers do in the drill `one_against_keeper`."""
     shot_turn: float = 0.3
     """m of room that a radian of turning costs: of two open corners, noise would choose another one in each tick."""
     lob_nearest: float = 3.4
@@ -146,6 +156,10 @@ class Parameters:
     """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
     pressed: float = 1.1
     """m to an opponent ahead that presses."""
+    edge_time: float = 0.6
+    """s; a robot that would leave the pitch with the ball within this time brakes before it turns."""
+    edge_turn: float = 1.2
+    """rad/s of its turn meanwhile, which leaves most of the dribbler's pull to the brake."""
     patience: float = 3.0
     """s with the ball after which the best kick is taken, however poor."""
 

@@ -16,6 +16,8 @@ _MEAN_SPEED = 3.6
 """m/s; a pass that arrives at 2.6 m/s, over its way."""
 _RUNS = 2.0
 """m/s of a receiver that moves into a pass."""
+_NOTICES = 0.4
+"""s for which a receiver goes on as it does: radio, decision, and change of its motion."""
 
 
 class Pass(NamedTuple):
@@ -74,9 +76,10 @@ def passes(
             if not parameters.pass_least < far < parameters.pass_longest:
                 continue
             sure = chance(ball, target, opponents, parameters)
-            late = math.dist(body[:2], target) / _RUNS - far / _MEAN_SPEED
+            late = _NOTICES + math.dist(_soon(body), target) / _RUNS - far / _MEAN_SPEED
             sure *= max(0.0, min(1.0, 1.0 - late))
             turn = abs(wrap(math.atan2(target[1] - ball[1], target[0] - ball[0]) - heading))
+            sure *= in_time(turn, ball, opponents, parameters)
             gain = sure * (worth(target, opponents, pitch) + parameters.pass_bonus)
             gain -= (1.0 - sure) * cost_of_loss(target, pitch, parameters) + parameters.turn_cost * turn
             if chosen is not None and chosen[0] == name and math.dist(chosen[1], target) < parameters.chosen_near:
@@ -85,9 +88,22 @@ def passes(
     return found
 
 
+def in_time(turn: float, ball: Point, opponents: Sequence[Point], parameters: Parameters) -> float:
+    """The chance that a turn by `turn` rad ends before an opponent is at the ball, 0 to 1."""
+    nearest = min((math.dist(ball, opponent) for opponent in opponents), default=math.inf)
+    comes = max(0.0, nearest - parameters.at_ball) / parameters.comes_speed
+    late = turn / parameters.turn_rate - comes
+    return max(0.0, min(1.0, 1.0 - late / parameters.wins_duel))
+
+
+def _soon(mate: Body) -> Point:
+    """Where a teammate is when it turns to a pass."""
+    return mate.x + _NOTICES * mate.vx, mate.y + _NOTICES * mate.vy
+
+
 def targets(ball: Point, mate: Body, pitch: Pitch, parameters: Parameters) -> list[Point]:
     """Where a pass to a teammate may go: to it, ahead of its motion, and behind the defence toward the goal."""
-    x, y = mate.x + 0.4 * mate.vx, mate.y + 0.4 * mate.vy
+    x, y = _soon(mate)
     to_goal = math.atan2(-y, pitch.goal_line - 1.0 - x)
     to_ball = math.atan2(ball[1] - y, ball[0] - x)
     lead = parameters.lead

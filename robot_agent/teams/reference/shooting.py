@@ -59,7 +59,7 @@ def _ground(ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitc
         turn = abs(wrap(math.atan2(y - ball[1], pitch.goal_line - ball[0]) - heading))
         if room - parameters.shot_turn * turn > most:
             best, most, room_there = y, room - parameters.shot_turn * turn, room
-    chance = max(0.0, min(1.0, room_there / parameters.shot_sure))
+    chance = 1.0 / (1.0 + math.exp(-room_there / parameters.shot_spread))
     return Shot(KickMode.GROUND, (pitch.goal_line, best), chance * _in_view(ball, pitch))
 
 
@@ -68,14 +68,16 @@ def _room(ball: Point, target: Point, opponents: Sequence[Point], parameters: Pa
     dx, dy = target[0] - ball[0], target[1] - ball[1]
     length = max(math.hypot(dx, dy), 1e-6)
     ux, uy = dx / length, dy / length
-    least = parameters.shot_sure
+    least = parameters.shot_open
     for x, y in opponents:
         along = (x - ball[0]) * ux + (y - ball[1]) * uy
-        if -0.2 < along < length + 0.3:
-            time = max(0.0, along / parameters.shot_speed - parameters.shot_reaction)
-            moves = 0.5 * parameters.shot_crossing * time * time
-            beside = abs((y - ball[1]) * ux - (x - ball[0]) * uy)
-            least = min(least, beside - parameters.shot_margin - moves)
+        if along < -0.2:
+            continue
+        along = max(0.0, min(length, along))  # a keeper may be seen behind the line
+        time = max(0.0, along / parameters.shot_speed - parameters.shot_reaction)
+        moves = 0.5 * parameters.shot_crossing * time * time
+        beside = math.hypot(x - ball[0] - along * ux, y - ball[1] - along * uy)
+        least = min(least, beside - parameters.shot_margin - moves)
     return least
 
 

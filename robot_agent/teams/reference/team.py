@@ -7,6 +7,8 @@ import msgspec
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
 from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.keep_hold import keep_hold
+from robot_agent.skills.keep_off import inside
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import pass_speed
 from robot_agent.skills.take_ball import take_ball
@@ -89,6 +91,19 @@ class Reference(Player):
             opponents=opponents,
         )
         return msgspec.structs.replace(command, radio=msgspec.structs.replace(command.radio, extra=words), debug=debug)
+
+    def _by_the_rules(self, belief: WorldBelief, action: Action, order: CoachOrder | None) -> Action:
+        """The same action within the rules, and no harder than the dribbler keeps the ball."""
+        action = super()._by_the_rules(belief, action, order)
+        if not belief.holding or self._last is None:
+            return action
+        wanted, me = action.drive, belief.me
+        soon = me.x + self.parameters.edge_time * me.vx, me.y + self.parameters.edge_time * me.vy
+        if inside(*soon, self.setup.pitch, 0.0) != soon:
+            turn = self.parameters.edge_turn
+            wanted = Drive(vx=wanted.vx, vy=wanted.vy, omega=max(-turn, min(turn, wanted.omega)))
+        motion = keep_hold(me, wanted, self._last.drive, belief.dt, self.setup)
+        return action._replace(drive=motion)
 
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """Find the role, then act by it."""

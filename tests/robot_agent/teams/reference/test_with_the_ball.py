@@ -4,7 +4,7 @@ import math
 
 from robot_agent.bodies import Body
 from robot_agent.teams.reference.parameters import PARAMETERS
-from robot_agent.teams.reference.passing import chance, passes
+from robot_agent.teams.reference.passing import chance, in_time, passes
 from robot_agent.teams.reference.shooting import best_shot
 from schemas.messages.command import KickMode
 
@@ -22,7 +22,7 @@ def test_a_shot_goes_beside_the_keeper(setup):
 
 
 def test_a_shot_from_near_is_surer_than_one_from_which_the_keeper_has_time_to_move(setup):
-    near, far = (best_shot((x, 0.0), 0.0, [(10.8, 0.0)], setup.pitch, PARAMETERS) for x in (6.8, 4.6))
+    near, far = (best_shot((x, 0.0), 0.0, [(10.8, 0.0)], setup.pitch, PARAMETERS) for x in (7.2, 5.0))
     assert near is not None
     assert far is not None
     assert near.chance > 0.9
@@ -84,3 +84,28 @@ def test_a_pressed_robot_passes_to_a_free_mate_which_comes_to_meet_the_ball(scen
     )
     assert [command.radio.pass_to for command in played.kicks("cyan2")] == ["cyan3"]
     assert played.match.simulation.now.world["possession"] == "cyan3"
+
+
+def test_a_through_ball_past_a_defender_is_received_ahead_of_where_the_receiver_was(play):
+    def is_through(facts):
+        for one in facts.passes:
+            kicked, received = (int((facts.times < time).sum()) for time in (one.time, one.ended))
+            if one.outcome == "received" and facts.ball[received][0] > facts.robots[one.by][kicked][0] + 0.5:
+                return True
+        return False
+
+    play.over("two_on_one", seeds=range(6, 11), cyan="robot_agent.teams.reference:Reference").at_least(3, is_through)
+
+
+def test_a_pass_for_which_the_robot_has_to_turn_before_an_opponent_comes_is_worth_less():
+    free, pressed = ([(2.6, 0.0)], [(0.6, 0.0)])
+    assert in_time(0.2, (0.0, 0.0), free, PARAMETERS) == in_time(0.0, (0.0, 0.0), pressed, PARAMETERS) == 1.0
+    assert in_time(3.0, (0.0, 0.0), pressed, PARAMETERS) < 0.2 < in_time(1.0, (0.0, 0.0), pressed, PARAMETERS)
+
+
+def test_a_keeper_that_is_seen_behind_its_line_still_keeps(setup):
+    before, behind = (best_shot((4.5, -2.4), 0.3, [(x, -0.1)], setup.pitch, PARAMETERS) for x in (10.8, 11.4))
+    assert before is not None
+    assert behind is not None
+    assert before.chance < 0.2
+    assert behind.chance < 0.2
