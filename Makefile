@@ -14,8 +14,8 @@ help: ## show this list
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
 
-test: $(READY) ## run the tests, file by file in three processes, for example: make test ARGS=tests/touchline
-	.venv/bin/pytest -n 3 --dist loadfile $(ARGS)
+test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/touchline
+	.venv/bin/pytest -n 2 --dist loadfile $(ARGS)
 
 check: $(READY) ## format, lint, types, and the contracts on imports
 	.venv/bin/ruff format --check

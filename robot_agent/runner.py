@@ -1,7 +1,6 @@
 """Runs one brain on the bus: a sight in, a command out, until the host leaves or the process is ended."""
 
 import gc
-import math
 from collections.abc import Callable
 
 from robot_agent.brain_error import BrainError, RobotError
@@ -9,7 +8,7 @@ from robot_agent.brain_reload import BrainReload
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain
 from robot_agent.settings import FIRST_SIGHT_FAILED
-from schemas.bus.contract import Bus, NoReplyError, RefusedQueryError
+from schemas.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
@@ -23,10 +22,6 @@ _IDLE = 0.25
 """s without a sight after which the host is looked for."""
 _ASK = 1.0
 """s that one query for the setup stays open."""
-_STALE = 0.02
-"""s after an answer in which its sight, if it comes again, is not answered again: the host had sent it before it had
-the answer, and asks again if the answer is lost. Of two commands in one packet the host's router may drop the second,
-which would then be counted as lost."""
 
 
 class Runner:
@@ -36,7 +31,7 @@ class Runner:
         self.brain = brain
         self.answered = 0
         self.repeated = 0
-        """Sights that came again after a while, and got the same command again."""
+        """Sights that came again, and got the same command again."""
         self.invalid = 0
         """Payloads on the sight's key that were not a sight."""
         self._clock = bus.clock
@@ -44,8 +39,8 @@ class Runner:
         self._commands = bus.publisher(COMMAND, robot=robot)
         self._last_tick: int | None = None
         self._last_answer = b""
-        self._answered_at = -math.inf
-        """Wall time."""
+        self._stamp = Stamp(0, 0, 0)
+        """Of the last answer."""
 
     def answer_next(self, timeout: float | None) -> bool:
         """Answer the newest sight, waiting up to `timeout` s for one (None: for ever); returns whether there was one.
@@ -71,7 +66,7 @@ class Runner:
             return None
 
     def answer(self, sight: Sight) -> None:
-        """Send the brain's command; a sight that is repeated after a while gets the same command again.
+        """Send the brain's command; a repeated sight gets the same command again.
 
         Raises:
             BrainError: the brain raised, or returned no command.
@@ -85,17 +80,17 @@ class Runner:
 
     def _send(self) -> None:
         """Send the answer to a new sight."""
-        self._commands.put_payload(self._last_answer)
-        self._answered_at = self._clock.now()
+        self._stamp = self._commands.put_payload(self._last_answer)
         self.answered += 1
 
     def _repeat(self) -> None:
-        """Send the same answer again, unless it has just been sent."""
-        now = self._clock.now()
-        if now >= self._answered_at + _STALE:
-            self._commands.put_payload(self._last_answer)
-            self._answered_at = now
-            self.repeated += 1
+        """Send the same answer again, as the same message.
+
+        The answer may only have been late. Both may then arrive in one packet, of which the host's router may drop the
+        second: that is no loss.
+        """
+        self._commands.put_copy(self._last_answer, self._stamp)
+        self.repeated += 1
 
     def restart(self, brain: Brain) -> None:
         """Start over with a new brain: the next sight is of another match or episode."""

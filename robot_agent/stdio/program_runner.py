@@ -15,7 +15,7 @@ class ProgramRunner(Runner):
         assert isinstance(brain, StdioProgram)
 
     def answer(self, sight: Sight) -> None:
-        """Send the commands that the program writes within a while; a sight that is repeated later gets the same
+        """Send the commands that the program writes within a while; a repeated sight gets the same
         command again.
 
         Raises:

@@ -159,5 +159,9 @@ class _Recorded(Publisher):
         self._batches.add_own(self.key, payload, stamp)
         return stamp
 
+    def put_copy(self, payload: bytes, stamp: Stamp) -> None:
+        self._writer.put_copy(payload, stamp)
+        self._batches.add_own(self.key, payload, stamp)
+
     def has_subscribers(self) -> bool:
         return self._writer.has_subscribers()

@@ -118,6 +118,10 @@ class Publisher(ABC):
         """Publish an encoded message; returns the stamp sent with it."""
 
     @abstractmethod
+    def put_copy(self, payload: bytes, stamp: Stamp) -> None:
+        """Publish a message again with the stamp that it had: subscribers that receive one of the two lost nothing."""
+
+    @abstractmethod
     def has_subscribers(self) -> bool:
         """Whether the key has subscribers; always true on a `recovered` topic, whose messages can be fetched later."""
 

@@ -71,13 +71,20 @@ class _Publisher(Publisher):
         bus.check_open()
         stamp = Stamp(self._sequence, bus.clock.unix_ns(), bus.clock.sim_ns)
         self._sequence += 1
-        received = ReceivedMessage(self.topic, self.key, payload, stamp, stamp.sent_ns)
+        self._deliver(ReceivedMessage(self.topic, self.key, payload, stamp, stamp.sent_ns))
+        return stamp
+
+    def put_copy(self, payload: bytes, stamp: Stamp) -> None:
+        self._bus.check_open()
+        self._deliver(ReceivedMessage(self.topic, self.key, payload, stamp, self._bus.clock.unix_ns()))
+
+    def _deliver(self, received: ReceivedMessage) -> None:
+        bus = self._bus
         with bus.shared_state.lock:
             if self._kept is not None:
                 self._kept.append(received)
             for subscription in bus.shared_state.subscriptions.get(bus.prefix + self.topic.key, ()):
                 subscription.deliver(self.key, received)
-        return stamp
 
     def has_subscribers(self) -> bool:
         if self.topic.delivery is Delivery.RECOVERED:

@@ -61,26 +61,15 @@ def test_a_command_is_stamped_with_the_simulated_time_of_its_sight(played, sight
     assert commands.receive().stamp.sim_ns == 1_000_000_000
 
 
-def test_a_sight_that_comes_again_gets_the_same_bytes_and_the_brain_is_not_asked(seats, played, sight_of):
+def test_a_sight_that_comes_again_gets_the_same_bytes_and_the_brain_is_not_asked(played, sight_of):
     sights, commands, runner = played
     for _ in range(3):
         sights.put(sight_of(4))
         assert runner.answer_next(0.0)
-        seats[1].clock.sleep_until(seats[1].clock.now() + 0.05)
-    answers = [commands.receive().payload for _ in range(3)]
-    assert answers[0] == answers[1] == answers[2]
+    answers = [commands.receive() for _ in range(3)]
+    assert len({(answer.payload, answer.stamp) for answer in answers}) == 1  # copies, none of which counts as lost
     assert runner.brain.seen == [4]
     assert (runner.answered, runner.repeated) == (1, 2)
-
-
-def test_a_sight_that_was_sent_again_before_its_answer_arrived_is_answered_once(played, sight_of):
-    sights, commands, runner = played
-    for _ in range(2):
-        sights.put(sight_of(4))
-        assert runner.answer_next(0.0)
-    assert commands.receive(0.0) is not None
-    assert commands.receive(0.0) is None
-    assert (runner.answered, runner.repeated) == (1, 0)
 
 
 def test_of_sights_that_wait_only_the_newest_is_answered(played, sight_of):

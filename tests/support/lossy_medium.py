@@ -49,12 +49,18 @@ class _LossyPublisher(Publisher):
         self._publisher, self._losses = publisher, losses
 
     def put_payload(self, payload: bytes) -> Stamp:
+        return Stamp(-1, 0, 0) if self._is_lost(payload) else self._publisher.put_payload(payload)
+
+    def put_copy(self, payload: bytes, stamp: Stamp) -> None:
+        if not self._is_lost(payload):
+            self._publisher.put_copy(payload, stamp)
+
+    def _is_lost(self, payload: bytes) -> bool:
         losses = self._losses.get(self.key)
-        if losses is not None:
-            losses.sent.append(payload)
-            if len(losses.sent) in losses.numbers:
-                return Stamp(-1, 0, 0)
-        return self._publisher.put_payload(payload)
+        if losses is None:
+            return False
+        losses.sent.append(payload)
+        return len(losses.sent) in losses.numbers
 
     def has_subscribers(self) -> bool:
         return self._publisher.has_subscribers()

@@ -50,12 +50,15 @@ class ZenohPublisher(Publisher):
     def put_payload(self, payload: bytes) -> Stamp:
         clock = self._clock
         stamp = Stamp(self._sequence, clock.unix_ns(), clock.sim_ns)
+        self.put_copy(payload, stamp)
+        self._sequence += 1
+        return stamp
+
+    def put_copy(self, payload: bytes, stamp: Stamp) -> None:
         try:
             self._writer.put(payload, attachment=STAMP.pack(*stamp))
         except zenoh.ZError as error:
             raise BusError(f"this bus is closed ({first_line(error)})") from None
-        self._sequence += 1
-        return stamp
 
     def has_subscribers(self) -> bool:
         if self.topic.delivery is Delivery.RECOVERED:

@@ -115,7 +115,6 @@ def test_in_real_time_answers_on_time_and_late_ones_double_and_missing_ones_are_
     runner = rig.agents["cyan1"].runner
     sight = runner.next_sight(0.0)
     runner.answer(sight)
-    rig.clock.sleep_until(rig.clock.now() + 0.02)
     runner.answer(sight)
     rig.agents["magenta1"].frozen = True
     rig.ticks(5)
