@@ -7,10 +7,12 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from recordings.exchange.msl.event_log import TeamNames, read_events
 from recordings.exchange.msl.import_log import ImportSummary
 from recordings.reading.recording import Recording, open_recording
 from recordings.stats.match_statistics import figures_of_recording
 from schemas.game import EventKind, GameStage, Phase, Score
+from schemas.league.findings import Findings
 from support.msl_log import START_MS, Log, record, robot
 from touchline.command_line import app
 
@@ -262,3 +264,12 @@ def test_the_boxs_clock_of_a_half_counts_where_it_is_ahead_of_the_log(log: Log) 
     _, recording = log.read()
     clocks = {round(state.time): state.clock for _, state in recording.decoded("game/state")}
     assert [clocks[time] for time in (3, 4, 5, 6)] == pytest.approx([2.0, 11.0, 12.0, 14.0])
+
+
+@pytest.mark.parametrize(
+    ("part", "half"),
+    [("1st half", 1), ("2nd Half/STOP", 2), ("Overtime 1st half", 3), ("2ND HALF OVERTIME", 4), ("Pre-Game", 0)],
+)
+def test_a_signal_belongs_to_the_half_that_its_line_names(part: str, half: int) -> None:
+    (signal,) = read_events(f"1000,00:10,{part},S,stop", TeamNames("Cyan", "Magenta"), Findings())
+    assert signal.half == half

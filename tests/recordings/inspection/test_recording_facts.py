@@ -4,6 +4,7 @@ from dataclasses import replace
 from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
 from recordings.inspection.recording_facts import CUT_OFF, facts_of
 from recordings.reading.recording import open_recording
+from schemas.game import Phase, Score
 
 
 def test_the_facts_are_those_that_were_written(recorded):
@@ -35,6 +36,7 @@ def test_each_key_has_its_messages_rate_bytes_and_losses(rig):
 
 def test_the_facts_of_a_cut_off_file_are_gathered_from_what_is_left(rig):
     rig.play(range(20))
+    rig.host.referee(19, Phase.THROW_IN, Score(cyan=2))
     rig.host.lose("world", 3)
     rig.play(range(20, 50))
     rig.leave()
@@ -45,6 +47,8 @@ def test_the_facts_of_a_cut_off_file_are_gathered_from_what_is_left(rig):
     whole, left = facts_of(rig.read()), facts_of(open_recording(path))
     assert (left.complete, left.ended) == (False, CUT_OFF)
     assert (left.tick, left.messages, left.lost) == (whole.tick, whole.messages, 3)
+    assert (left.phase, left.score) == ("throw_in", {"cyan": 2, "magenta": 0})
+    assert open_recording(path).library == rig.read().library != ""
 
 
 def test_the_facts_are_json_and_a_table(recorded):

@@ -80,3 +80,14 @@ def test_a_recording_without_touches_knows_possession_and_no_passes(script, touc
     assert side.possession_s == approx(0.2)
     assert (side.kicks is not None) == bool(touches)
     assert (side.saves is not None) == bool(touches)
+
+
+def test_after_ticks_that_are_missing_nobody_is_in_control_until_the_ball_is_touched(script) -> None:
+    script.held_by = "cyan2"
+    script.shot(touches=["cyan2"])
+    script.held_by = None
+    script.rest(4)  # cyan's
+    script.tick += 50
+    script.rest(6)  # nobody's: anything may have happened meanwhile
+    figures = script.figures()
+    assert figures.sides[Side.CYAN].possession_s == approx(0.4)
