@@ -27,11 +27,28 @@ def test_every_robot_has_a_panel_in_the_order_of_the_numbers_and_nothing_is_cut(
     if width < 1000:
         tab.open("robots")
     tab.until("document.querySelectorAll('.panel').length === 22")
+    tab.until("[...document.querySelectorAll('.badge')].every((one) => !one.checkVisibility())")
     panels = "[...document.querySelectorAll('.panel')].map((one) => one.dataset.robot)"
     assert tab.ask(panels) == NAMES
     assert tab.ask("document.documentElement.scrollWidth") <= width
     assert tab.ask(CUT) == []
     assert tab.page.evaluate(ROWS, "cyan") == rows
+
+
+WITH_BADGES = """() => {
+    for (const badge of document.querySelectorAll(".badge")) { badge.textContent = "second yellow"; badge.hidden = false; }
+    return [...document.querySelectorAll(".panel .who, .panel .badge")]
+        .filter((one) => one.checkVisibility() && one.scrollWidth > one.clientWidth + 1).map((one) => one.textContent);
+}"""
+
+
+@pytest.mark.parametrize("width", [1440, 1100, 390])
+def test_a_badge_is_whole_in_every_panel(crowd, visit, width: int) -> None:
+    tab = visit(crowd, "referee", width=width)
+    if width < 1000:
+        tab.open("robots")
+    tab.until("document.querySelectorAll('.panel').length === 22")
+    assert tab.page.evaluate(WITH_BADGES) == []
 
 
 LABELLED = """async (first) => {
