@@ -36,7 +36,10 @@ def test_every_robot_has_a_panel_in_the_order_of_the_numbers_and_nothing_is_cut(
 
 
 WITH_BADGES = """() => {
-    for (const badge of document.querySelectorAll(".badge")) { badge.textContent = "second yellow"; badge.hidden = false; }
+    for (const badge of document.querySelectorAll(".badge")) {
+        badge.textContent = "second yellow";
+        badge.hidden = false;
+    }
     return [...document.querySelectorAll(".panel .who, .panel .badge")]
         .filter((one) => one.checkVisibility() && one.scrollWidth > one.clientWidth + 1).map((one) => one.textContent);
 }"""
