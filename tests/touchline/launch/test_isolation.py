@@ -78,7 +78,14 @@ def open_folder() -> Iterator[Path]:
         yield Path(name)
 
 
-def test_without_isolation_a_robot_reads_what_its_user_may_read(tmp_path: Path) -> None:
+@pytest.fixture
+def clean_etc() -> Iterator[None]:
+    """Remove what a robot without isolation writes where root may write."""
+    yield
+    Path("/etc/stolen").unlink(missing_ok=True)
+
+
+def test_without_isolation_a_robot_reads_what_its_user_may_read(tmp_path: Path, clean_etc: None) -> None:
     """What the two ways of isolation prevent."""
     played = IsolatedMatch(tmp_path, INTRUDER).play()
     assert played.is_whole(), played.printed
