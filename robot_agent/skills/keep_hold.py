@@ -34,7 +34,7 @@ def keep_hold(me: Moving, wanted: Drive, last: Drive, time: float, setup: Setup)
     if dribble.method != "force":
         return wanted
     resists = ball.mass + ball.inertia / ball.radius**2
-    pull, side = SHARE * dribble.max_pull / resists, SHARE * dribble.max_side / resists
+    pull, side = hold_deceleration(setup), SHARE * dribble.max_side / resists
     c, s = math.cos(me.heading), math.sin(me.heading)
     ahead = _near(last.vx, c * me.vx + s * me.vy)
     left = _near(last.vy, c * me.vy - s * me.vx)
@@ -42,6 +42,14 @@ def keep_hold(me: Moving, wanted: Drive, last: Drive, time: float, setup: Setup)
     vy = wanted.vy - AROUND * omega * dribble.gap
     spare = pull - omega * (omega * dribble.gap + left)
     return Drive(vx=max(wanted.vx, ahead - max(_LEAST, spare) * time), vy=vy, omega=omega)
+
+
+def hold_deceleration(setup: Setup) -> float:
+    """How hard a robot may brake with the ball, m/s²; infinite where a profile's dribbler has no bounded forces."""
+    dribble, ball = setup.dribble, setup.ball
+    if dribble.method != "force":
+        return math.inf
+    return SHARE * dribble.max_pull / (ball.mass + ball.inertia / ball.radius**2)
 
 
 def _near(demanded: float, measured: float) -> float:

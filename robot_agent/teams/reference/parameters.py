@@ -72,6 +72,8 @@ class Parameters:
     """m; a shorter pass does not roll the metre that counts."""
     pass_longest: float = 9.5
     """m; a longer pass takes over 2 s."""
+    pass_inset: float = 0.4
+    """m from the lines to the target of a pass: a receiver that misses it by less keeps it on the pitch."""
     pass_arriving: float = 2.6
     """m/s when it arrives: the dribbler keeps it, and opponents have little time."""
     pass_error: float = 0.35
@@ -104,8 +106,12 @@ class Parameters:
     """Value in favour of what was decided before: two equal choices would alternate with the noise."""
     chosen_near: float = 1.5
     """m; a target this close to the chosen one is the same: more than `lead`."""
-    loss: float = 0.2
-    """Value of the ball in the opponents' hold, at the middle of the pitch; twice as much before the own goal."""
+    loss: float = 0.1
+    """Value of the ball in the opponents' hold, at the middle of the pitch; twice as much at our goal line."""
+    loss_near: float = 0.9
+    """The same beside it at our goal: a ball lost there is a shot."""
+    loss_range: float = 4.5
+    """m from our goal over which the latter falls to a third."""
 
     # Shots
     shot_range: float = 7.0
@@ -156,10 +162,6 @@ class Parameters:
     """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
     pressed: float = 1.1
     """m to an opponent ahead that presses."""
-    edge_time: float = 0.6
-    """s; a robot that would leave the pitch with the ball within this time brakes before it turns."""
-    edge_turn: float = 1.2
-    """rad/s of its turn meanwhile, which leaves most of the dribbler's pull to the brake."""
     patience: float = 3.0
     """s with the ball after which the best kick is taken, however poor."""
 

@@ -56,7 +56,9 @@ def worth(place: Point, opponents: Sequence[Point], pitch: Pitch) -> float:
 
 def cost_of_loss(place: Point, pitch: Pitch, parameters: Parameters) -> float:
     """What the ball costs in the opponents' hold at a place."""
-    return parameters.loss * (1.0 - 0.9 * place[0] / pitch.goal_line)
+    to_goal = math.hypot(place[0] + pitch.goal_line, place[1])
+    near = parameters.loss_near * math.exp(-to_goal / parameters.loss_range)
+    return parameters.loss * (1.0 - 0.9 * place[0] / pitch.goal_line) + near
 
 
 def passes(
@@ -113,4 +115,4 @@ def targets(ball: Point, mate: Body, pitch: Pitch, parameters: Parameters) -> li
         (x + lead * math.cos(to_ball + 1.3), y + lead * math.sin(to_ball + 1.3)),
         (x + lead * math.cos(to_ball - 1.3), y + lead * math.sin(to_ball - 1.3)),
     )
-    return [inside(*place, pitch, 0.4) for place in wanted]
+    return [inside(*place, pitch, parameters.pass_inset) for place in wanted]

@@ -40,7 +40,7 @@ def best_restart(
     """
     toward = math.atan2(-spot[1], -spot[0])
     found = passes(spot, toward, mates, opponents, chosen, pitch, parameters)
-    best = max(found, key=lambda one: one.chance + 0.3 * one.value, default=None)
+    best = max(found, key=lambda one: one.chance + one.value, default=None)
     if best is None or (best.chance < parameters.restart_sure and waited < parameters.restart_wait):
         return None
     return best

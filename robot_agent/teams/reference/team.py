@@ -6,9 +6,10 @@ import msgspec
 
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
+from robot_agent.own_push import OwnPush, let_go_of_opponent, push_after
 from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_hold import keep_hold
-from robot_agent.skills.keep_off import inside
+from robot_agent.skills.keep_in_play import keep_in_play
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import pass_speed
 from robot_agent.skills.take_ball import take_ball
@@ -50,6 +51,7 @@ class Reference(Player):
         self.parameters = parameters
         self._estimate = self._world = SharedEstimate(briefing, parameters)
         self._back_out = BackOut(parameters)
+        self._push = OwnPush()
         self._role: Role = Role.KEEPER if self.is_keeper else Role.SUPPORTER
         self._promised: Promise | None = None
         self._chosen: Pass | None = None
@@ -94,16 +96,16 @@ class Reference(Player):
 
     def _by_the_rules(self, belief: WorldBelief, action: Action, order: CoachOrder | None) -> Action:
         """The same action within the rules, and no harder than the dribbler keeps the ball."""
-        action = super()._by_the_rules(belief, action, order)
+        me, wanted = belief.me, action.drive
+        self._push = push_after(self._push, me, belief.opponents, belief.dt, self.setup.robot.reach)
+        in_play = belief.game.phase is TeamPhase.PLAY and action.kick is None
+        if in_play and belief.ball is not None and self._plays_ball(belief):
+            wanted = keep_in_play(me, belief.ball.now[:2], wanted, self.setup, self.limits)
+        wanted = let_go_of_opponent(self._push, me, wanted, self.setup, self.limits)
+        action = super()._by_the_rules(belief, action._replace(drive=wanted), order)
         if not belief.holding or self._last is None:
             return action
-        wanted, me = action.drive, belief.me
-        soon = me.x + self.parameters.edge_time * me.vx, me.y + self.parameters.edge_time * me.vy
-        if inside(*soon, self.setup.pitch, 0.0) != soon:
-            turn = self.parameters.edge_turn
-            wanted = Drive(vx=wanted.vx, vy=wanted.vy, omega=max(-turn, min(turn, wanted.omega)))
-        motion = keep_hold(me, wanted, self._last.drive, belief.dt, self.setup)
-        return action._replace(drive=motion)
+        return action._replace(drive=keep_hold(me, action.drive, self._last.drive, belief.dt, self.setup))
 
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """Find the role, then act by it."""
