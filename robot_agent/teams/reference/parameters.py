@@ -27,7 +27,12 @@ class Parameters:
     keeps_place: float = 1.5
     """m by which another robot must be nearer to a place than the one that has it."""
 
+    has_it: float = 0.6
+    """m; a robot this close to the ball has it."""
+
     # Places
+    looks_ahead: float = 0.6
+    """s of the ball's roll; places are around where it is then."""
     support_near: float = 3.2
     """m from the ball to a near supporter: outside the reach of the opponent at the ball."""
     support_far: float = 5.5
@@ -180,8 +185,13 @@ class Parameters:
     # Set pieces
     restart_wait: float = 3.5
     """s after START for a free receiver; then the ball is played anyway: the rules give 7 s."""
+    penalty_corner: float = 0.35
+    """Target of a penalty beside the goal's middle, as a share of the goal's width."""
     restart_sure: float = 0.75
     """Chance of arrival for which a set piece is played at once."""
+
+    stepped_in: float = 0.55
+    """m from the ball of a restart, from where the target stays: to turn with the ball would drag it."""
 
     # Recovery
     stuck_after: float = 0.8

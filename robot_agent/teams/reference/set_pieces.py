@@ -2,11 +2,15 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from robot_agent.bodies import Body
+from robot_agent.skills.pass_to import pass_speed
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, passes
 from schemas.config.sections import Pitch
+from schemas.game import TeamPhase
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 
@@ -14,6 +18,65 @@ KICK_OFF_TO = (0.8, 3.0)
 """m; target of a kick-off: ahead, so that the taker waits behind the ball in its own half."""
 KICK_OFF_ARRIVING = 1.0
 """m/s on arrival; the ball waits there for its receiver, which stands in its own half until START."""
+
+
+class Restart(NamedTuple):
+    """What the taker knows."""
+
+    phase: TeamPhase
+    spot: Point
+    mates: Mapping[str, Body]
+    """Teammates in the field."""
+    opponents: Sequence[Point]
+    running: bool
+    """Whether START was given."""
+    waited: float
+    """s since START."""
+    away: float
+    """m from the taker to the ball."""
+    chosen: Pass | None
+    """The pass that it aimed at a tick ago."""
+
+
+class RestartKick(NamedTuple):
+    """How a restart is played."""
+
+    target: Point
+    speed: float
+    """m/s."""
+    error: float
+    """m beside the target at most."""
+    aimed: Pass | None
+    """The pass, once there is a receiver."""
+    waits: bool = False
+    """Whether the taker waits for a receiver that is free."""
+
+
+def restart_kick(now: Restart, setup: Setup, parameters: Parameters) -> RestartKick:
+    """The kick of a restart of our own: a penalty at the goal, anything else to the best receiver."""
+    pitch = setup.pitch
+    if now.phase is TeamPhase.OUR_PENALTY:
+        corner = pitch.goal_line, parameters.penalty_corner * pitch.goal_width
+        return RestartKick(corner, setup.kicker.max_ground_speed, parameters.shot_error, None)
+    best = _receiver(now, pitch, parameters)
+    target = best.target if best is not None else KICK_OFF_TO
+    is_kick_off = now.phase is TeamPhase.OUR_KICK_OFF
+    arriving = KICK_OFF_ARRIVING if is_kick_off else parameters.pass_arriving
+    speed = pass_speed(math.dist(now.spot, target), setup, arriving)
+    waits = best is None and now.running and now.waited < parameters.restart_wait
+    return RestartKick(target, speed, parameters.pass_error, best, waits)
+
+
+def _receiver(now: Restart, pitch: Pitch, parameters: Parameters) -> Pass | None:
+    """The pass of the restart; what was chosen stays while the taker steps in, and for a kick-off."""
+    if now.phase is TeamPhase.OUR_KICK_OFF:
+        is_kick_off = now.chosen is not None and now.chosen.target[0] == KICK_OFF_TO[0]
+        best = now.chosen if is_kick_off else kick_off(now.mates)
+    else:
+        best = now.chosen if now.running and now.away < parameters.stepped_in else None
+    waited = now.waited if now.running else math.inf
+    chosen = (now.chosen.receiver, now.chosen.target) if now.chosen is not None else None
+    return best or best_restart(now.spot, now.mates, now.opponents, chosen, waited, pitch, parameters)
 
 
 def kick_off(mates: Mapping[str, Body]) -> Pass | None:

@@ -11,7 +11,6 @@ from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_hold import keep_hold
 from robot_agent.skills.keep_in_play import keep_in_play
 from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import pass_speed
 from robot_agent.skills.take_ball import take_ball
 from robot_agent.teams.action import Action
 from robot_agent.teams.player import Player
@@ -19,13 +18,13 @@ from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.reference.attacker import Situation, play_ball
 from robot_agent.teams.reference.drawing import drawing
 from robot_agent.teams.reference.estimate import SharedEstimate, report
-from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.keeper import fetches, guard
 from robot_agent.teams.reference.parameters import PARAMETERS, Parameters
 from robot_agent.teams.reference.passing import Pass, chance
-from robot_agent.teams.reference.recovery import BackOut, home
-from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
-from robot_agent.teams.reference.set_pieces import KICK_OFF_ARRIVING, KICK_OFF_TO, best_restart, kick_off
+from robot_agent.teams.reference.recovery import BackOut
+from robot_agent.teams.reference.role_finding import HOLDS, RoleFinder
+from robot_agent.teams.reference.roles import Candidate, Role
+from robot_agent.teams.reference.set_pieces import Restart, restart_kick
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from robot_agent.world_model import WorldBelief, places_of
 from schemas.game import TeamPhase
@@ -37,10 +36,6 @@ Point = tuple[float, float]
 
 CLEAR = "clear"
 """Intention of a keeper that leaves its line for the ball."""
-_STEPPED_IN = 0.55
-"""m from the ball of a restart, from where the target stays: to turn with the ball would drag it."""
-_HAS_IT = 0.6
-"""m; a robot this close to the ball has it."""
 
 
 class Reference(Player):
@@ -52,6 +47,7 @@ class Reference(Player):
         self._estimate = self._world = SharedEstimate(briefing, parameters)
         self._back_out = BackOut(parameters)
         self._push = OwnPush()
+        self._roles = RoleFinder(briefing, self.rolling, parameters)
         self._role: Role = Role.KEEPER if self.is_keeper else Role.SUPPORTER
         self._promised: Promise | None = None
         self._chosen: Pass | None = None
@@ -62,8 +58,6 @@ class Reference(Player):
         """s until this robot could be at the ball: now, and as it was sent last."""
         self._place: Point | None = None
         """Where this robot stands, until another place is clearly better."""
-        self._attack_left = 0.0
-        """s for which the places of an attack stay."""
         self._shoots = False
         """Whether this robot aims at the goal."""
         self._weighed: dict[str, float] = {}
@@ -152,80 +146,22 @@ class Reference(Player):
     def _arrival_at(self, body: Body, ball: Ball, *, holding: bool = False) -> float:
         """When a robot could be at the ball, s from now; before any other when it holds it."""
         if holding:
-            return -1.0
+            return HOLDS
         return meet(body, way_of(ball, self.rolling), self.setup.dribble.gap, self.limits).time
 
     def _find_role(self, belief: WorldBelief, ball: Ball, spot: Point) -> tuple[Role, Point]:
-        """The role of this robot, and its place; a robot that may not play the ball stands before the own goal."""
-        me = self.briefing.robot
-        candidates = self._candidates(belief, ball)
-        first = attacker_of(candidates, self.parameters)
-        holder = self._holder(belief, candidates)
-        if holder is not None:
-            first = holder
-        theirs = min((math.dist(place, ball[:2]) for place in belief.opponents), default=math.inf)
-        phase = belief.game.phase
-        attacks = holder is not None or phase.ours or (theirs > _HAS_IT and candidates[first].arrival < theirs / 2.5)
-        attacks = self._still_attacks(attacks or self._promised is not None, belief)
-        if first == me:
-            return Role.ATTACKER, self._before_own_goal(spot)
-        del candidates[first]
-        shared = share_places(candidates, self._places(belief, ball, spot, candidates, attacks), self.parameters)
-        place = shared.get(me, Place(Role.GUARD, belief.me[:2]))
-        return place.role, place.at
-
-    def _still_attacks(self, attacks: bool, belief: WorldBelief) -> bool:
-        """Whether the places of an attack are taken: they stay for a moment, unless the opponents have a set piece."""
-        lasts = self.parameters.attack_lasts if attacks else self._attack_left - belief.dt
-        self._attack_left = 0.0 if belief.game.phase.theirs else max(0.0, lasts)
-        return self._attack_left > 0.0
-
-    def _places(
-        self, belief: WorldBelief, ball: Ball, spot: Point, others: dict[str, Candidate], attacks: bool
-    ) -> list[Place]:
-        at = ball.after(0.6, self.rolling)[:2] if belief.game.phase is TeamPhase.PLAY else spot
-        return places(
-            at,
-            attacks=attacks,
-            opponents=belief.opponents,
-            robots=[others[name].body[:2] for name in sorted(others)],
-            pitch=self.setup.pitch,
-            inset=self.setup.robot.reach,
-            parameters=self.parameters,
+        """The role and the place of this robot, from what all robots of the team know of each other."""
+        receiver = self._promised.receiver if self._promised is not None else None
+        sent = self._sent_arrival if math.isfinite(self._sent_arrival) and not belief.holding else self._arrival
+        candidates = self._roles.candidates(
+            belief,
+            Candidate(belief.me, sent, self._role, receiver == self.briefing.robot),
+            self._estimate.words,
+            self.keeper,
+            receiver,
+            lambda body: self._arrival_at(body, ball),
         )
-
-    def _candidates(self, belief: WorldBelief, ball: Ball) -> dict[str, Candidate]:
-        """All field robots of the team; those without radio messages at their homes."""
-        me, receiver = self.briefing.robot, self._promised.receiver if self._promised is not None else None
-        arrival = self._sent_arrival if math.isfinite(self._sent_arrival) else self._arrival
-        if belief.holding:
-            arrival = self._arrival
-        found = {me: Candidate(belief.me, arrival, self._role, receiver == me)}
-        for number, name in enumerate(self.setup.teams[self.briefing.side].robots, 1):
-            if name in (me, self.keeper) or self._is_away(belief, name):
-                continue
-            mate, words = belief.mates.get(name), self._estimate.words.get(name)
-            if mate is None:
-                body = Body(*home(number, self.setup.pitch), 0.0)
-                silent = self._arrival_at(body, ball) + self.parameters.silent_delay
-                found[name] = Candidate(body, silent, "")
-            else:
-                heard = words.arrival if words is not None else math.inf
-                if not math.isfinite(heard):
-                    heard = self._arrival_at(mate.body, ball)
-                found[name] = Candidate(mate.body, heard, mate.role, receiver == name)
-        return found
-
-    def _is_away(self, belief: WorldBelief, name: str) -> bool:
-        record = belief.game.robots.get(name)
-        return record is not None and record.off_field is not None
-
-    def _holder(self, belief: WorldBelief, candidates: dict[str, Candidate]) -> str | None:
-        """The robot of the team that holds the ball, by its own words."""
-        holders = [name for name, one in candidates.items() if one.arrival < -0.5]
-        if belief.holding:
-            return self.briefing.robot
-        return min(holders, default=None)
+        return self._roles.find(belief, candidates, ball, spot, promised=self._promised is not None)
 
     def _field_mates(self, belief: WorldBelief) -> dict[str, Body]:
         return {name: mate.body for name, mate in belief.mates.items() if name != self.keeper}
@@ -279,46 +215,25 @@ class Reference(Player):
         is_ahead = place[0] > ball[0] - self.parameters.serves_behind
         return is_near and is_free and is_ahead and chance(ball, place, belief.opponents, self.parameters) > 0.5
 
-    def _before_own_goal(self, spot: Point) -> Point:
-        """A place 1 m from the ball toward the own goal; the rules of the phase move it farther away."""
-        dx, dy = -self.setup.pitch.goal_line - spot[0], -spot[1]
-        away = max(math.hypot(dx, dy), 1e-6)
-        return spot[0] + dx / away, spot[1] + dy / away
-
     def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Line up behind the ball; after START play it to the best receiver, or a penalty at the goal."""
-        pitch, phase = self.setup.pitch, belief.game.phase
-        if phase is TeamPhase.OUR_PENALTY:
-            target, speed = (pitch.goal_line, 0.35 * pitch.goal_width), self.setup.kicker.max_ground_speed
-            receiver, error = None, self.parameters.shot_error
-        else:
-            chosen = (self._chosen.receiver, self._chosen.target) if self._chosen is not None else None
-            mates = self._field_mates(belief)
-            waited = self._waited if belief.game.running else math.inf
-            steps_in = belief.game.running and math.dist(belief.me[:2], spot) < _STEPPED_IN
-            best = self._chosen if steps_in else None
-            if phase is TeamPhase.OUR_KICK_OFF:
-                is_chosen = self._chosen is not None and self._chosen.target[0] == KICK_OFF_TO[0]
-                best = self._chosen if is_chosen else kick_off(mates)
-            best = best or best_restart(spot, mates, belief.opponents, chosen, waited, pitch, self.parameters)
-            self._chosen = best or self._chosen
-            target = best.target if best is not None else KICK_OFF_TO
-            receiver = best.receiver if best is not None else None
-            arriving = KICK_OFF_ARRIVING if phase is TeamPhase.OUR_KICK_OFF else self.parameters.pass_arriving
-            speed = pass_speed(math.dist(spot, target), self.setup, arriving)
-            error = self.parameters.pass_error
-            if best is None and belief.game.running and self._waited < self.parameters.restart_wait:
-                motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
-                return Action(Role.ATTACKER, "wait for a receiver", motion)
-        if not belief.game.running:
+        running, mates, away = belief.game.running, self._field_mates(belief), math.dist(belief.me[:2], spot)
+        now = Restart(
+            belief.game.phase, spot, mates, belief.opponents, running, self._waited, away, chosen=self._chosen
+        )
+        target, speed, error, aimed, waits = restart_kick(now, self.setup, self.parameters)
+        self._chosen = aimed or self._chosen
+        if waits or not running:
+            intention = "wait for a receiver" if waits else "wait behind the ball"
             motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
-            return Action(Role.ATTACKER, "wait behind the ball", motion)
+            return Action(Role.ATTACKER, intention, motion)
         if not belief.holding:
             return Action(Role.ATTACKER, "step in", step_in(belief.me, ball[:2], target, self.setup, self.limits), True)
         motion, kick = kick_at(belief.me, target, speed, error, self.limits)
-        if kick is not None and receiver is not None and belief.kicker_ready:
+        receiver = aimed.receiver if aimed is not None and kick is not None else None
+        if receiver is not None and belief.kicker_ready:
             self._promised = Promise(receiver)
-        return Action(Role.ATTACKER, "kick", motion, True, kick, receiver if kick is not None else None)
+        return Action(Role.ATTACKER, "kick", motion, True, kick, receiver)
 
     def _keep(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Guard the goal; fetch a slow ball near it, and play it out."""
