@@ -15,6 +15,8 @@ from schemas.messages.sight import Sight
 
 Point = tuple[float, float]
 
+HOLDS = -1.0
+"""s until a robot that holds the ball could be at it: less than for any other."""
 MOST_OPPONENTS = 6
 """Opponents in a radio message: two entries each, of sixteen."""
 
@@ -94,9 +96,9 @@ def report(opponents: list[Point], me: Point, arrival: float) -> dict[str, float
 
 
 def arrival_in(words: dict[str, float | int | bool | str]) -> float:
-    """When a teammate could be at the ball, in its words; infinite where they have no such time."""
+    """When a teammate could be at the ball, in its words: `HOLDS` with the ball, infinite where it sent no time."""
     arrival = words.get("arrival")
-    return float(arrival) if isinstance(arrival, float | int) and arrival >= 0.0 else math.inf
+    return float(arrival) if isinstance(arrival, float | int) and arrival >= HOLDS else math.inf
 
 
 def reported(words: dict[str, float | int | bool | str]) -> list[Point]:

@@ -45,7 +45,7 @@ def places(
     found = found[: len(robots)]
     while len(found) < len(robots):
         taken = [place.at for place in found]
-        found.append(Place(Role.SUPPORTER, _support(ball, taken, opponents, robots, pitch, front, inset, parameters)))
+        found.append(Place(Role.SUPPORTER, _support(ball, taken, opponents, robots, pitch, front, parameters)))
     return found
 
 
@@ -83,12 +83,11 @@ def _support(
     robots: Sequence[Point],
     pitch: Pitch,
     front: float,
-    inset: float,
     parameters: Parameters,
 ) -> Point:
     """The best place for a pass: free lane, room, near their goal, apart from the others, and near a robot already."""
     best, most = ball, -math.inf
-    for place in _candidates(ball, robots, pitch, front, inset, parameters):
+    for place in _candidates(ball, robots, pitch, front, parameters):
         if any(math.dist(place, other) < parameters.support_apart for other in taken):
             continue
         way = min(math.dist(place, robot) for robot in robots)
@@ -101,14 +100,16 @@ def _support(
 
 
 def _candidates(
-    ball: Point, robots: Sequence[Point], pitch: Pitch, front: float, inset: float, parameters: Parameters
+    ball: Point, robots: Sequence[Point], pitch: Pitch, front: float, parameters: Parameters
 ) -> Iterator[Point]:
     """Two rings around the ball, and where robots are that could stay."""
     for radius in (parameters.support_near, parameters.support_far):
         for angle in _DIRECTIONS:
-            x, y = inside(ball[0] + radius * math.cos(angle), ball[1] + radius * math.sin(angle), pitch, inset + 0.4)
+            x, y = inside(
+                ball[0] + radius * math.cos(angle), ball[1] + radius * math.sin(angle), pitch, parameters.support_inset
+            )
             if -front <= x <= front and math.dist((x, y), ball) > 0.8 * parameters.support_near:
                 yield x, y
     for x, y in robots:
         if abs(x) <= front and parameters.support_near < math.dist((x, y), ball) < parameters.pass_longest:
-            yield inside(x, y, pitch, inset + 0.4)
+            yield inside(x, y, pitch, parameters.support_inset)

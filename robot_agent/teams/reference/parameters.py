@@ -43,6 +43,8 @@ class Parameters:
     """Value of a place a metre that a robot does not have to drive: keeps the way of a match short."""
     support_ahead: float = 0.06
     """Value of a place a metre ahead of the ball: a goal needs a pass that is received in the other half."""
+    support_inset: float = 0.65
+    """m from the lines to a supporter: a pass that it misses by less stays on the pitch."""
     support_speed: float = 1.6
     """m/s; supporters walk: full speed would double their way and win nothing."""
     settles: float = 2.0
@@ -77,7 +79,7 @@ class Parameters:
     """m; a shorter pass does not roll the metre that counts."""
     pass_longest: float = 9.5
     """m; a longer pass takes over 2 s."""
-    pass_inset: float = 0.4
+    pass_inset: float = 1.0
     """m from the lines to the target of a pass: a receiver that misses it by less keeps it on the pitch."""
     pass_arriving: float = 2.6
     """m/s when it arrives: the dribbler keeps it, and opponents have little time."""

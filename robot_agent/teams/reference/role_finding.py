@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
-from robot_agent.teams.reference.estimate import Words
+from robot_agent.teams.reference.estimate import HOLDS, Words
 from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.recovery import home
@@ -15,9 +15,6 @@ from schemas.config.rolling import Rolling
 from schemas.game import TeamPhase
 
 Point = tuple[float, float]
-
-HOLDS = -1.0
-"""s until a robot that holds the ball could be at it: less than for any other."""
 
 
 class RoleFinder:
@@ -55,8 +52,10 @@ class RoleFinder:
                 body = Body(*home(number, self._setup.pitch), 0.0)
                 found[name] = Candidate(body, arrival_of(body) + self._parameters.silent_delay, "")
                 continue
-            sent = words[name].arrival if name in words else math.inf
-            arrival = sent if math.isfinite(sent) else arrival_of(mate.body)
+            arrival = words[name].arrival if name in words else math.inf
+            cannot_hold = belief.ball is None or math.dist(mate.body[:2], belief.ball.now[:2]) > self._parameters.has_it
+            if not math.isfinite(arrival) or (arrival < 0.5 * HOLDS and cannot_hold):
+                arrival = arrival_of(mate.body)
             found[name] = Candidate(mate.body, arrival, mate.role, receiver == name)
         return found
 

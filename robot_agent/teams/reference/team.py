@@ -17,12 +17,12 @@ from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.reference.attacker import Situation, play_ball
 from robot_agent.teams.reference.drawing import drawing
-from robot_agent.teams.reference.estimate import SharedEstimate, report
+from robot_agent.teams.reference.estimate import HOLDS, SharedEstimate, report
 from robot_agent.teams.reference.keeper import fetches, guard
 from robot_agent.teams.reference.parameters import PARAMETERS, Parameters
 from robot_agent.teams.reference.passing import Pass, chance
 from robot_agent.teams.reference.recovery import BackOut
-from robot_agent.teams.reference.role_finding import HOLDS, RoleFinder
+from robot_agent.teams.reference.role_finding import RoleFinder
 from robot_agent.teams.reference.roles import Candidate, Role
 from robot_agent.teams.reference.set_pieces import Restart, restart_kick
 from robot_agent.teams.set_piece import stand, step_in, wait_behind

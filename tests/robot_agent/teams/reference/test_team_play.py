@@ -5,6 +5,10 @@ from itertools import pairwise
 
 import pytest
 
+from robot_agent.contract import Briefing
+from robot_agent.teams.reference import Reference
+from schemas.messages.sight import BallSight, Motion, ReceivedRadio
+
 FIELD = {"cyan1": (-10.5, 0, 0), "cyan2": (-2, 2, 0), "cyan3": (-2, -2, 0), "cyan4": (-5, 1, 0), "cyan5": (-5, -2, 0)}
 THEIRS = {"magenta1": (10.5, 0, math.pi), "magenta2": (5.0, 5.0, math.pi), "magenta3": (-5.0, 4.0, math.pi)}
 
@@ -97,3 +101,16 @@ def test_every_robot_draws_its_role_and_the_holder_what_it_weighed(scene):
     assert all(drawn[name].texts[0].text.startswith(str(drawn[name].values["role"])) for name in FIELD)
     weighed = [one["cyan2"].debug.values for one in played.commands if one["cyan2"].debug is not None]
     assert any({"shot", "pass", "dribble"} <= values.keys() for values in weighed)
+
+
+@pytest.mark.parametrize(("mate", "holds"), [((1.05, 0.0), True), ((-6.0, 3.0), False)])
+def test_a_teammate_holds_the_ball_by_its_words_if_it_is_at_the_ball(setup, sight_of, mate, holds):
+    """The robot that is nearer to the ball leaves it to a teammate that has it, and to no other."""
+    robot = Reference(Briefing.of("cyan2", setup))
+    said = ReceivedRadio(age=0.0, self=Motion(x=mate[0], y=mate[1], heading=0.0), extra={"arrival": -1.0})
+    sights = (
+        sight_of(tick, ball=BallSight(x=0.5, y=0.0, vx=0.0, vy=0.0), radio={"cyan3": said}) for tick in range(1, 12)
+    )
+    sent = [command.radio.role for command in map(robot.act, sights) if command.radio is not None]
+    assert sent
+    assert (sent[-1] == "attacker") is not holds

@@ -123,7 +123,7 @@ def test_a_ball_in_the_air_is_known_to_fly_and_one_that_rolls_is_not(briefing, s
 def test_what_a_teammate_sends_that_cannot_be_is_not_believed(briefing, sight_of, number):
     """A teammate of another author may send any number by any name."""
     estimate = SharedEstimate(briefing, PARAMETERS)
-    words = {"x0": number, "y0": 0.0, "x1": 1.0, "y1": 2.0, "arrival": -1.0}
+    words = {"x0": number, "y0": 0.0, "x1": 1.0, "y1": 2.0, "arrival": -3.0}
     said = ReceivedRadio(age=0.0, self=Motion(x=-5.0, y=-3.0, heading=0.0), extra=words)
     belief = estimate.update(sight_of(radio={"cyan3": said}))
     assert belief.opponents == [(1.0, 2.0)]
