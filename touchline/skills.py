@@ -12,6 +12,7 @@ from robot_agent.skills.go_to import drive, go_to
 from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_goal import guard_place, keep_goal
 from robot_agent.skills.keep_hold import keep_hold
+from robot_agent.skills.keep_in_play import keep_in_play
 from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.skills.keep_out import keep_out
 from robot_agent.skills.kick_at import kick_at
@@ -47,6 +48,7 @@ __all__ = [
     "is_open",
     "keep_goal",
     "keep_hold",
+    "keep_in_play",
     "keep_off",
     "keep_out",
     "kick_at",

@@ -47,7 +47,7 @@ class Turner:
         return Command(answers_tick=sight.tick, drive=motion, dribble=True)
 
 
-def turn(speed, heading, *, gently):
+def turn(speed: float, heading: float, *, gently: bool) -> Turner:
     """A turn with the ball from a speed; ends with the turn, or when the ball is lost."""
     scene = {
         "description": "A robot meets a ball at rest.",
@@ -70,23 +70,23 @@ def turn(speed, heading, *, gently):
 
 @pytest.mark.parametrize("speed", [2.0, 3.0])
 @pytest.mark.parametrize("heading", [math.pi / 2, -2.4])
-def test_a_robot_that_turns_while_it_brakes_keeps_the_ball(speed, heading):
+def test_a_robot_that_turns_while_it_brakes_keeps_the_ball(speed: float, heading: float) -> None:
     turner = turn(speed, heading, gently=True)
     assert turner.turned
     assert turner.held < 1.6
 
 
-def test_the_same_turn_at_full_braking_loses_the_ball():
+def test_the_same_turn_at_full_braking_loses_the_ball() -> None:
     assert turn(2.0, math.pi / 2, gently=False).lost
 
 
-def test_a_straight_brake_stays_below_the_pull_of_the_dribbler(setup: Setup):
+def test_a_straight_brake_stays_below_the_pull_of_the_dribbler(setup: Setup) -> None:
     kept = keep_hold(Body(0.0, 0.0, 0.0, 3.0), Drive(), Drive(vx=3.0), TICK, setup)
     pull = setup.dribble.max_pull / (setup.ball.mass + setup.ball.inertia / setup.ball.radius**2)
     assert 3.0 - pull * TICK < kept.vx < 3.0
 
 
-def test_the_faster_the_turn_the_softer_the_brake(setup: Setup):
+def test_the_faster_the_turn_the_softer_the_brake(setup: Setup) -> None:
     me, last = Body(0.0, 0.0, 0.0, 2.0), Drive(vx=2.0)
     speeds = [keep_hold(me, Drive(omega=omega), last, TICK, setup).vx for omega in (0.0, 1.5, 2.5)]
     assert speeds == sorted(speeds)
@@ -94,7 +94,7 @@ def test_the_faster_the_turn_the_softer_the_brake(setup: Setup):
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_turn_is_one_around_the_ball_and_slower_at_speed(setup: Setup, side):
+def test_a_turn_is_one_around_the_ball_and_slower_at_speed(setup: Setup, side: float) -> None:
     rest = keep_hold(Body(0.0, 0.0, 0.0), Drive(omega=3.0 * side), Drive(), TICK, setup)
     fast = keep_hold(Body(0.0, 0.0, 0.0, 4.0), Drive(vx=4.0, omega=5.0 * side), Drive(vx=4.0), TICK, setup)
     assert rest.omega == 3.0 * side
@@ -102,7 +102,7 @@ def test_a_turn_is_one_around_the_ball_and_slower_at_speed(setup: Setup, side):
     assert abs(fast.omega) < 3.0
 
 
-def test_without_bounded_forces_the_drive_is_the_wanted_one(setup: Setup):
+def test_without_bounded_forces_the_drive_is_the_wanted_one(setup: Setup) -> None:
     unbounded = setup.model_copy(update={"dribble": dataclasses.replace(setup.dribble, method="pose")})
     wanted = Drive(vx=-1.0, omega=6.0)
     assert keep_hold(Body(0.0, 0.0, 0.0, 2.0), wanted, Drive(vx=2.0), TICK, unbounded) is wanted
