@@ -21,16 +21,8 @@ from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 
-PREPARED = 0.6
-"""m into the other half; a pass received there makes a goal count."""
-_STEP = 2.0
-"""m ahead that a dribble is judged by."""
 _WAYS = tuple(math.radians(angle) for angle in (0, 25, -25, 50, -50, 80, -80))
 """Directions of a dribble, from the kick axis's way to the goal."""
-_ENDS = 0.5
-"""Share of the speed near the end of the dribbling circle, where the robot has to be able to stop."""
-_TURN_RATE = 2.8
-"""rad/s with the ball."""
 
 
 class Situation(NamedTuple):
@@ -77,7 +69,7 @@ def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Par
     is_late = now.held > parameters.patience or now.must_pass
     if shot is not None and shot.chance > _least_chance(now, ball, parameters, is_late=is_late):
         return Choice(_shoot(me, shot, setup, limits, parameters), None, weighed, shoots=True)
-    if best is not None and (best.value > dribble_worth or (is_late and best.chance > 0.2)):
+    if best is not None and (best.value > dribble_worth or (is_late and best.chance > parameters.pass_late)):
         return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
     return Choice(_dribble(now, way, setup, limits, parameters), None, weighed)
 
@@ -97,33 +89,38 @@ def _best_pass(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters
     found = passes(ball, now.me.heading, now.mates, now.opponents, now.chosen, pitch, parameters)
     if not now.may_score:
         bonus = parameters.pass_prepares
-        found = [one._replace(value=one.value + bonus * one.chance * (one.target[0] > PREPARED)) for one in found]
+        found = [
+            one._replace(value=one.value + bonus * one.chance * (one.target[0] > parameters.prepared)) for one in found
+        ]
     return max(found, key=lambda one: one.value, default=None)
 
 
 def _best_dribble(now: Situation, ball: Point, pitch: Pitch, parameters: Parameters) -> tuple[float, float]:
     """The best direction to carry the ball, rad, and its value."""
-    to_goal = math.atan2(-ball[1], pitch.goal_line - 1.5 - ball[0])
-    best, most = to_goal, -math.inf
+    to_goal = math.atan2(-ball[1], pitch.goal_line - parameters.dribble_aims - ball[0])
+    best, most, step = to_goal, -math.inf, parameters.dribble_step
     pressed = min((math.dist(ball, opponent) for opponent in now.opponents), default=9.0) < parameters.pressed
     for turn in _WAYS:
         way = to_goal + turn
-        end = ball[0] + _STEP * math.cos(way), ball[1] + _STEP * math.sin(way)
-        if abs(end[1]) > pitch.touch_line - 0.6 or end[0] > pitch.goal_line - 1.2:
+        end = ball[0] + step * math.cos(way), ball[1] + step * math.sin(way)
+        beside, before = pitch.touch_line - abs(end[1]), pitch.goal_line - end[0]
+        if beside < parameters.dribble_beside or before < parameters.dribble_before:
             continue
         sure = chance(ball, end, now.opponents, parameters)
-        value = sure * worth(end, now.opponents, pitch) - (1.0 - sure) * cost_of_loss(end, pitch, parameters)
-        value -= 0.02 * abs(turn)
+        value = sure * worth(end, now.opponents, pitch, parameters) - (1.0 - sure) * cost_of_loss(
+            end, pitch, parameters
+        )
+        value -= parameters.dribble_turn_cost * abs(turn)
         if value > most:
             best, most = way, value
-    return best, most - (0.1 if pressed else 0.0)
+    return best, most - (parameters.pressed_cost if pressed else 0.0)
 
 
 def _shoot(me: Body, shot: Shot, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
     """Shoot while driving on."""
     kicker = setup.kicker
     speed = kicker.max_lob_speed if shot.mode is KickMode.LOB else kicker.max_ground_speed
-    velocity = _toward(me, shot.target, 0.5 * parameters.dribble_speed)
+    velocity = _toward(me, shot.target, parameters.shot_drive * parameters.dribble_speed)
     motion, kick = kick_on_the_run(me, shot.target, speed, parameters.shot_error, velocity, limits, shot.mode)
     return Action(Role.ATTACKER, f"shoot {shot.mode.value}", motion, dribble=True, kick=kick)
 
@@ -131,7 +128,7 @@ def _shoot(me: Body, shot: Shot, setup: Setup, limits: DriveLimits, parameters: 
 def _pass(now: Situation, ball: Point, best: Pass, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
     """Aim while turning; the ball arrives as fast as a dribbler keeps it."""
     speed = pass_speed(math.dist(ball, best.target), setup, parameters.pass_arriving)
-    velocity = _toward(now.me, best.target, 0.4 * parameters.dribble_speed)
+    velocity = _toward(now.me, best.target, parameters.pass_drive * parameters.dribble_speed)
     motion, kick = kick_on_the_run(now.me, best.target, speed, parameters.pass_error, velocity, limits)
     pass_to = best.receiver if kick is not None else None
     return Action(Role.ATTACKER, f"pass to {best.receiver}", motion, dribble=True, kick=kick, pass_to=pass_to)
@@ -139,11 +136,11 @@ def _pass(now: Situation, ball: Point, best: Pass, setup: Setup, limits: DriveLi
 
 def _dribble(now: Situation, way: float, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
     """Carry the ball round opponents, its front toward where it goes: backward driving is limited by the rules."""
-    me, slow = now.me, limits.capped(parameters.dribble_speed, _TURN_RATE)
-    blocked = circles(now.opponents, 2.0 * setup.robot.reach + setup.ball.radius + 0.2)
+    me, slow = now.me, limits.capped(parameters.dribble_speed, parameters.turn_rate)
+    blocked = circles(now.opponents, 2.0 * setup.robot.reach + setup.ball.radius + parameters.dribble_room)
     ahead = max(0.25, math.cos(way - me.heading))
-    speed = parameters.dribble_speed * ahead * (_ENDS if now.must_pass else 1.0)
-    vx, vy = steer(me, speed * math.cos(way), speed * math.sin(way), _STEP, blocked)
+    speed = parameters.dribble_speed * ahead * (parameters.dribble_ends if now.must_pass else 1.0)
+    vx, vy = steer(me, speed * math.cos(way), speed * math.sin(way), parameters.dribble_step, blocked)
     facing = math.atan2(vy, vx)
     return Action(Role.ATTACKER, "dribble", drive(me, vx, vy, turn_rate(me, facing, slow), slow), dribble=True)
 

@@ -13,8 +13,6 @@ Point = tuple[float, float]
 
 _DIRECTIONS = tuple(math.radians(angle) for angle in (-150, -110, -75, -40, 0, 40, 75, 110, 150))
 """Where supporters may stand around the ball, from the direction of the attack."""
-_SPREAD = 2.5
-"""m; within this distance of our goal line opponents without the ball are marked."""
 
 
 def places(
@@ -66,10 +64,15 @@ def _before_goal(ball: Point, distance: float, pitch: Pitch, front: float) -> Po
 
 def _marks(ball: Point, opponents: Sequence[Point], pitch: Pitch, front: float, parameters: Parameters) -> list[Point]:
     """A place at each opponent without the ball, on the way of a pass to it; the nearest to our goal first."""
-    free = [place for place in opponents if math.dist(place, ball) > 1.5 and place[0] < _SPREAD]
-    marks = []
+    free = [
+        place
+        for place in opponents
+        if math.dist(place, ball) > parameters.marks_beyond and place[0] < parameters.marks_within
+    ]
+    marks, lane = [], parameters.mark_lane
+    goal = 1.0 - lane
     for x, y in sorted(free, key=lambda place: math.dist(place, (-pitch.goal_line, 0.0))):
-        dx, dy = 0.6 * (ball[0] - x) + 0.4 * (-pitch.goal_line - x), 0.6 * (ball[1] - y) - 0.4 * y
+        dx, dy = lane * (ball[0] - x) + goal * (-pitch.goal_line - x), lane * (ball[1] - y) - goal * y
         away = max(math.hypot(dx, dy), 1e-6)
         place = x + parameters.mark_distance * dx / away, y + parameters.mark_distance * dy / away
         marks.append((max(-front, min(front, place[0])), place[1]))
@@ -86,13 +89,14 @@ def _support(
     parameters: Parameters,
 ) -> Point:
     """The best place for a pass: free lane, room, near their goal, apart from the others, and near a robot already."""
-    best, most = ball, -math.inf
+    best, most, most_ahead = ball, -math.inf, parameters.support_most_ahead
     for place in _candidates(ball, robots, pitch, front, parameters):
         if any(math.dist(place, other) < parameters.support_apart for other in taken):
             continue
         way = min(math.dist(place, robot) for robot in robots)
-        value = 0.6 * chance(ball, place, opponents, parameters) + 1.2 * worth(place, opponents, pitch)
-        value += parameters.support_ahead * max(-3.0, min(3.0, place[0] - ball[0]))
+        value = parameters.support_lane * chance(ball, place, opponents, parameters)
+        value += parameters.support_worth * worth(place, opponents, pitch, parameters)
+        value += parameters.support_ahead * max(-most_ahead, min(most_ahead, place[0] - ball[0]))
         value -= parameters.support_sticks * min(way, 6.0)
         if value > most:
             best, most = place, value

@@ -18,22 +18,15 @@ from schemas.messages.command import Drive
 
 Point = tuple[float, float]
 
-_SHOT_SPEED = 1.0
-"""m/s toward the goal; a slower ball is no shot."""
-_SHOT_TIME = 2.5
-"""s to the line; a later ball can wait."""
-_GAIN = 8.0
-"""1/s; full speed to a shot's crossing, easing off over the last centimetres."""
-
 
 def guard(me: Body, ball: Ball, pitch: Pitch, reach: float, limits: DriveLimits, parameters: Parameters) -> Drive:
     """Stand on the line where the open angle is halved; cross a shot's way."""
     x = -pitch.goal_line + parameters.on_line
-    crossing = shot_crossing(ball, x, pitch, reach)
+    crossing = shot_crossing(ball, x, pitch, reach, parameters)
     y = crossing if crossing is not None else halving_place(ball, x, pitch, reach)
     vx, vy = velocity_to(me, x, y, limits)
     if crossing is not None:
-        vy = max(-limits.speed, min(limits.speed, _GAIN * (y - me.y)))
+        vy = max(-limits.speed, min(limits.speed, parameters.crossing_gain * (y - me.y)))
     facing = math.atan2(ball.y - me.y, max(0.3, ball.x - me.x))
     return drive(me, vx, vy, turn_rate(me, facing, limits), limits)
 
@@ -50,14 +43,14 @@ def halving_place(ball: Ball, x: float, pitch: Pitch, reach: float) -> float:
     return max(-widest, min(widest, y))
 
 
-def shot_crossing(ball: Ball, x: float, pitch: Pitch, reach: float) -> float | None:
+def shot_crossing(ball: Ball, x: float, pitch: Pitch, reach: float, parameters: Parameters) -> float | None:
     """y where a ball on its way into the goal crosses the keeper's line; None when there is no shot."""
-    if ball.vx > -_SHOT_SPEED:
+    if ball.vx > -parameters.shot_slowest:
         return None
     time = (x - ball.x) / ball.vx
     widest = 0.5 * pitch.goal_width
     y = ball.y + ball.vy * time
-    if not 0.0 < time < _SHOT_TIME or abs(y) > widest + 2.0 * reach:
+    if not 0.0 < time < parameters.shot_horizon or abs(y) > widest + 2.0 * reach:
         return None
     return max(-widest, min(widest, y))
 
@@ -78,5 +71,5 @@ def fetches(
     if math.hypot(rests.x + pitch.goal_line, rests.y) > parameters.comes_out:
         return False
     mine = travel_time(math.dist(me[:2], rests[:2]), 0.0, limits.speed, limits.acceleration, limits.deceleration)
-    theirs = min((math.dist(place, rests[:2]) / 2.0 for place in opponents), default=math.inf)
+    theirs = min((math.dist(place, rests[:2]) / parameters.rivals_run for place in opponents), default=math.inf)
     return mine + parameters.first_by < theirs

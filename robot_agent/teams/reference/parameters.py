@@ -27,6 +27,8 @@ class Parameters:
     keeps_place: float = 1.5
     """m by which another robot must be nearer to a place than the one that has it."""
 
+    passes_by: float = 0.05
+    """m of air at which a robot passes others on its way to the ball."""
     has_it: float = 0.6
     """m; a robot this close to the ball has it."""
 
@@ -45,6 +47,12 @@ class Parameters:
     """Value of a place a metre ahead of the ball: a goal needs a pass that is received in the other half."""
     support_inset: float = 0.65
     """m from the lines to a supporter: a pass that it misses by less stays on the pitch."""
+    support_lane: float = 0.6
+    """Value of a place to which a pass arrives surely."""
+    support_worth: float = 1.2
+    """Value of a place for each of its worth."""
+    support_most_ahead: float = 3.0
+    """m ahead of the ball, or behind it, that count at most."""
     support_speed: float = 1.6
     """m/s; supporters walk: full speed would double their way and win nothing."""
     settles: float = 2.0
@@ -57,6 +65,8 @@ class Parameters:
     """m behind the ball, up to which it stays."""
     settles_close: float = 0.4
     """m of the same for a robot that blocks or marks."""
+    serves_chance: float = 0.5
+    """Least chance of a pass to where it stays."""
     guard_share: float = 0.42
     """Where the guard stands between the own goal and the ball, as a share."""
     guard_farthest: float = 7.0
@@ -66,6 +76,12 @@ class Parameters:
     mark_distance: float = 0.9
     """m from a marked opponent, toward the ball: as near as no contact allows."""
 
+    mark_lane: float = 0.6
+    """Where a marker stands: this part on the way of the pass, the rest on the way to our goal."""
+    marks_beyond: float = 1.5
+    """m from the ball, beyond which an opponent is without it."""
+    marks_within: float = 2.5
+    """m ahead of the middle line, up to which such opponents are marked."""
     blocks_before: float = 2.0
     """m; an opponent with the ball is blocked once the ball is behind this x."""
     marks_before: float = -1.0
@@ -81,6 +97,16 @@ class Parameters:
     """m; a longer pass takes over 2 s."""
     pass_inset: float = 1.0
     """m from the lines to the target of a pass: a receiver that misses it by less keeps it on the pitch."""
+    pass_mean_speed: float = 3.6
+    """m/s of a pass over its way, with `pass_arriving` at its end."""
+    pass_drive: float = 0.4
+    """Part of `dribble_speed` at which a robot drives toward the target while it turns to it."""
+    pass_late: float = 0.2
+    """Least chance of a pass for a robot that has to give up the ball."""
+    receiver_notices: float = 0.4
+    """s for which a receiver goes on as it does: radio, decision, and change of its motion."""
+    receiver_runs: float = 2.0
+    """m/s of a receiver that moves into a pass."""
     pass_arriving: float = 2.6
     """m/s when it arrives: the dribbler keeps it, and opponents have little time."""
     pass_error: float = 0.35
@@ -95,6 +121,16 @@ class Parameters:
     """m of margin with which a pass is sure to arrive."""
     lead: float = 1.2
     """m ahead of a receiver that a through ball is played."""
+    lead_aside: float = 1.3
+    """rad from the direction of the ball to a pass beside the receiver."""
+    worth_range: float = 6.0
+    """m to their goal over which the ball's worth falls to a third."""
+    worth_free: float = 0.04
+    """Worth a metre of room around the ball."""
+    worth_room: float = 3.0
+    """m of room that count at most."""
+    prepared: float = 0.6
+    """m into the other half, where a pass that is received makes a goal count: noise and the ball's roll."""
     pass_bonus: float = 0.06
     """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
     pass_prepares: float = 0.25
@@ -161,12 +197,30 @@ class Parameters:
     """The same for a robot that aims at the goal already: noise would stop half of the shots."""
     shot_late: float = 0.1
     """The same for a robot that has to give up the ball."""
+    shot_drive: float = 0.5
+    """Part of `dribble_speed` at which a robot drives toward the goal while it turns to it."""
     shot_error: float = 0.06
     """m beside the target at most."""
 
     # Dribbling
     dribble_speed: float = 3.0
     """m/s with the ball; the dribbler keeps it in turns of 3 rad/s."""
+    dribble_step: float = 2.0
+    """m ahead that a dribble is judged by."""
+    dribble_aims: float = 1.5
+    """m before their goal line, the point that a dribble is directed to: closer there is no room to shoot."""
+    dribble_beside: float = 0.6
+    """m from the touch line to the end of a dribble at least."""
+    dribble_before: float = 1.2
+    """m from their goal line to the same."""
+    dribble_turn_cost: float = 0.02
+    """Value a radian beside the way to the goal."""
+    dribble_ends: float = 0.5
+    """Part of the speed near the end of the dribbling circle, where the robot has to be able to stop."""
+    dribble_room: float = 0.2
+    """m of air between ball and opponents on the way."""
+    pressed_cost: float = 0.1
+    """Value of a dribble that is pressed less than of one that is not."""
     pressed: float = 1.1
     """m to an opponent ahead that presses."""
     patience: float = 3.0
@@ -181,6 +235,14 @@ class Parameters:
     """m from the goal's middle up to which the keeper fetches a slow ball that it reaches first."""
     comes_out_slow: float = 1.5
     """m/s of a ball that the keeper fetches, at most."""
+    shot_slowest: float = 1.0
+    """m/s toward the goal; a slower ball is no shot."""
+    shot_horizon: float = 2.5
+    """s to the line; a later ball can wait."""
+    crossing_gain: float = 8.0
+    """1/s; full speed to a shot's crossing, easing off over the last centimetres."""
+    rivals_run: float = 2.0
+    """m/s of opponents that run for a ball before the goal."""
     first_by: float = 0.4
     """s that it has to be there before any opponent."""
 
@@ -198,6 +260,8 @@ class Parameters:
     # Recovery
     stuck_after: float = 0.8
     """s of the stuck flag after which a robot backs out."""
+    stuck_turn: float = 2.2
+    """rad from the obstacle to the direction in which it backs out."""
     stuck_out: float = 0.7
     """s that it backs out."""
 

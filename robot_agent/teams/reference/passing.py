@@ -12,13 +12,6 @@ from schemas.frames import wrap
 
 Point = tuple[float, float]
 
-_MEAN_SPEED = 3.6
-"""m/s; a pass that arrives at 2.6 m/s, over its way."""
-_RUNS = 2.0
-"""m/s of a receiver that moves into a pass."""
-_NOTICES = 0.4
-"""s for which a receiver goes on as it does: radio, decision, and change of its motion."""
-
 
 class Pass(NamedTuple):
     """A pass that could be played."""
@@ -42,16 +35,16 @@ def chance(start: Point, end: Point, opponents: Sequence[Point], parameters: Par
             continue
         part = max(0.0, min(length, along))
         away = math.hypot(x - start[0] - part * ux, y - start[1] - part * uy)
-        moves = max(0.0, part / _MEAN_SPEED - parameters.intercept_reaction) * parameters.intercept_speed
+        moves = max(0.0, part / parameters.pass_mean_speed - parameters.intercept_reaction) * parameters.intercept_speed
         least = min(least, away - parameters.intercept_reach - moves)
     return max(0.0, least / parameters.lane_sure)
 
 
-def worth(place: Point, opponents: Sequence[Point], pitch: Pitch) -> float:
+def worth(place: Point, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters) -> float:
     """The ball's worth in our hold at a place, 0 to 1: near their goal, central, with room around."""
     to_goal = math.hypot(pitch.goal_line - place[0], place[1])
-    room = min((math.dist(place, opponent) for opponent in opponents), default=3.0)
-    return math.exp(-to_goal / 6.0) + 0.04 * min(room, 3.0)
+    room = min((math.dist(place, opponent) for opponent in opponents), default=parameters.worth_room)
+    return math.exp(-to_goal / parameters.worth_range) + parameters.worth_free * min(room, parameters.worth_room)
 
 
 def cost_of_loss(place: Point, pitch: Pitch, parameters: Parameters) -> float:
@@ -78,11 +71,12 @@ def passes(
             if not parameters.pass_least < far < parameters.pass_longest:
                 continue
             sure = chance(ball, target, opponents, parameters)
-            late = _NOTICES + math.dist(_soon(body), target) / _RUNS - far / _MEAN_SPEED
+            runs = math.dist(_soon(body, parameters), target) / parameters.receiver_runs
+            late = parameters.receiver_notices + runs - far / parameters.pass_mean_speed
             sure *= max(0.0, min(1.0, 1.0 - late))
             turn = abs(wrap(math.atan2(target[1] - ball[1], target[0] - ball[0]) - heading))
             sure *= in_time(turn, ball, opponents, parameters)
-            gain = sure * (worth(target, opponents, pitch) + parameters.pass_bonus)
+            gain = sure * (worth(target, opponents, pitch, parameters) + parameters.pass_bonus)
             gain -= (1.0 - sure) * cost_of_loss(target, pitch, parameters) + parameters.turn_cost * turn
             if chosen is not None and chosen[0] == name and math.dist(chosen[1], target) < parameters.chosen_near:
                 gain += parameters.chosen_bonus
@@ -98,21 +92,22 @@ def in_time(turn: float, ball: Point, opponents: Sequence[Point], parameters: Pa
     return max(0.0, min(1.0, 1.0 - late / parameters.wins_duel))
 
 
-def _soon(mate: Body) -> Point:
+def _soon(mate: Body, parameters: Parameters) -> Point:
     """Where a teammate is when it turns to a pass."""
-    return mate.x + _NOTICES * mate.vx, mate.y + _NOTICES * mate.vy
+    notices = parameters.receiver_notices
+    return mate.x + notices * mate.vx, mate.y + notices * mate.vy
 
 
 def targets(ball: Point, mate: Body, pitch: Pitch, parameters: Parameters) -> list[Point]:
     """Where a pass to a teammate may go: to it, ahead of its motion, and behind the defence toward the goal."""
-    x, y = _soon(mate)
+    x, y = _soon(mate, parameters)
     to_goal = math.atan2(-y, pitch.goal_line - 1.0 - x)
     to_ball = math.atan2(ball[1] - y, ball[0] - x)
-    lead = parameters.lead
+    lead, aside = parameters.lead, parameters.lead_aside
     wanted = (
         (x, y),
         (x + lead * math.cos(to_goal), y + lead * math.sin(to_goal)),
-        (x + lead * math.cos(to_ball + 1.3), y + lead * math.sin(to_ball + 1.3)),
-        (x + lead * math.cos(to_ball - 1.3), y + lead * math.sin(to_ball - 1.3)),
+        (x + lead * math.cos(to_ball + aside), y + lead * math.sin(to_ball + aside)),
+        (x + lead * math.cos(to_ball - aside), y + lead * math.sin(to_ball - aside)),
     )
     return [inside(*place, pitch, parameters.pass_inset) for place in wanted]

@@ -40,7 +40,7 @@ class BackOut:
         if stuck > self._parameters.stuck_after and self._left == 0.0:
             nearest = min(others, key=lambda place: math.dist(place, me[:2]), default=None)
             ahead = math.atan2(nearest[1] - me.y, nearest[0] - me.x) if nearest is not None else me.heading
-            self._away = ahead + math.copysign(2.2, -me.y * math.cos(ahead) or 1.0)
+            self._away = ahead + math.copysign(self._parameters.stuck_turn, -me.y * math.cos(ahead) or 1.0)
             self._left = self._parameters.stuck_out
         if self._left == 0.0:
             return None

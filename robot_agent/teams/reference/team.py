@@ -190,7 +190,7 @@ class Reference(Player):
         """Meet the ball: a pass is met on its way, a loose ball where it rolls."""
         gap = self.setup.dribble.gap
         meeting = meet(belief.me, way_of(ball, self.rolling), gap, self.limits)
-        clearance = 2.0 * self.setup.robot.reach + 0.05
+        clearance = 2.0 * self.setup.robot.reach + self.parameters.passes_by
         mates = places_of(belief.mates).values()
         return take_ball(belief.me, ball, meeting, gap, belief.opponents, clearance, self.limits, mates)
 
@@ -213,7 +213,12 @@ class Reference(Player):
         is_near = self.parameters.serves_near < math.dist(place, ball) < self.parameters.serves_far
         is_free = all(math.dist(place, mate.body[:2]) > self.parameters.serves_near for mate in belief.mates.values())
         is_ahead = place[0] > ball[0] - self.parameters.serves_behind
-        return is_near and is_free and is_ahead and chance(ball, place, belief.opponents, self.parameters) > 0.5
+        return (
+            is_near
+            and is_free
+            and is_ahead
+            and chance(ball, place, belief.opponents, self.parameters) > self.parameters.serves_chance
+        )
 
     def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Line up behind the ball; after START play it to the best receiver, or a penalty at the goal."""

@@ -86,9 +86,9 @@ def test_the_keeper_stands_on_its_line_where_a_lob_passes_lowest(setup, limits, 
 
 def test_the_keeper_crosses_the_way_of_a_shot(setup):
     pitch, reach = setup.pitch, setup.robot.reach
-    assert shot_crossing(Ball(-5.0, 0.0, -6.0, 0.6), -11.0, pitch, reach) == 0.6
-    assert shot_crossing(Ball(-5.0, 0.0, -6.0, 6.0), -11.0, pitch, reach) is None
-    assert shot_crossing(Ball(-5.0, 0.0, 6.0, 0.0), -11.0, pitch, reach) is None
+    assert shot_crossing(Ball(-5.0, 0.0, -6.0, 0.6), -11.0, pitch, reach, PARAMETERS) == 0.6
+    assert shot_crossing(Ball(-5.0, 0.0, -6.0, 6.0), -11.0, pitch, reach, PARAMETERS) is None
+    assert shot_crossing(Ball(-5.0, 0.0, 6.0, 0.0), -11.0, pitch, reach, PARAMETERS) is None
 
 
 def test_the_keeper_comes_out_for_a_slow_ball_that_it_reaches_first(setup, limits, rolling):
