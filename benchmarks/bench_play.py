@@ -3,8 +3,9 @@
     python benchmarks/bench_play.py --matches 40 --duration 600
     python benchmarks/bench_play.py --pairings reference-simple self-play --matches 4 --duration 120
 
-A match of 600 s is 2 × 5 minutes, by the rules `msl` with default noise. Each seed is played twice, with sides swapped.
-The engine is that of `touchline series`. The output are tables for docs/play.md.
+A match of 600 s is 2 × 5 minutes, by the rules `msl` with default noise. Each seed is played twice, with sides
+swapped, unless a team plays against itself.
+The engine is that of `touchline series`. It prints tables for docs/play.md.
 """
 
 import argparse
@@ -38,6 +39,11 @@ class Pairing:
     second: str
     settings: dict[str, Any] = field(default_factory=dict)
 
+    @property
+    def both_sides(self) -> bool:
+        """Whether a seed is played twice, with sides swapped: of a team against itself that is the same match."""
+        return self.first != self.second
+
 
 PAIRINGS = {f"{first}-{second}": Pairing(first, second) for first, second in itertools.combinations(LADDER, 2)} | {
     "self-play": Pairing("reference", "reference"),
@@ -47,12 +53,13 @@ PAIRINGS = {f"{first}-{second}": Pairing(first, second) for first, second in ite
 
 
 def plan_of(pairing: Pairing, options: argparse.Namespace) -> SeriesPlan:
-    """Half as many seeds as matches: each is played on both sides."""
+    """As many seeds as matches, or half as many where each is played on both sides."""
     brains = {"cyan": pairing.first, "magenta": pairing.second}
     teams = {side: {"name": team, "brain": brain_of(team)} for side, team in brains.items()}
     config = load_match(None, {"rules": RULES, "duration": options.duration, "teams": teams, **pairing.settings})
-    seeds = range(options.first_seed, options.first_seed + options.matches // 2)
-    return plan_series(config, seeds, both_sides=True)
+    count = options.matches // 2 if pairing.both_sides else options.matches
+    seeds = range(options.first_seed, options.first_seed + count)
+    return plan_series(config, seeds, both_sides=pairing.both_sides)
 
 
 def tables_of(name: str, pairing: Pairing, rows: list[MatchRow]) -> str:
