@@ -39,12 +39,12 @@ def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
     if ahead <= 0 or closing <= 0:
         return Aim.ELSEWHERE
     time = ahead / closing
+    beside = abs(ball.y + ball.vy * time) - pitch.goal_width / 2
+    if beside > NEAR_MISS_M:  # first: a ball along the line has a way to it that is too long for any number
+        return Aim.ELSEWHERE
     speed = math.hypot(ball.vx, ball.vy)
     slowed = Rolling.of(setup.ball) if ball.vz > _FLIES else Kicked.of(setup.ball, setup.kicker)
     if slowed.speed_to_arrive(0.0, speed * time) > speed:
-        return Aim.ELSEWHERE
-    beside = abs(ball.y + ball.vy * time) - pitch.goal_width / 2
-    if beside > NEAR_MISS_M:
         return Aim.ELSEWHERE
     height = ball.z + ball.vz * time - GRAVITY / 2 * time * time
     lands = (ball.vz + math.sqrt(ball.vz**2 + 2 * GRAVITY * max(0.0, ball.z - setup.ball.radius))) / GRAVITY

@@ -61,3 +61,9 @@ def test_a_lob_is_over_the_bar_while_it_flies_and_below_it_when_it_has_landed(ai
         vz = (height - 0.11 + GRAVITY / 2 * time**2) / time
         assert aimed(x=7.0, vx=8.0, vz=vz) is expected
     assert aimed(x=0.0, vx=8.0, vz=3.0) is Aim.AT_GOAL
+
+
+@pytest.mark.parametrize("vz", [0.0, 3.0])
+def test_a_ball_along_the_goal_line_is_elsewhere(aimed, vz: float) -> None:
+    """Its way to the line was too long for a number, and the figures of the whole match were lost."""
+    assert aimed(vx=1e-6, vy=9.0, vz=vz) is Aim.ELSEWHERE
