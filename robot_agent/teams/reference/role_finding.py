@@ -10,6 +10,7 @@ from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.recovery import home
 from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
+from robot_agent.teams.zones import owner_of
 from robot_agent.world_model import WorldBelief
 from schemas.config.rolling import Rolling
 from schemas.game import TeamPhase
@@ -78,8 +79,31 @@ class RoleFinder:
         if first == self._me:
             return Role.ATTACKER, self._before_own_goal(spot)
         others = {name: one for name, one in candidates.items() if name != first}
-        shared = share_places(others, self._places(belief, ball, spot, others, attacks), self._parameters)
+        shared = share_places(others, self._places(belief, ball, spot, others, attacks=attacks), self._parameters)
         place = shared.get(self._me, Place(Role.GUARD, belief.me[:2]))
+        return place.role, place.at
+
+    def find_alone(
+        self, belief: WorldBelief, field: list[str], ball: Ball, spot: Point, role: Role
+    ) -> tuple[Role, Point]:
+        """The same at a restart of our own, for a robot that receives none of its teammates: all find the same taker.
+
+        Each takes restarts in its own part of the pitch. The places of the others are shared as if all were at home.
+
+        Args:
+            field: all field robots of the team, in its order.
+            role: the role of this robot until now.
+        """
+        owner = owner_of(spot, field, self._setup.pitch, self._me if role is Role.ATTACKER else None)
+        if owner == self._me:
+            return Role.ATTACKER, self._before_own_goal(spot)
+        numbers = {name: number for number, name in enumerate(self._setup.teams[self._side].robots, 1)}
+        others = {
+            name: Candidate(Body(*home(numbers[name], self._setup.pitch), 0.0), math.inf, "")
+            for name in field
+            if name != owner
+        }
+        place = share_places(others, self._places(belief, ball, spot, others, attacks=True), self._parameters)[self._me]
         return place.role, place.at
 
     def _holder(self, belief: WorldBelief, candidates: dict[str, Candidate]) -> str | None:
@@ -95,7 +119,7 @@ class RoleFinder:
         return self._attack_left > 0.0
 
     def _places(
-        self, belief: WorldBelief, ball: Ball, spot: Point, others: dict[str, Candidate], attacks: bool
+        self, belief: WorldBelief, ball: Ball, spot: Point, others: dict[str, Candidate], *, attacks: bool
     ) -> list[Place]:
         in_play = belief.game.phase is TeamPhase.PLAY
         return places(

@@ -151,6 +151,8 @@ class Reference(Player):
 
     def _find_role(self, belief: WorldBelief, ball: Ball, spot: Point) -> tuple[Role, Point]:
         """The role and the place of this robot, from what all robots of the team know of each other."""
+        if belief.game.phase.ours and (silent := self.silent_field(belief)):
+            return self._roles.find_alone(belief, silent, ball, spot, self._role)
         receiver = self._promised.receiver if self._promised is not None else None
         sent = self._sent_arrival if math.isfinite(self._sent_arrival) and not belief.holding else self._arrival
         candidates = self._roles.candidates(

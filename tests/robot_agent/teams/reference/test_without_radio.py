@@ -19,3 +19,16 @@ def test_robots_without_radio_neither_send_nor_use_what_they_receive(scene, setu
     answers = [(deaf.act(sight), alone.act(msgspec.structs.replace(sight, radio={}))) for sight in received]
     assert len(answers) > 20
     assert all(one == other and one.radio is None for one, other in answers)
+
+
+def test_without_radio_one_robot_takes_the_own_free_kick_and_nobody_is_cautioned(scene):
+    """Each took itself for the taker: three stood at the ball, and a match had eleven cards in ten minutes."""
+    field = {"cyan2": (-2, 2, 0), "cyan3": (-2, -2, 0), "cyan4": (-5, 1, 0), "cyan5": (-5, -2, 0)}
+    teams = {
+        "cyan": {"name": "Deaf", "brain": "robot_agent.teams.reference:WithoutRadio"},
+        "magenta": {"name": "Reference", "brain": "robot_agent.teams.reference:Reference"},
+    }
+    robots = {"cyan1": (-10.5, 0, 0), **field, "magenta1": (10.5, 0, 3.14)}
+    played = scene(robots, (-2.5, 0.0), "free_kick", "cyan", teams=teams).play(12.0)
+    assert not [event for tick in played.ticks for event in tick.events if event.kind.value == "card"]
+    assert [name for name in field if played.kicks(name)]
