@@ -19,6 +19,9 @@ class Parameters:
     silent_delay: float = 1.5
     """s that count against a teammate without radio messages: it is believed at its home, and may not be there."""
 
+    silent_after: float = 0.3
+    """s without any message, after which each robot plays the ball in its own part of the pitch: three messages."""
+
     # Roles
     stays: float = 0.4
     """s by which another robot must be at the ball earlier to take the ball over: radio age and noise."""

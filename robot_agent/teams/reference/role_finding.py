@@ -86,15 +86,16 @@ class RoleFinder:
     def find_alone(
         self, belief: WorldBelief, field: list[str], ball: Ball, spot: Point, role: Role
     ) -> tuple[Role, Point]:
-        """The same at a restart of our own, for a robot that receives none of its teammates: all find the same taker.
+        """The same for a robot that receives none of its teammates, so that all find the same.
 
-        Each takes restarts in its own part of the pitch. The places of the others are shared as if all were at home.
+        Each plays the ball in its own part of the pitch. The places of the others are shared as if all were at home.
 
         Args:
             field: all field robots of the team, in its order.
             role: the role of this robot until now.
         """
         owner = owner_of(spot, field, self._setup.pitch, self._me if role is Role.ATTACKER else None)
+        attacks = self._still_attacks(belief, belief.game.phase.ours)
         if owner == self._me:
             return Role.ATTACKER, self._before_own_goal(spot)
         numbers = {name: number for number, name in enumerate(self._setup.teams[self._side].robots, 1)}
@@ -103,7 +104,9 @@ class RoleFinder:
             for name in field
             if name != owner
         }
-        place = share_places(others, self._places(belief, ball, spot, others, attacks=True), self._parameters)[self._me]
+        place = share_places(others, self._places(belief, ball, spot, others, attacks=attacks), self._parameters)[
+            self._me
+        ]
         return place.role, place.at
 
     def _holder(self, belief: WorldBelief, candidates: dict[str, Candidate]) -> str | None:

@@ -52,8 +52,8 @@ class Reference(Player):
         self._promised: Promise | None = None
         self._chosen: Pass | None = None
         """The pass that this robot aims at."""
-        self._held = self._waited = 0.0
-        """s with the ball; s since START of a restart."""
+        self._held = self._waited = self._silent = 0.0
+        """s with the ball; s since START of a restart; s without a message of any teammate in the field."""
         self._arrival = self._sent_arrival = math.inf
         """s until this robot could be at the ball: now, and as it was sent last."""
         self._place: Point | None = None
@@ -151,7 +151,9 @@ class Reference(Player):
 
     def _find_role(self, belief: WorldBelief, ball: Ball, spot: Point) -> tuple[Role, Point]:
         """The role and the place of this robot, from what all robots of the team know of each other."""
-        if belief.game.phase.ours and (silent := self.silent_field(belief)):
+        silent = self.silent_field(belief)
+        self._silent = self._silent + belief.dt if silent else 0.0
+        if silent and (belief.game.phase.ours or self._silent > self.parameters.silent_after):
             return self._roles.find_alone(belief, silent, ball, spot, self._role)
         receiver = self._promised.receiver if self._promised is not None else None
         sent = self._sent_arrival if math.isfinite(self._sent_arrival) and not belief.holding else self._arrival

@@ -65,9 +65,10 @@ def _taker(played):
 
 
 def test_without_radio_one_robot_still_gets_the_ball_and_others_stay_off_it(scene):
+    """The ball is in the part of cyan3; cyan2 is nearer to it."""
     played = scene(FIELD | THEIRS, (-0.5, 3.0), radio={"loss": 1.0})
-    played.play(3.0, lambda played: played.match.simulation.now.world["possession"] is not None)
-    assert played.match.simulation.now.world["possession"] == "cyan2"
+    played.play(4.0, lambda played: played.match.simulation.now.world["possession"] is not None)
+    assert played.match.simulation.now.world["possession"] == "cyan3"
     field = [name for name in FIELD if name != "cyan1"]
     for tick in played.ticks:
         assert sum(away(tick.world, name) < 1.0 for name in field) <= 1
