@@ -17,7 +17,9 @@ ball is up to 4 mm deep in the hull."""
 _GRAVITY = 9.81
 """m/s²."""
 AHEAD = 1.8
-"""m of ground that must be free for it."""
+"""m of ground that must be free of opponents for it."""
+CATCHES = 0.8
+"""s until a robot has the ball again and has turned: it must not be over a line by then."""
 ROOM = 0.45
 """m between the path of the ball and the nearest opponent's centre."""
 
@@ -27,10 +29,13 @@ def let_go(me: Moving, opponents: Sequence[Point], setup: Setup) -> Kick | None:
     c, s = math.cos(me.heading), math.sin(me.heading)
     gap = setup.dribble.gap
     ball = (me.x + gap * c, me.y + gap * s)
+    speed = max(0.0, me.vx * c + me.vy * s)
     end = (ball[0] + AHEAD * c, ball[1] + AHEAD * s)
-    if inside(*end, setup.pitch, 0.0) != end or lane_width(ball, end, opponents) < ROOM:
+    rolls = AHEAD + CATCHES * speed
+    last = (ball[0] + rolls * c, ball[1] + rolls * s)
+    if inside(*last, setup.pitch, 0.0) != last or lane_width(ball, end, opponents) < ROOM:
         return None
-    return Kick(mode=KickMode.GROUND, speed=faster(setup) + max(0.0, me.vx * c + me.vy * s))
+    return Kick(mode=KickMode.GROUND, speed=faster(setup) + speed)
 
 
 def faster(setup: Setup) -> float:

@@ -26,6 +26,8 @@ class RoleFinder:
         self._rolling, self._parameters = rolling, parameters
         self._attack_left = 0.0
         """s for which the places of an attack stay."""
+        self.holder: str | None = None
+        """The robot of the team that holds the ball, by its own words."""
 
     def candidates(
         self,
@@ -69,7 +71,7 @@ class RoleFinder:
             ball: where it is, or its spot before START of a restart.
             promised: whether a pass of the team is under way.
         """
-        holder = self._holder(belief, candidates)
+        self.holder = holder = self._holder(belief, candidates)
         first = holder if holder is not None else attacker_of(candidates, self._parameters)
         theirs = min((math.dist(place, ball[:2]) for place in belief.opponents), default=math.inf)
         is_first = (
@@ -94,6 +96,7 @@ class RoleFinder:
             field: all field robots of the team, in its order.
             role: the role of this robot until now.
         """
+        self.holder = None
         owner = owner_of(spot, field, self._setup.pitch, self._me if role is Role.ATTACKER else None)
         attacks = self._still_attacks(belief, belief.game.phase.ours)
         if owner == self._me:

@@ -210,19 +210,18 @@ class Reference(Player):
         return Action(self._role, "hold", motion)
 
     def _still_serves(self, belief: WorldBelief, ball: Point) -> bool:
-        """Whether a supporter can be passed to where it stands, so that it need not follow the ball."""
+        """Whether a supporter need not follow the ball: it can be passed to where it stands, or nobody could pass."""
         place = self._place
         if self._role is not Role.SUPPORTER or place is None or belief.game.phase is not TeamPhase.PLAY:
             return False
         is_near = self.parameters.serves_near < math.dist(place, ball) < self.parameters.serves_far
         is_free = all(math.dist(place, mate.body[:2]) > self.parameters.serves_near for mate in belief.mates.values())
+        if not (is_near and is_free):
+            return False
+        if self._roles.holder is None:
+            return True
         is_ahead = place[0] > ball[0] - self.parameters.serves_behind
-        return (
-            is_near
-            and is_free
-            and is_ahead
-            and chance(ball, place, belief.opponents, self.parameters) > self.parameters.serves_chance
-        )
+        return is_ahead and chance(ball, place, belief.opponents, self.parameters) > self.parameters.serves_chance
 
     def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Line up behind the ball; after START play it to the best receiver, or a penalty at the goal."""
