@@ -29,12 +29,13 @@ def way_of(ball: Ball, rolling: Rolling) -> list[Ball]:
     return [ball.after(time, rolling) for time in TIMES]
 
 
-def meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits) -> Meeting:
-    """The first point of the ball's path that the robot reaches no later than the ball.
+def meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, ahead: float = 0.0) -> Meeting:
+    """The first point of the ball's path that the robot reaches `ahead` s before the ball, or no later than it by default.
 
-    `reach` is how close to the ball the robot's centre has to come, in m.
+    `reach` is how close to the ball the robot's centre has to come, in m. A robot that is there ahead of the ball has
+    turned to it and stands when it comes. Of a ball that rests, or that has stopped by then, the time is later by `ahead`.
     """
-    return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits, math.inf))
+    return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits, math.inf), ahead)
 
 
 def meeting_time(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> float:
@@ -43,12 +44,14 @@ def meeting_time(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLim
     return TIMES[begin] if TIMES[begin] > by else _meet(me, way, reach, limits, begin).time
 
 
-def _meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, begin: int) -> Meeting:
+def _meet(
+    me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, begin: int, ahead: float = 0.0
+) -> Meeting:
     """The meeting, searched for from the index `begin` of `TIMES`, which is still too early for it."""
     early = spare = 0.0
     before = way[begin]
     for time, ball in zip(TIMES[begin:], way[begin:], strict=True):
-        late = _time_to(me, ball, reach, limits) - time
+        late = _time_to(me, ball, reach, limits) + ahead - time
         if late <= 0.0:
             part = spare / (spare - late) if spare - late > 1e-9 else 0.0
             return Meeting(

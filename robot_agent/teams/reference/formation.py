@@ -34,7 +34,7 @@ def places(
         robots: where the robots are that share the places.
         inset: m between the lines and a robot's centre.
     """
-    front = pitch.goal_line - pitch.penalty_area_depth - inset - 0.2
+    front = front_of(pitch, inset)
     found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))] if len(robots) > 1 or not attacks else []
     if not attacks and ball[0] < parameters.blocks_before:
         found.insert(0, Place(Role.BLOCKER, _before_goal(ball, parameters.block_distance, pitch, front)))
@@ -45,6 +45,11 @@ def places(
         taken = [place.at for place in found]
         found.append(Place(Role.SUPPORTER, _support(ball, taken, opponents, robots, pitch, front, parameters)))
     return found
+
+
+def front_of(pitch: Pitch, inset: float) -> float:
+    """The largest distance from the middle line, m, at which a robot is clear of the penalty areas."""
+    return pitch.goal_line - pitch.penalty_area_depth - inset - 0.2
 
 
 def _guard(ball: Point, pitch: Pitch, front: float, parameters: Parameters) -> Point:

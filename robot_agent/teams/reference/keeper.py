@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.braking import travel_time
 from robot_agent.skills.go_to import drive, velocity_to
+from robot_agent.skills.keep_out import Area
 from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.rolling import Rolling
@@ -63,11 +64,20 @@ def fetches(
     pitch: Pitch,
     limits: DriveLimits,
     parameters: Parameters,
+    *,
+    has_area: bool,
 ) -> bool:
-    """Whether the keeper comes out for a slow ball near its goal that it reaches clearly first."""
+    """Whether the keeper comes out for a slow ball near its goal that it reaches clearly first, or that is in its area.
+
+    Args:
+        has_area: whether the rules keep all others out of the goal area.
+    """
     rests = ball.after(1.0, rolling)
-    if math.hypot(ball.vx, ball.vy) > parameters.comes_out_slow:
+    speed = math.hypot(ball.vx, ball.vy)
+    if speed > parameters.comes_out_slow:
         return False
+    if has_area and speed < parameters.lies_in_area and Area.goal(pitch).has(-1.0, ball.x, ball.y):
+        return True
     if math.hypot(rests.x + pitch.goal_line, rests.y) > parameters.comes_out:
         return False
     mine = travel_time(math.dist(me[:2], rests[:2]), 0.0, limits.speed, limits.acceleration, limits.deceleration)

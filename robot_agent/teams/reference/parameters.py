@@ -159,6 +159,16 @@ class Parameters:
     loss_range: float = 4.5
     """m from our goal over which the latter falls to a third."""
 
+    # Give and go
+    run_passes: float = 3.0
+    """m ahead, within which an opponent makes a robot that has passed run on past it."""
+    run_beside: float = 1.4
+    """m beside that opponent: to its way past it, and of an opponent that is in the way."""
+    run_beyond: float = 2.5
+    """m beyond it, where the run ends."""
+    run_lasts: float = 2.0
+    """s: a pass there, a moment, and the pass back."""
+
     # Shots
     shot_range: float = 7.0
     """m; from farther away a keeper has the time to move: by drill, no shot on the run from 5.5 m or more scored."""
@@ -238,6 +248,8 @@ class Parameters:
     """m from the goal's middle up to which the keeper fetches a slow ball that it reaches first."""
     comes_out_slow: float = 1.5
     """m/s of a ball that the keeper fetches, at most."""
+    lies_in_area: float = 0.5
+    """m/s of a ball in the goal area that the keeper fetches, at most: opponents press, but may not enter."""
     shot_slowest: float = 1.0
     """m/s toward the goal; a slower ball is no shot."""
     shot_horizon: float = 2.5

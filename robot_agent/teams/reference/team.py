@@ -18,6 +18,8 @@ from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.reference.attacker import Situation, play_ball
 from robot_agent.teams.reference.drawing import drawing
 from robot_agent.teams.reference.estimate import HOLDS, SharedEstimate, report
+from robot_agent.teams.reference.formation import front_of
+from robot_agent.teams.reference.give_and_go import Run, run_after, run_past
 from robot_agent.teams.reference.keeper import fetches, guard
 from robot_agent.teams.reference.parameters import PARAMETERS, Parameters
 from robot_agent.teams.reference.passing import Pass, chance
@@ -34,6 +36,9 @@ from schemas.messages.sight import Sight
 
 Point = tuple[float, float]
 
+import os
+AHEAD=float(os.environ.get("AHEAD","0.3"))
+ROOM=float(os.environ.get("ROOM","1.5"))
 CLEAR = "clear"
 """Intention of a keeper that leaves its line for the ball."""
 
@@ -58,6 +63,8 @@ class Reference(Player):
         """s until this robot could be at the ball: now, and as it was sent last."""
         self._place: Point | None = None
         """Where this robot stands, until another place is clearly better."""
+        self._run: Run | None = None
+        """The run of this robot after its pass."""
         self._shoots = False
         """Whether this robot aims at the goal."""
         self._weighed: dict[str, float] = {}
@@ -67,7 +74,7 @@ class Reference(Player):
         """Forget what was believed of the world: another episode begins."""
         super().restart()
         self._estimate = self._world = SharedEstimate(self.briefing, self.parameters)
-        self._promised = self._chosen = self._place = None
+        self._promised = self._chosen = self._place = self._run = None
 
     def act(self, sight: Sight) -> Command:
         """The answer to one sight, with the words to the teammates in its radio message."""
@@ -172,6 +179,7 @@ class Reference(Player):
 
     def _play_ball(self, belief: WorldBelief) -> Action:
         """Shoot, pass or dribble."""
+        self._run = None
         chosen = (self._chosen.receiver, self._chosen.target) if self._chosen is not None else None
         situation = Situation(
             belief.me,
@@ -188,12 +196,18 @@ class Reference(Player):
         )
         if action.pass_to is not None and belief.kicker_ready:
             self._promised = Promise(action.pass_to)
+            if self._chosen is not None:
+                self._run = run_past(belief.me, self._chosen.target, belief.opponents, self.setup.pitch, front_of(self.setup.pitch, self.setup.robot.reach), self.parameters)
         return action
 
     def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
         """Meet the ball: a pass is met on its way, a loose ball where it rolls."""
-        gap = self.setup.dribble.gap
-        meeting = meet(belief.me, way_of(ball, self.rolling), gap, self.limits)
+        gap, way = self.setup.dribble.gap, way_of(ball, self.rolling)
+        meeting = meet(belief.me, way, gap, self.limits)
+        if math.hypot(ball.vx, ball.vy) > 1.0 and AHEAD:
+            later = meet(belief.me, way, gap, self.limits, AHEAD)
+            if min((math.dist(later[:2], o) for o in belief.opponents), default=9.0) > ROOM + 0.0*later.time:
+                meeting = later
         clearance = 2.0 * self.setup.robot.reach + self.parameters.passes_by
         mates = places_of(belief.mates).values()
         return take_ball(belief.me, ball, meeting, gap, belief.opponents, clearance, self.limits, mates)
@@ -201,6 +215,12 @@ class Reference(Player):
     def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
         """Hold the place; walk to it unless it defends."""
         defends = self._role in (Role.BLOCKER, Role.MARKER)
+        ours = self._roles.holder is not None or self._promised is not None
+        self._run = run_after(self._run, belief.me, belief.dt, ours=ours and belief.game.phase is TeamPhase.PLAY)
+        if self._run is not None and not defends:
+            self._place = self._run.to
+            motion = stand(belief.me, self._place, belief.game, spot, belief.others, self.setup, self.limits)
+            return Action(self._role, "run", motion)
         near = self.parameters.settles_close if defends else self.parameters.settles
         if self._place is None or (math.dist(self._place, place) > near and not self._still_serves(belief, spot)):
             self._place = place
@@ -249,7 +269,16 @@ class Reference(Player):
         if in_play and belief.holding:
             action = self._play_ball(belief)
             return action._replace(role=Role.KEEPER, intention=CLEAR)
-        comes_out = fetches(belief.me, ball, belief.opponents, self.rolling, pitch, self.limits, self.parameters)
+        comes_out = fetches(
+            belief.me,
+            ball,
+            belief.opponents,
+            self.rolling,
+            pitch,
+            self.limits,
+            self.parameters,
+            has_area=self._rule_limits.keeps_out,
+        )
         if in_play and comes_out and not self._estimate.is_flying:
             return Action(Role.KEEPER, CLEAR, self._get(belief, ball), dribble=True)
         if belief.game.phase is TeamPhase.DROP_BALL:
