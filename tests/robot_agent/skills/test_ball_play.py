@@ -35,6 +35,15 @@ def test_a_ball_that_rolls_by_is_met_ahead_of_where_it_is(limits):
     assert -1.5 < meeting.y < 2.0
 
 
+def test_a_ball_is_met_later_by_a_robot_that_has_to_be_there_ahead_of_it(limits):
+    me, way = Body(0.0, 0.0, 0.0), way_of(Ball(3.0, -2.0, 0.0, 2.0), GROUND)
+    at_once, ahead = meet(me, way, GAP, limits), meet(me, way, GAP, limits, ahead=0.3)
+    assert ahead.time > at_once.time + 0.1
+    assert ahead.y > at_once.y
+    rests = way_of(Ball(2.0, 0.0), GROUND)
+    assert meet(me, rests, GAP, limits, ahead=0.3)[:2] == meet(me, rests, GAP, limits)[:2]
+
+
 def test_a_ball_out_of_reach_on_its_path_is_met_where_it_stops(limits):
     ball = Ball(4.0, 0.0, 9.0, 0.0)
     meeting = meet(Body(-9.0, 0.0, 0.0), way_of(ball, GROUND), GAP, limits)

@@ -1,5 +1,7 @@
 """Letting the ball go: soft, ahead, and only where there is room."""
 
+import math
+
 import pytest
 
 from robot_agent.bodies import Body
@@ -65,6 +67,12 @@ def test_the_ball_gets_a_little_more_speed_than_the_robot_has_toward_it(setup):
 @pytest.mark.parametrize(("me", "opponents"), [(Body(0.0, 0.0, 0.0), [(1.5, 0.2)]), (Body(10.0, 5.0, 0.0), [])])
 def test_not_into_an_opponent_and_not_off_the_pitch(setup, me, opponents):
     assert let_go(me, opponents, setup) is None
+
+
+def test_a_fast_robot_keeps_a_ball_that_would_be_over_the_line_before_it_has_it_again(setup):
+    slow, fast = (Body(0.0, 4.5, 0.5 * math.pi, 0.0, speed) for speed in (0.0, 2.0))
+    assert let_go(slow, (), setup) is not None
+    assert let_go(fast, (), setup) is None
 
 
 def test_an_opponent_beside_the_path_is_no_hindrance(setup):

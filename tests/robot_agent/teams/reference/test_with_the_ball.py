@@ -2,7 +2,10 @@
 
 import math
 
+import pytest
+
 from robot_agent.bodies import Body
+from robot_agent.teams.reference.give_and_go import Run, run_after, run_past
 from robot_agent.teams.reference.parameters import PARAMETERS
 from robot_agent.teams.reference.passing import chance, in_time, passes
 from robot_agent.teams.reference.shooting import best_shot
@@ -84,6 +87,48 @@ def test_a_pressed_robot_passes_to_a_free_mate_which_comes_to_meet_the_ball(scen
     )
     assert [command.radio.pass_to for command in played.kicks("cyan2")] == ["cyan3"]
     assert played.match.simulation.now.world["possession"] == "cyan3"
+
+
+def test_a_robot_that_has_passed_runs_past_its_opponent_and_has_the_ball_returned_there(scene):
+    robots = {
+        "cyan1": (-10.5, 0, 0),
+        "cyan2": (-2.0, 0.0, 0),
+        "cyan3": (1.5, 3.0, math.pi),
+        "magenta1": (10.5, 0, math.pi),
+        "magenta2": (-0.3, -0.3, math.pi),
+        "magenta3": (3.0, 2.8, math.pi),
+    }
+    played = scene(robots, (-1.6, 0.0))
+    played.play(6.0, lambda played: bool(played.kicks("cyan3")))
+    assert played.kicks("cyan2")[0].radio.pass_to == "cyan3"
+    assert played.kicks("cyan3")[0].radio.pass_to == "cyan2"
+    played.play(3.0, lambda played: played.match.simulation.now.world["possession"] == "cyan2")
+    world = played.match.simulation.now.world
+    assert world["possession"] == "cyan2"
+    assert world["robots"]["cyan2"]["x"] > world["robots"]["magenta2"]["x"] + 1.0
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_run_passes_the_opponent_on_the_side_of_the_free_way_back(setup, side):
+    opponents = [(1.5, 0.0), (2.5, side * 1.5)]
+    run = run_past(Body(0.0, 0.0, 0.0), (3.0, 0.0), opponents, setup.pitch, 8.0, PARAMETERS)
+    assert run is not None
+    assert run.to[0] > 3.0
+    assert run.to[1] * side < 0.0
+
+
+def test_there_is_no_run_without_an_opponent_ahead_or_into_the_penalty_area(setup):
+    me = Body(0.0, 0.0, 0.0)
+    assert run_past(me, (3.0, 2.0), [(-1.0, 0.0), (2.0, 3.0)], setup.pitch, 8.0, PARAMETERS) is None
+    assert run_past(Body(6.5, 0.0, 0.0), (7.0, 3.0), [(7.5, 0.0)], setup.pitch, 8.0, PARAMETERS) is None
+
+
+def test_a_run_ends_where_it_leads_with_its_time_and_with_the_ball():
+    run, me = Run((3.0, 1.0), 0.1), Body(0.0, 0.0, 0.0)
+    assert run_after(run, me, 0.02, ours=True) == Run((3.0, 1.0), pytest.approx(0.08))
+    assert run_after(run, me, 0.02, ours=False) is None
+    assert run_after(run, me, 0.2, ours=True) is None
+    assert run_after(run, Body(2.9, 1.0, 0.0), 0.02, ours=True) is None
 
 
 def test_a_through_ball_past_a_defender_is_received_ahead_of_where_the_receiver_was(play):

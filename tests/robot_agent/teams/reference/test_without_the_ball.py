@@ -93,9 +93,17 @@ def test_the_keeper_crosses_the_way_of_a_shot(setup):
 
 def test_the_keeper_comes_out_for_a_slow_ball_that_it_reaches_first(setup, limits, rolling):
     me, ball = Body(-11.0, 0.0, 0.0), Ball(-9.5, 0.5)
-    assert fetches(me, ball, [(-5.0, 0.0)], rolling, setup.pitch, limits, PARAMETERS)
-    assert not fetches(me, ball, [(-9.0, 0.5)], rolling, setup.pitch, limits, PARAMETERS)
-    assert not fetches(me, Ball(-2.0, 0.0), [], rolling, setup.pitch, limits, PARAMETERS)
+    assert fetches(me, ball, [(-5.0, 0.0)], rolling, setup.pitch, limits, PARAMETERS, has_area=True)
+    assert not fetches(me, ball, [(-9.0, 0.5)], rolling, setup.pitch, limits, PARAMETERS, has_area=True)
+    assert not fetches(me, Ball(-2.0, 0.0), [], rolling, setup.pitch, limits, PARAMETERS, has_area=True)
+
+
+def test_a_ball_that_lies_in_the_goal_area_is_the_keepers_although_opponents_press(setup, limits, rolling):
+    me, opponents = Body(-11.0, 0.8, 0.0), [(-10.1, 1.5)]
+    lies, rolls = Ball(-10.58, 1.55), Ball(-10.58, 1.55, 0.0, -1.2)
+    assert fetches(me, lies, opponents, rolling, setup.pitch, limits, PARAMETERS, has_area=True)
+    assert not fetches(me, rolls, opponents, rolling, setup.pitch, limits, PARAMETERS, has_area=True)
+    assert not fetches(me, lies, opponents, rolling, setup.pitch, limits, PARAMETERS, has_area=False)
 
 
 def test_a_stuck_robot_backs_out_for_a_moment(limits):
