@@ -30,10 +30,10 @@ def way_of(ball: Ball, rolling: Rolling) -> list[Ball]:
 
 
 def meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, ahead: float = 0.0) -> Meeting:
-    """The first point of the ball's path that the robot reaches `ahead` s before the ball, or no later than it by default.
+    """The first point of the ball's path that the robot reaches `ahead` s before the ball, by default with it.
 
     `reach` is how close to the ball the robot's centre has to come, in m. A robot that is there ahead of the ball has
-    turned to it and stands when it comes. Of a ball that rests, or that has stopped by then, the time is later by `ahead`.
+    turned to it and stands when it comes. For a ball that rests by then, the time is later by `ahead`.
     """
     return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits, math.inf), ahead)
 

