@@ -20,12 +20,16 @@ AHEAD = 1.8
 """m of ground that must be free of opponents for it."""
 CATCHES = 0.8
 """s until a robot has the ball again and has turned: it must not be over a line by then."""
+LINE_ROOM = 0.3
+"""m from the lines to where the robot has it again."""
+FREE = 0.8
+"""m; an opponent nearer to the ball would be at it first."""
 ROOM = 0.45
 """m between the path of the ball and the nearest opponent's centre."""
 
 
 def let_go(me: Moving, opponents: Sequence[Point], setup: Setup) -> Kick | None:
-    """The kick along the kick axis; None when there is no free ground on the pitch ahead."""
+    """The kick along the kick axis; None when there is no free ground on the pitch ahead, or an opponent is near."""
     c, s = math.cos(me.heading), math.sin(me.heading)
     gap = setup.dribble.gap
     ball = (me.x + gap * c, me.y + gap * s)
@@ -33,7 +37,9 @@ def let_go(me: Moving, opponents: Sequence[Point], setup: Setup) -> Kick | None:
     end = (ball[0] + AHEAD * c, ball[1] + AHEAD * s)
     rolls = AHEAD + CATCHES * speed
     last = (ball[0] + rolls * c, ball[1] + rolls * s)
-    if inside(*last, setup.pitch, 0.0) != last or lane_width(ball, end, opponents) < ROOM:
+    if inside(*last, setup.pitch, LINE_ROOM) != last or lane_width(ball, end, opponents) < ROOM:
+        return None
+    if any(math.dist(ball, opponent) < FREE for opponent in opponents):
         return None
     return Kick(mode=KickMode.GROUND, speed=faster(setup) + speed)
 

@@ -69,6 +69,12 @@ def test_not_into_an_opponent_and_not_off_the_pitch(setup, me, opponents):
     assert let_go(me, opponents, setup) is None
 
 
+def test_not_beside_an_opponent_that_would_be_at_the_ball_first(setup):
+    me = Body(0.0, 0.0, 0.0)
+    assert let_go(me, [(setup.dribble.gap, 0.7)], setup) is None
+    assert let_go(me, [(setup.dribble.gap, 0.9)], setup) is not None
+
+
 def test_a_fast_robot_keeps_a_ball_that_would_be_over_the_line_before_it_has_it_again(setup):
     slow, fast = (Body(0.0, 4.5, 0.5 * math.pi, 0.0, speed) for speed in (0.0, 2.0))
     assert let_go(slow, (), setup) is not None
