@@ -19,10 +19,11 @@ from robot_agent.teams.reference.attacker import Situation, play_ball
 from robot_agent.teams.reference.drawing import drawing
 from robot_agent.teams.reference.estimate import HOLDS, SharedEstimate, report
 from robot_agent.teams.reference.formation import front_of
-from robot_agent.teams.reference.give_and_go import Run, run_after, run_past
+from robot_agent.teams.reference.give_and_go import run_past
+from robot_agent.teams.reference.held_place import DEFENDS, HeldPlace
 from robot_agent.teams.reference.keeper import fetches, guard
 from robot_agent.teams.reference.parameters import PARAMETERS, Parameters
-from robot_agent.teams.reference.passing import Pass, chance
+from robot_agent.teams.reference.passing import Pass
 from robot_agent.teams.reference.recovery import BackOut
 from robot_agent.teams.reference.role_finding import RoleFinder
 from robot_agent.teams.reference.roles import Candidate, Role
@@ -58,10 +59,7 @@ class Reference(Player):
         """s with the ball; s since START of a restart; s without a message of any teammate in the field."""
         self._arrival = self._sent_arrival = math.inf
         """s until this robot could be at the ball: now, and as it was sent last."""
-        self._place: Point | None = None
-        """Where this robot stands, until another place is clearly better."""
-        self._run: Run | None = None
-        """The run of this robot after its pass."""
+        self._held_place = HeldPlace(parameters)
         self._shoots = False
         """Whether this robot aims at the goal."""
         self._weighed: dict[str, float] = {}
@@ -71,7 +69,8 @@ class Reference(Player):
         """Forget what was believed of the world: another episode begins."""
         super().restart()
         self._estimate = self._world = SharedEstimate(self.briefing, self.parameters)
-        self._promised = self._chosen = self._place = self._run = None
+        self._held_place = HeldPlace(self.parameters)
+        self._promised = self._chosen = None
 
     def act(self, sight: Sight) -> Command:
         """The answer to one sight, with the words to the teammates in its radio message."""
@@ -85,7 +84,7 @@ class Reference(Player):
             Body(me.x, me.y, me.heading),
             command.radio.role or "",
             command.radio.intention or "",
-            place=self._place,
+            place=self._held_place.at,
             aimed=self._chosen,
             weighed=self._weighed,
             opponents=opponents,
@@ -176,7 +175,7 @@ class Reference(Player):
 
     def _play_ball(self, belief: WorldBelief) -> Action:
         """Shoot, pass or dribble."""
-        self._run = None
+        self._held_place.run = None
         chosen = (self._chosen.receiver, self._chosen.target) if self._chosen is not None else None
         situation = Situation(
             belief.me,
@@ -197,7 +196,7 @@ class Reference(Player):
                 pitch = self.setup.pitch
                 front = front_of(pitch, self.setup.robot.reach)
                 target = self._chosen.target
-                self._run = run_past(belief.me, target, belief.opponents, pitch, front, self.parameters)
+                self._held_place.run = run_past(belief.me, target, belief.opponents, pitch, front, self.parameters)
         return action
 
     def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
@@ -213,35 +212,14 @@ class Reference(Player):
         return take_ball(belief.me, ball, meeting, gap, belief.opponents, clearance, self.limits, mates)
 
     def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
-        """Hold the place; walk to it unless it defends."""
-        defends = self._role in (Role.BLOCKER, Role.MARKER)
-        ours = self._roles.holder is not None or self._promised is not None
-        self._run = run_after(self._run, belief.me, belief.dt, ours=ours and belief.game.phase is TeamPhase.PLAY)
-        if self._run is not None and not defends:
-            self._place = self._run.to
-            motion = stand(belief.me, self._place, belief.game, spot, belief.others, self.setup, self.limits)
-            return Action(self._role, "run", motion)
-        near = self.parameters.settles_close if defends else self.parameters.settles
-        if self._place is None or (math.dist(self._place, place) > near and not self._still_serves(belief, spot)):
-            self._place = place
-        walks = not defends and belief.game.phase is TeamPhase.PLAY
+        """Hold the place; walk to it unless this robot defends or is on a run."""
+        holds, passed = self._roles.holder is not None, self._promised is not None
+        at = self._held_place.choose(belief, self._role, place, spot, holds=holds, passed=passed)
+        runs = self._held_place.run is not None and self._role not in DEFENDS
+        walks = not runs and self._role not in DEFENDS and belief.game.phase is TeamPhase.PLAY
         limits = self.limits.capped(self.parameters.support_speed) if walks else self.limits
-        motion = stand(belief.me, self._place, belief.game, spot, belief.others, self.setup, limits)
-        return Action(self._role, "hold", motion)
-
-    def _still_serves(self, belief: WorldBelief, ball: Point) -> bool:
-        """Whether a supporter need not follow the ball: it can be passed to where it stands, or nobody could pass."""
-        place = self._place
-        if self._role is not Role.SUPPORTER or place is None or belief.game.phase is not TeamPhase.PLAY:
-            return False
-        is_near = self.parameters.serves_near < math.dist(place, ball) < self.parameters.serves_far
-        is_free = all(math.dist(place, mate.body[:2]) > self.parameters.serves_near for mate in belief.mates.values())
-        if not (is_near and is_free):
-            return False
-        if self._roles.holder is None:
-            return True
-        is_ahead = place[0] > ball[0] - self.parameters.serves_behind
-        return is_ahead and chance(ball, place, belief.opponents, self.parameters) > self.parameters.serves_chance
+        motion = stand(belief.me, at, belief.game, spot, belief.others, self.setup, limits)
+        return Action(self._role, "run" if runs else "hold", motion)
 
     def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Line up behind the ball; after START play it to the best receiver, or a penalty at the goal."""

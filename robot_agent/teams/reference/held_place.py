@@ -1,0 +1,65 @@
+"""Where a robot without the ball stands: at its place until another is clearly better, or at the end of a run."""
+
+import math
+
+from robot_agent.teams.reference.give_and_go import Run, run_after
+from robot_agent.teams.reference.parameters import Parameters
+from robot_agent.teams.reference.passing import chance
+from robot_agent.teams.reference.roles import Role
+from robot_agent.world_model import WorldBelief
+from schemas.game import TeamPhase
+
+Point = tuple[float, float]
+
+DEFENDS = (Role.BLOCKER, Role.MARKER)
+"""Roles that follow their place closely, at full speed."""
+
+
+class HeldPlace:
+    """The place that a robot has taken, and the run that it is on."""
+
+    def __init__(self, parameters: Parameters) -> None:
+        self._parameters = parameters
+        self.at: Point | None = None
+        """m; None before the first place."""
+        self.run: Run | None = None
+        """The run after a pass of this robot."""
+        self._spot: Point | None = None
+        """Where the ball was when the place was taken."""
+
+    def choose(self, belief: WorldBelief, role: Role, place: Point, spot: Point, *, holds: bool, passed: bool) -> Point:
+        """Where to stand now.
+
+        Args:
+            place: the place that the formation has for this robot.
+            spot: the ball, or its place before START of a restart.
+            holds: whether a robot of the team holds the ball.
+            passed: whether a pass of the team is under way.
+        """
+        in_play = belief.game.phase is TeamPhase.PLAY
+        self.run = run_after(self.run, belief.me, belief.dt, ours=in_play and (holds or passed))
+        if self.run is not None and role not in DEFENDS:
+            self.at = self.run.to
+            return self.at
+        near = self._parameters.settles_close if role in DEFENDS else self._parameters.settles
+        if self.at is None or (
+            math.dist(self.at, place) > near
+            and not (role is Role.SUPPORTER and self._still_serves(belief, self.at, spot, holds=holds))
+        ):
+            self.at, self._spot = place, spot
+        return self.at
+
+    def _still_serves(self, belief: WorldBelief, at: Point, ball: Point, *, holds: bool) -> bool:
+        """Whether a supporter need not follow the ball: it can be passed to where it stands, or nobody could pass."""
+        parameters, phase = self._parameters, belief.game.phase
+        if phase.theirs:
+            return ball == self._spot
+        if phase.ours:
+            return ball == self._spot and chance(ball, at, belief.opponents, parameters) > parameters.serves_chance
+        if phase is not TeamPhase.PLAY:
+            return False
+        is_near = parameters.serves_near < math.dist(at, ball) < parameters.serves_far
+        if not is_near or any(math.dist(at, mate.body[:2]) <= parameters.serves_near for mate in belief.mates.values()):
+            return False
+        is_ahead = at[0] > ball[0] - parameters.serves_behind
+        return not holds or (is_ahead and chance(ball, at, belief.opponents, parameters) > parameters.serves_chance)
