@@ -43,6 +43,8 @@ class TeamName(Player):
     def __init__(self, briefing: Briefing) -> None:
         super().__init__(briefing)
         self.was_attacker = False
+        self.restart_to: tuple[str | None, Point] | None = None
+        """The receiver of a restart. It stays while this robot steps in: to turn with the ball would be a foul."""
 
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """What this robot does in play and in restarts."""
@@ -58,7 +60,9 @@ class TeamName(Player):
         if role != "attacker" or must_wait:
             drive = skills.stand(belief.me, place, game, spot, belief.others, self.setup, self.limits)
             return Action(role, "wait", drive)
-        if game.phase.ours and not belief.holding:
+        if not game.phase.ours:
+            self.restart_to = None
+        elif not belief.holding:
             return self.take_restart(belief, spot)
         return self.attack(belief, game.phase.ours) if belief.holding else self.get_ball(belief)
 
@@ -101,12 +105,24 @@ class TeamName(Player):
 
     def take_restart(self, belief: WorldBelief, spot: Point) -> Action:
         """Before START: wait behind the ball; after it: step in, until the dribbler holds the ball."""
-        target = self.receiver(belief)[1]
+        assert belief.ball is not None
+        if self.restart_to is None or not belief.game.running:
+            self.restart_to = self.restart_receiver(belief, spot)
+        target = self.restart_to[1]
         if belief.game.running:
-            drive = skills.step_in(belief.me, spot, target, self.setup, self.limits)
+            drive = skills.step_in(belief.me, belief.ball.now[:2], target, self.setup, self.limits)
             return Action("attacker", "step in", drive, dribble=True)
         drive = skills.wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
         return Action("attacker", "wait behind the ball", drive)
+
+    def restart_receiver(self, belief: WorldBelief, spot: Point) -> tuple[str | None, Point]:
+        """The receiver of a restart: the one chosen before, as long as the lane to it is open."""
+        name = self.restart_to[0] if self.restart_to is not None else None
+        if name in belief.mates:
+            place = belief.mates[name].body[:2]
+            if skills.is_open(spot, place, belief.opponents):
+                return name, place
+        return self.receiver(belief)
 
     def attack(self, belief: WorldBelief, must_pass: bool = False) -> Action:
         """With the ball: shoot if the lane is open, pass if pressed, else carry the ball toward the goal."""
@@ -119,7 +135,7 @@ class TeamName(Player):
             speed = kicker.max_ground_speed if mode is KickMode.GROUND else kicker.max_lob_speed
             drive, kick = skills.kick_at(me, (pitch.goal_line, aim), speed, ERROR, self.limits, mode)
             return Action("attacker", "shoot", drive, dribble=True, kick=kick)
-        name, target = self.receiver(belief)
+        name, target = self.restart_to or self.receiver(belief)
         pressed = any(math.dist(me[:2], opponent) < PRESSED for opponent in belief.opponents)
         if must_pass or self.must_pass_on or (name is not None and pressed):
             drive, kick = skills.pass_to(me, target, self.setup, self.limits)
