@@ -212,11 +212,12 @@ class Reference(Player):
         return take_ball(belief.me, ball, meeting, gap, belief.opponents, clearance, self.limits, mates)
 
     def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
-        """Hold the place; walk to it unless this robot defends or is on a run."""
+        """Hold the place; walk to it unless this robot defends, is on a run or is in the way of those at the ball."""
         holds, passed = self._roles.holder is not None, self._promised is not None
         at = self._held_place.choose(belief, self._role, place, spot, holds=holds, passed=passed)
         runs = self._held_place.run is not None and self._role not in DEFENDS
-        walks = not runs and self._role not in DEFENDS and belief.game.phase is TeamPhase.PLAY
+        is_clear = math.dist(belief.me[:2], spot) > self.parameters.clears_within
+        walks = is_clear and not runs and self._role not in DEFENDS and belief.game.phase is TeamPhase.PLAY
         limits = self.limits.capped(self.parameters.support_speed) if walks else self.limits
         motion = stand(belief.me, at, belief.game, spot, belief.others, self.setup, limits)
         return Action(self._role, "run" if runs else "hold", motion)
