@@ -15,11 +15,14 @@ _SURELY = 1e-6
 
 
 class Meeting(NamedTuple):
-    """Place in m and time from now in s."""
+    """Where and when a robot meets the ball."""
 
     x: float
+    """m; the ball's centre then."""
     y: float
+    """m."""
     time: float
+    """s from now."""
 
 
 def way_of(ball: Ball, rolling: Rolling) -> list[Ball]:

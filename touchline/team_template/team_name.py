@@ -28,6 +28,8 @@ PRESSED = 1.0
 """m; an opponent nearer than this presses for the ball."""
 ERROR = 0.15
 """m by which a kick may miss its target."""
+BEFORE_AREA = 0.6
+"""m from the penalty areas to the nearest place of a robot that waits."""
 AIR = 0.1
 """m between the hulls of two robots that pass each other."""
 
@@ -82,7 +84,9 @@ class TeamName(Player):
         others = sorted(name for name in field if name != attacker)
         place = PLACES[others.index(me) % len(PLACES)] if me in others else (spot[0] - 1.0, spot[1])
         if me in others:
-            place = (place[0] + FOLLOWS * spot[0] - back, place[1] + FOLLOWS * spot[1])
+            front = self.setup.pitch.goal_line - self.setup.pitch.penalty_area_depth - BEFORE_AREA
+            x = place[0] + FOLLOWS * spot[0] - back  # one field robot of a side may be in a penalty area, not two
+            place = (max(-front, min(front, x)), place[1] + FOLLOWS * spot[1])
         return ("attacker" if self.was_attacker else "supporter"), place
 
     def guard(self, belief: WorldBelief) -> Action:

@@ -41,13 +41,19 @@ class HeldPlace:
         if self.run is not None and role not in DEFENDS:
             self.at = self.run.to
             return self.at
-        near = self._parameters.settles_close if role in DEFENDS else self._parameters.settles
+        near = self._settles(role)
         if self.at is None or (
             math.dist(self.at, place) > near
             and not (role is Role.SUPPORTER and self._still_serves(belief, self.at, spot, holds=holds))
         ):
             self.at, self._spot = place, spot
         return self.at
+
+    def _settles(self, role: Role) -> float:
+        """m by which the place of a role has to move before the robot follows it."""
+        if role in DEFENDS:
+            return self._parameters.settles_close
+        return self._parameters.settles_guard if role is Role.GUARD else self._parameters.settles
 
     def _still_serves(self, belief: WorldBelief, at: Point, ball: Point, *, holds: bool) -> bool:
         """Whether a supporter need not follow the ball: it can be passed to where it stands, or nobody could pass."""

@@ -218,7 +218,8 @@ class Reference(Player):
         runs = self._held_place.run is not None and self._role not in DEFENDS
         is_clear = math.dist(belief.me[:2], spot) > self.parameters.clears_within
         walks = is_clear and not runs and self._role not in DEFENDS and belief.game.phase is TeamPhase.PLAY
-        limits = self.limits.capped(self.parameters.support_speed) if walks else self.limits
+        speed = self.parameters.guard_speed if self._role is Role.GUARD else self.parameters.support_speed
+        limits = self.limits.capped(speed) if walks else self.limits
         motion = stand(belief.me, at, belief.game, spot, belief.others, self.setup, limits)
         return Action(self._role, "run" if runs else "hold", motion)
 
