@@ -112,8 +112,15 @@ def test_1_3_m_before_the_circle_ends_the_ball_is_let_go(league, sight_of, way, 
 
 def test_a_robot_with_no_room_ahead_stops_inside_the_circle(league, sight_of):
     robot = Simple(Briefing.of("cyan2", league))
-    command = play(robot, sight_of, 2.5, obstacles=((-0.3, 0.0),))
+    command = play(robot, sight_of, 2.6, obstacles=((-0.3, 0.0),))
     assert command.kick is None and (command.drive.vx, command.drive.vy) == (0.0, 0.0)
+
+
+def test_a_robot_with_no_room_ahead_brakes_toward_the_end_of_the_circle(league, sight_of):
+    robot = Simple(Briefing.of("cyan2", league))
+    speeds = [play(robot, sight_of, way, obstacles=((-0.3, 0.0),)).drive.vx for way in (1.0, 1.8, 2.2, 2.4)]
+    assert speeds == sorted(speeds, reverse=True)
+    assert speeds[0] > speeds[1] > speeds[3] > 0.0
 
 
 def test_in_a_friendly_no_robot_releases_the_ball(setup, sight_of):
