@@ -20,6 +20,8 @@ HALFWAY = 0.25
 """m beyond the halfway line, where the ball is in the other half in spite of noise."""
 GOES_BACK = -0.05
 """m/s along the kick axis; a lower speed is driving backward."""
+PAUSE = 0.4
+"""s; after a longer interruption, others have touched the ball."""
 _ROLL_MARGIN = 0.3
 """m added to the rule book's free roll, for noise."""
 
@@ -45,6 +47,8 @@ class RuleLimits(NamedTuple):
     """m of free roll that count as a pass."""
     spares_opponents: bool = False
     """A robot without the ball must not drive into an opponent at speed."""
+    released: float = 0.0
+    """m between the centres of robot and ball, from where the ball is visibly released."""
 
     @property
     def counts_ways(self) -> bool:
@@ -67,6 +71,7 @@ class RuleLimits(NamedTuple):
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
             spares_opponents=fouls.charging != "off",
+            released=setup.robot.radius + setup.ball.radius + handling.release_gap,
         )
 
 
@@ -84,13 +89,22 @@ class Carry(NamedTuple):
     """m from there to where it is."""
     backward: float = 0.0
     """m driven backward with it."""
+    paused: float = 0.0
+    """s without the ball in the dribbler, which may still be the same dribble."""
 
 
-def carry_after(before: Carry | None, belief: WorldBelief) -> Carry | None:
-    """The carry after one more sight; None without the ball."""
-    if not belief.holding or belief.ball is None:
+def carry_after(before: Carry | None, belief: WorldBelief, released: float) -> Carry | None:
+    """The carry after one more sight; None without the ball.
+
+    A hold that is interrupted for a moment is the same dribble, until the ball is `released` m from the robot.
+    """
+    if belief.ball is None:
         return None
     ball = belief.ball.now[:2]
+    if not belief.holding:
+        paused = before.paused + belief.dt if before is not None else math.inf
+        is_near = math.dist(belief.me[:2], ball) < released
+        return before._replace(paused=paused) if before is not None and is_near and paused < PAUSE else None
     if before is None:
         return Carry(ball)
     along = _along(belief.me)

@@ -145,7 +145,7 @@ class Player(ABC):
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
         if self._counts_ways:
-            self._carry = carry_after(self._carry, belief)
+            self._carry = carry_after(self._carry, belief, self._rule_limits.released)
         if self._rule_limits.passes_first:
             self.possession = possession_after(self.possession, belief, self.briefing.robot, self._rule_limits.roll)
         action = self._obey(belief, order) or self._by_the_rules(belief, self._act(belief, order), order)
@@ -202,7 +202,7 @@ class Player(ABC):
 
     def _by_the_rules(self, belief: WorldBelief, action: Action, order: CoachOrder | None) -> Action:
         """The same action within the rules in play; in a coach's test a robot spares opponents only where told to."""
-        if action.kick is None and self._carry is not None:
+        if action.kick is None and self._carry is not None and belief.holding:
             action = self._carry_on(belief, action, self._carry)
         if self.is_keeper:
             return action

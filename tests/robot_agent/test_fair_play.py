@@ -6,7 +6,7 @@ import pytest
 
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
-from robot_agent.fair_play import HALFWAY, Possession, RuleLimits, carry_after, possession_after
+from robot_agent.fair_play import HALFWAY, PAUSE, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.skills.keep_out import Area
 from robot_agent.teams.area_turn import AreaTurn
 from robot_agent.teams.simple import Simple
@@ -20,6 +20,8 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Motion, ReceivedRadio
 
 AT, NOBODYS = Body(-3.0, 0.0, 0.0), Possession()
+RELEASED = 0.455
+"""m."""
 PASS = 1.0
 """m of free roll."""
 
@@ -42,8 +44,10 @@ def after(*scenes, before=NOBODYS):
 
 
 def test_a_friendly_asks_only_to_keep_out_of_areas_and_to_spare_opponents(setup, league):
-    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, 1, False, math.inf, False, 1.0, True)
-    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, 1, True, 10.0, True, 1.0, True)
+    assert RuleLimits.of(setup) == RuleLimits(
+        math.inf, math.inf, True, 1, False, math.inf, False, 1.0, True, pytest.approx(RELEASED)
+    )
+    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, 1, True, 10.0, True, 1.0, True, pytest.approx(RELEASED))
 
 
 def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
@@ -57,12 +61,25 @@ def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
 
 
 def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():
-    carry = carry_after(None, scene((0.0, 0.0), holding=True))
+    carry = carry_after(None, scene((0.0, 0.0), holding=True), RELEASED)
     back = Body(0.0, 0.0, 0.0, vx=-1.0)
     for x in (-0.5, -1.0):
-        carry = carry_after(carry, scene((x, 0.0), me=back, holding=True))
+        carry = carry_after(carry, scene((x, 0.0), me=back, holding=True), RELEASED)
     assert carry.caught == (0.0, 0.0) and carry.way == 1.0 and carry.backward == pytest.approx(0.04)
-    assert carry_after(carry, scene((0.0, 0.0))) is None
+    assert carry_after(carry, scene((0.0, 0.0)), RELEASED) is None
+
+
+def test_a_hold_that_is_interrupted_for_a_moment_is_the_same_dribble_until_the_ball_is_released():
+    carry = carry_after(None, scene((0.3, 0.0), me=Body(0.0, 0.0, 0.0), holding=True), RELEASED)
+    for x in (1.0, 2.0):
+        carry = carry_after(carry, scene((x + 0.4, 0.0), me=Body(x, 0.0, 0.0)), RELEASED)
+        assert carry.caught == (0.3, 0.0)
+    again = carry_after(carry, scene((2.6, 0.0), me=Body(2.2, 0.0, 0.0), holding=True), RELEASED)
+    assert again.way == pytest.approx(2.3)
+    assert carry_after(carry, scene((2.5, 0.0), me=Body(2.0, 0.0, 0.0)), RELEASED) is None
+    for _ in range(round(PAUSE / 0.02) + 1):
+        carry = carry_after(carry, scene((2.4, 0.0), me=Body(2.0, 0.0, 0.0)), RELEASED) if carry else None
+    assert carry is None
 
 
 @pytest.mark.parametrize(("x", "may_score"), [(HALFWAY + 0.1, True), (-1.0, False)])

@@ -66,7 +66,7 @@ class Parameters:
     """m ahead of the ball, or behind it, that count at most."""
     support_speed: float = 1.3
     """m/s; supporters walk, as the ball is faster than they are anyway. In self-play, 12 halves of 150 s, robots drove
-    636 m in ten minutes with 1.6, 600 with 1.3, 559 with 1.0 and 531 with 0.8; with less than 1.3 `simple` scored more."""
+    636 m in ten minutes with 1.6, 600 with 1.3, 559 with 1.0 and 531 with 0.8; below 1.3, `simple` scored more."""
     clears_within: float = 1.5
     """m from the ball, within which a supporter makes room at full speed."""
     settles: float = 2.5
