@@ -13,6 +13,7 @@ import typer
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
     from touchline.drill.play_drill import DrillRow, PlannedDrill
@@ -56,6 +57,7 @@ def drill(
     interrupted = False
     try:
         with (
+            sigterm_interrupts(),
             closing(play_drills(planned, jobs or cores())) as played,
             progress_of(len(planned), scene, at_once=jobs or cores(), json=json) as progress,
         ):

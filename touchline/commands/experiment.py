@@ -14,6 +14,7 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
     from touchline.scheduling.outcome import Outcome
@@ -218,9 +219,10 @@ def _match_sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
 
 @contextmanager
 def _stoppable(folder: Path) -> Any:
-    """Ctrl-C ends the study with a line on how to go on."""
+    """Ctrl-C, or SIGTERM, ends the study with a line on how to go on."""
     try:
-        yield
+        with sigterm_interrupts():
+            yield
     except KeyboardInterrupt:
         typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
         raise typer.Exit(128 + signal.SIGINT) from None

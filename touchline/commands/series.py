@@ -13,6 +13,7 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+from touchline.cli.interrupts import sigterm_interrupts
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
@@ -83,7 +84,10 @@ def series(
     rows: list[Row] = []
     interrupted = False
     try:
-        with progress_of(len(plan.matches), " – ".join(plan.teams), at_once=jobs or cores(), json=json) as progress:
+        with (
+            sigterm_interrupts(),
+            progress_of(len(plan.matches), " – ".join(plan.teams), at_once=jobs or cores(), json=json) as progress,
+        ):
 
             def add(row: "Row") -> None:
                 rows.append(row)

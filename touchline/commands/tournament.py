@@ -12,6 +12,7 @@ import typer
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
     from touchline.tournament.cup_config import CupConfig
@@ -93,9 +94,12 @@ def tournament(
         state, interrupted = run.state, False
         failed = sum(one.reason is not None for match in state.matches if (one := match.ended) is not None)
         try:
-            with progress_of(
-                len(state.due), cup.title or cup.name, at_once=chosen.at_once, failed=failed, json=json
-            ) as progress:
+            with (
+                sigterm_interrupts(),
+                progress_of(
+                    len(state.due), cup.title or cup.name, at_once=chosen.at_once, failed=failed, json=json
+                ) as progress,
+            ):
                 state = run.play(chosen.executor, progress, chosen.remote)
         except KeyboardInterrupt:
             interrupted, state = True, run.state

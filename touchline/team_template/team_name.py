@@ -16,6 +16,8 @@ BACK = 2.0
 """m by which they are nearer to the own goal when the coach orders to defend."""
 STAYS = 0.5
 """m by which a teammate must be nearer to the ball than the robot that plays it, to play it instead."""
+PROMISED = 1.5
+"""s after a pass, for which the ball is left to its receiver."""
 SHOT_RANGE = 7.0
 """m from the goal's middle."""
 OPEN = 0.5
@@ -45,6 +47,8 @@ class TeamName(Player):
     def __init__(self, briefing: Briefing) -> None:
         super().__init__(briefing)
         self.was_attacker = False
+        self.promise: tuple[str | None, float] = (None, 0.0)
+        """The receiver of the team's last pass, and the s for which the ball is left to it."""
         self.restart_to: tuple[str | None, Point] | None = None
         """The receiver of a restart. It stays while this robot steps in: to turn with the ball would be a foul."""
 
@@ -73,11 +77,15 @@ class TeamName(Player):
         me, field = self.briefing.robot, {self.briefing.robot: belief.me}
         field |= {name: mate.body for name, mate in belief.mates.items() if name != self.keeper}
         has_role = {name: mate.role == "attacker" for name, mate in belief.mates.items()}
-        receiver = next((mate.pass_to for mate in belief.mates.values() if mate.pass_to), None)
+        passed = next((mate.pass_to for mate in belief.mates.values() if mate.pass_to), None)  # in one message only
+        name, left = self.promise
+        self.promise = (passed, PROMISED) if passed else (name, left - belief.dt)
+        receiver = self.promise[0] if self.promise[1] > 0.0 else None
 
         def way(name: str) -> float:
-            bonus = STAYS * has_role.get(name, self.was_attacker) + 2.0 * STAYS * (name == receiver)
-            return math.dist(field[name][:2], spot) - bonus
+            if name == receiver:
+                return -1.0  # before any other
+            return math.dist(field[name][:2], spot) - STAYS * has_role.get(name, self.was_attacker)
 
         attacker = min(sorted(field), key=way)
         self.was_attacker = attacker == me
@@ -129,7 +137,10 @@ class TeamName(Player):
         return self.receiver(belief)
 
     def attack(self, belief: WorldBelief, must_pass: bool = False) -> Action:
-        """With the ball: shoot if the lane is open, pass if pressed, else carry the ball toward the goal."""
+        """With the ball: shoot if the lane is open, pass if pressed, else carry the ball toward the goal.
+
+        Where the dribbling circle ends and nobody is free, `Player` lets the ball go for a moment, or stops.
+        """
         me, pitch, kicker = belief.me, self.setup.pitch, self.setup.kicker
         aim, width = skills.best_place(me[:2], belief.opponents, pitch)
         is_penalty = belief.game.phase is TeamPhase.OUR_PENALTY
@@ -141,8 +152,10 @@ class TeamName(Player):
             return Action("attacker", "shoot", drive, dribble=True, kick=kick)
         name, target = self.restart_to or self.receiver(belief)
         pressed = any(math.dist(me[:2], opponent) < PRESSED for opponent in belief.opponents)
-        if must_pass or self.must_pass_on or (name is not None and pressed):
+        if must_pass or (name is not None and (pressed or self.must_pass_on)):
             drive, kick = skills.pass_to(me, target, self.setup, self.limits)
+            if kick is not None and belief.kicker_ready:
+                self.promise = (name, PROMISED)
             return Action("attacker", "pass", drive, dribble=True, kick=kick, pass_to=name if kick else None)
         blocked = skills.circles(belief.opponents, 2.0 * self.setup.robot.reach + AIR)
         facing = math.atan2(-me.y, pitch.goal_line - me.x)

@@ -122,13 +122,14 @@ def test_a_wrong_option_is_one_line_before_any_match(match_file: Path, words: li
 
 
 @pytest.mark.processes
-def test_ctrl_c_prints_what_has_been_played(match_file: Path) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_series_prints_what_has_been_played(match_file: Path, number: signal.Signals) -> None:
     words = [sys.executable, "-m", "touchline", "series", str(match_file), "--seeds", "1-3000", "--jobs", "1"]
     process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=dict(os.environ))
     assert process.stdout is not None and process.stderr is not None
     ended = (line for line in process.stderr if line.startswith("2/3000 "))
     assert next(ended)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
     output, _ = process.communicate(timeout=60)
     assert process.returncode == 128 + signal.SIGINT
     assert " of 3000 matches, " in output and " not played" in output
