@@ -76,10 +76,10 @@ def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Par
 
 def _least_chance(now: Situation, ball: Point, parameters: Parameters, *, is_late: bool) -> float:
     """The chance of a goal from which the robot shoots: what it has begun it ends, and with room it goes closer."""
-    if now.shoots:
-        return parameters.shot_keeps
     if is_late:
         return parameters.shot_late
+    if now.shoots:
+        return parameters.shot_keeps
     nearest = min((math.dist(ball, opponent) for opponent in now.opponents), default=math.inf)
     return parameters.shot_worth if nearest < parameters.shot_pressed else parameters.shot_waits
 
