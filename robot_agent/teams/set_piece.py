@@ -114,7 +114,11 @@ def wait_behind(
 def step_in(
     me: Body, ball: tuple[float, float], target: tuple[float, float], setup: Setup, limits: DriveLimits
 ) -> Drive:
-    """After START: drive straight at the ball along the line to the target, until the dribbler holds it."""
+    """After START: drive straight at the ball along the line to the target, until the dribbler holds it.
+
+    `ball` is where the robot sees it: from the referee's spot it may lie some centimetres away, and so near that is an
+    angle at which the dribbler pushes it and does not hold it.
+    """
     distance = math.hypot(ball[0] - me.x, ball[1] - me.y)
     heading = math.atan2(target[1] - ball[1], target[0] - ball[0])
     beside = abs((me.y - ball[1]) * math.cos(heading) - (me.x - ball[0]) * math.sin(heading))

@@ -231,7 +231,7 @@ class MatchConfig(Part):
         return 1.0 if self.pace == "realtime" else float(self.pace[1:])
 
 
-def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> MatchConfig:
+def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None) -> MatchConfig:
     """The match of a file, or the default match; `overrides`, key with dots → value, replace its values.
 
     Raises:
@@ -241,7 +241,7 @@ def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> Ma
     content: dict[str, Any] = {}
     if path is not None:
         try:
-            content = tomllib.loads(path.read_text("utf-8"))
+            content = tomllib.loads(Path(path).read_text("utf-8"))
         except OSError as error:
             raise TouchlineError(f"{path}: {error.strerror}; give the path of a match file") from None
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
