@@ -19,6 +19,7 @@ def places(
     ball: Point,
     *,
     attacks: bool,
+    blocks: bool = True,
     opponents: Sequence[Point],
     robots: Sequence[Point],
     pitch: Pitch,
@@ -31,12 +32,13 @@ def places(
 
     Args:
         attacks: whether our side has the ball, or is first at it.
+        blocks: whether a robot is needed between the ball and the own goal beside the one that goes for the ball.
         robots: where the robots are that share the places.
         inset: m between the lines and a robot's centre.
     """
     front = front_of(pitch, inset)
     found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))] if len(robots) > 1 or not attacks else []
-    if not attacks and ball[0] < parameters.blocks_before:
+    if blocks and not attacks and ball[0] < parameters.blocks_before:
         found.insert(0, Place(Role.BLOCKER, _before_goal(ball, parameters.block_distance, pitch, front)))
     if not attacks and ball[0] < parameters.marks_before:
         found += [Place(Role.MARKER, place) for place in _marks(ball, opponents, pitch, front, parameters)]

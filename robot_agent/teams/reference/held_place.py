@@ -24,8 +24,8 @@ class HeldPlace:
         """m; None before the first place."""
         self.run: Run | None = None
         """The run after a pass of this robot."""
-        self._spot: Point | None = None
-        """Where the ball was when the place was taken."""
+        self._taken: tuple[Role, Point] | None = None
+        """The role for which the place was taken, and where the ball was."""
 
     def choose(self, belief: WorldBelief, role: Role, place: Point, spot: Point, *, holds: bool, passed: bool) -> Point:
         """Where to stand now.
@@ -46,7 +46,7 @@ class HeldPlace:
             math.dist(self.at, place) > near
             and not (role is Role.SUPPORTER and self._still_serves(belief, self.at, spot, holds=holds))
         ):
-            self.at, self._spot = place, spot
+            self.at, self._taken = place, (role, spot)
         return self.at
 
     def _settles(self, role: Role) -> float:
@@ -58,10 +58,10 @@ class HeldPlace:
     def _still_serves(self, belief: WorldBelief, at: Point, ball: Point, *, holds: bool) -> bool:
         """Whether a supporter need not follow the ball: it can be passed to where it stands, or nobody could pass."""
         parameters, phase = self._parameters, belief.game.phase
-        if phase.theirs:
-            return ball == self._spot
-        if phase.ours:
-            return ball == self._spot and chance(ball, at, belief.opponents, parameters) > parameters.serves_chance
+        if phase.ours or phase.theirs:
+            if self._taken != (Role.SUPPORTER, ball):
+                return False
+            return phase.theirs or chance(ball, at, belief.opponents, parameters) > parameters.serves_chance
         if phase is not TeamPhase.PLAY:
             return False
         is_near = parameters.serves_near < math.dist(at, ball) < parameters.serves_far

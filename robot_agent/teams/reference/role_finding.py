@@ -131,6 +131,7 @@ class RoleFinder:
         return places(
             ball.after(self._parameters.looks_ahead, self._rolling)[:2] if in_play else spot,
             attacks=attacks,
+            blocks=not belief.game.phase.theirs,  # the first robot stands there until the ball is in play
             opponents=belief.opponents,
             robots=[others[name].body[:2] for name in sorted(others)],
             pitch=self._setup.pitch,

@@ -65,6 +65,12 @@ def test_a_place_of_a_restart_stays_until_the_next_restart(held, phase):
     assert after(held, belief(phase=phase), spot=(1.0, 7.0)) == OTHER
 
 
+def test_a_place_that_was_taken_in_another_role_does_not_stay():
+    place, seen = HeldPlace(PARAMETERS), belief(phase=TeamPhase.THEIR_KICK_OFF)
+    assert place.choose(seen, Role.ATTACKER, TAKEN, BALL, holds=False, passed=False) == TAKEN
+    assert place.choose(seen, Role.SUPPORTER, OTHER, BALL, holds=False, passed=False) == OTHER
+
+
 def test_at_a_restart_of_our_own_a_covered_robot_goes_where_it_is_free(held):
     assert after(held, belief(opponents=[(2.0, 1.0)], phase=TeamPhase.OUR_THROW_IN)) == OTHER
 
