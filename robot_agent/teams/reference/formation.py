@@ -39,7 +39,9 @@ def places(
     front = front_of(pitch, inset)
     found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))] if len(robots) > 1 or not attacks else []
     if blocks and not attacks and ball[0] < parameters.blocks_before:
-        found.insert(0, Place(Role.BLOCKER, _before_goal(ball, parameters.block_distance, pitch, front)))
+        place = _before_goal(ball, parameters.block_distance, pitch, front)
+        if all(math.dist(place, other.at) > parameters.defends_apart for other in found):
+            found.insert(0, Place(Role.BLOCKER, place))
     if not attacks and ball[0] < parameters.marks_before:
         found += [Place(Role.MARKER, place) for place in _marks(ball, opponents, pitch, front, parameters)]
     found = found[: len(robots)]
@@ -55,11 +57,15 @@ def front_of(pitch: Pitch, inset: float) -> float:
 
 
 def _guard(ball: Point, pitch: Pitch, front: float, parameters: Parameters) -> Point:
-    """Between the own goal and the ball, a share of the way."""
+    """Between the own goal and the ball, a share of the way, and not where others fight for the ball."""
     dx, dy = ball[0] + pitch.goal_line, ball[1]
     away = max(math.hypot(dx, dy), 1e-6)
     share = min(parameters.guard_share, parameters.guard_farthest / away)
-    return max(-front, share * dx - pitch.goal_line), share * dy
+    x, y = max(-front, share * dx - pitch.goal_line), share * dy
+    room, ahead = parameters.defends_apart, ball[0] - x
+    if math.dist((x, y), ball) < room:  # before the penalty area: beside the duel, toward the middle
+        y = ball[1] - math.copysign(math.sqrt(room * room - ahead * ahead), ball[1])
+    return x, y
 
 
 def _before_goal(ball: Point, distance: float, pitch: Pitch, front: float) -> Point:

@@ -18,7 +18,6 @@ class Parameters:
     """m; two reports closer than this are of one robot: the noise at 7 m, and 0.1 s of motion."""
     silent_delay: float = 1.5
     """s that count against a teammate without radio messages: it is believed at its home, and may not be there."""
-
     silent_after: float = 0.3
     """s without any message, after which each robot plays the ball in its own part of the pitch: three messages."""
 
@@ -89,6 +88,8 @@ class Parameters:
     """Where the guard stands between the own goal and the ball, as a share."""
     guard_farthest: float = 7.0
     """m from the own goal to the guard at most."""
+    defends_apart: float = 1.4
+    """m between guard, blocker and ball: before the penalty area all of their places would be the same."""
     block_distance: float = 2.2
     """m from an opponent's ball to the robot that blocks its way to the goal."""
     mark_distance: float = 0.9

@@ -75,6 +75,14 @@ def test_in_defence_one_blocks_and_a_free_opponent_is_marked_between_it_and_the_
     assert math.dist(marker, (-5.0, 3.0)) < math.dist((-6.0, -2.0), (-5.0, 3.0))
 
 
+@pytest.mark.parametrize("ball", [(-8.0, 0.2), (-8.1, -1.0), (-7.5, 3.0), (-9.5, 0.0), (-10.5, -5.0)])
+def test_before_the_own_penalty_area_defenders_stand_apart_and_not_where_the_ball_is(setup, ball):
+    found = at(setup.pitch, ball, [(ball[0] + 0.4, ball[1])], attacks=False)
+    assert Role.GUARD in [place.role for place in found]
+    assert all(math.dist(place.at, ball) > 1.2 for place in found)
+    assert all(math.dist(one.at, other.at) > 1.2 for one, other in combinations(found, 2))
+
+
 def test_the_keeper_stands_on_its_line_where_a_lob_passes_lowest(setup, limits, plant):
     pitch, reach = setup.pitch, setup.robot.reach
     robot = plant(-10.2, 0.0, 0.0)
