@@ -41,13 +41,23 @@ class HeldPlace:
         if self.run is not None and role not in DEFENDS:
             self.at = self.run.to
             return self.at
-        near = self._settles(role)
-        if self.at is None or (
-            math.dist(self.at, place) > near
-            and not (role is Role.SUPPORTER and self._still_serves(belief, self.at, spot, holds=holds))
+        serves = (
+            role is Role.SUPPORTER and self.at is not None and self._still_serves(belief, self.at, spot, holds=holds)
+        )
+        if (
+            self.at is None
+            or self._is_taken(belief, self.at)
+            or (math.dist(self.at, place) > self._settles(role) and not serves)
         ):
             self.at, self._taken = place, (role, spot)
         return self.at
+
+    def _is_taken(self, belief: WorldBelief, at: Point) -> bool:
+        """Whether a teammate is there: two robots that changed roles may hold the same place."""
+        mine = math.dist(at, belief.me[:2])
+        return any(
+            math.dist(at, mate.body[:2]) < min(mine, self._parameters.taken_within) for mate in belief.mates.values()
+        )
 
     def _settles(self, role: Role) -> float:
         """m by which the place of a role has to move before the robot follows it."""

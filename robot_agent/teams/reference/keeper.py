@@ -21,11 +21,15 @@ Point = tuple[float, float]
 
 
 def guard(me: Body, ball: Ball, pitch: Pitch, reach: float, limits: DriveLimits, parameters: Parameters) -> Drive:
-    """Stand on the line where the open angle is halved; cross a shot's way."""
+    """Stand on the line where the open angle is halved; cross a shot's way; come back round the posts."""
     x = -pitch.goal_line + parameters.on_line
     crossing = shot_crossing(ball, x, pitch, reach, parameters)
     y = crossing if crossing is not None else halving_place(ball, x, pitch, reach)
-    vx, vy = velocity_to(me, x, y, limits)
+    front = -pitch.goal_line + reach
+    if abs(y) < abs(me.y) and abs(me.y) > 0.5 * pitch.goal_width - reach:
+        vx, vy = velocity_to(me, front + parameters.before_posts, y if me.x > front else me.y, limits)
+    else:
+        vx, vy = velocity_to(me, x, y, limits)
     if crossing is not None:
         vy = max(-limits.speed, min(limits.speed, parameters.crossing_gain * (y - me.y)))
     facing = math.atan2(ball.y - me.y, max(0.3, ball.x - me.x))

@@ -70,6 +70,8 @@ class Parameters:
     """m from the ball, within which a supporter makes room at full speed."""
     settles: float = 2.5
     """m by which a place has to move before a robot follows it: the ball moves to and fro, robots need not."""
+    taken_within: float = 0.8
+    """m from a place to the teammate that has it, so that no other robot may keep it."""
     serves_near: float = 2.4
     """m from ball and teammates, beyond which a supporter stays where a pass reaches it."""
     serves_far: float = 7.5
@@ -258,6 +260,8 @@ class Parameters:
     # Keeper
     on_line: float = 0.0
     """m from the goal line to the keeper's centre. A lob passes 3 cm lower than the top of a hull only there."""
+    before_posts: float = 0.05
+    """m between the hull of a keeper that comes back from beside its goal and the posts."""
     flies_above: float = 0.4
     """m of the ball's centre: above it no dribbler holds the ball, and a keeper that comes out is passed over."""
     comes_out: float = 3.0

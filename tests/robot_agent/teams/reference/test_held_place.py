@@ -55,6 +55,18 @@ def test_it_makes_room_for_a_teammate(held):
     assert after(held, belief(mate=(4.5, 2.5))) == OTHER
 
 
+@pytest.mark.parametrize("phase", [TeamPhase.PLAY, TeamPhase.OUR_THROW_IN, TeamPhase.THEIR_THROW_IN])
+def test_two_robots_that_changed_roles_do_not_hold_the_same_place(held, phase):
+    assert after(held, belief(mate=(4.3, 2.0), phase=phase)) == OTHER
+
+
+def test_a_place_is_kept_while_a_teammate_passes_it_farther_away_than_the_robot():
+    place, me = HeldPlace(PARAMETERS), (0.0, 4.0)
+    seen = belief(mate=(0.5, 4.6), phase=TeamPhase.THEIR_THROW_IN)
+    assert place.choose(seen, Role.SUPPORTER, me, BALL, holds=False, passed=False) == me
+    assert after(place, seen, holds=False) == me
+
+
 def test_a_marker_follows_its_opponent(held):
     assert after(held, belief(), role=Role.MARKER) == OTHER
 

@@ -92,6 +92,18 @@ def test_the_keeper_stands_on_its_line_where_a_lob_passes_lowest(setup, limits, 
     assert 0.0 < robot.body.y < 0.5 * pitch.goal_width
 
 
+def test_a_keeper_beside_its_goal_comes_back_before_the_post(setup, limits, plant):
+    pitch, reach = setup.pitch, setup.robot.reach
+    robot = plant(-10.8, 1.7, 1.57)
+    between = 0.5 * pitch.goal_width - reach
+    for _ in range(200):
+        robot.step(guard(robot.body, Ball(-10.7, 6.7), pitch, reach, limits, PARAMETERS))
+        beside_post = between < robot.body.y < 0.5 * pitch.goal_width + reach
+        assert not beside_post or robot.body.x > -pitch.goal_line + setup.robot.radius
+    assert robot.body.y < between
+    assert abs(robot.body.x + pitch.goal_line) < 0.08
+
+
 def test_the_keeper_crosses_the_way_of_a_shot(setup):
     pitch, reach = setup.pitch, setup.robot.reach
     assert shot_crossing(Ball(-5.0, 0.0, -6.0, 0.6), -11.0, pitch, reach, PARAMETERS) == 0.6
