@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from schemas.config.drill import Drill, DrillResult
 from touchline.drill.occurrences import Occurrence
 
+NO_CONDITION = "none of the conditions"
+"""Why a drill ended whose time was over."""
+
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
@@ -13,7 +16,7 @@ class Verdict:
 
     success: bool
     because: str
-    """The condition that was met, as the scene has it: `goal:cyan`; or `10 s` where the time was over."""
+    """The condition that was met, as the scene has it: `goal:cyan`; or `none of the conditions` when the time is over."""
     time: float
     """Time in s since the start."""
 
@@ -25,5 +28,5 @@ def verdict_of(drill: Drill, time: float, occurrences: Sequence[Occurrence]) -> 
             if any(one.is_meant_by(condition) for one in occurrences):
                 return Verdict(success, condition, time)
     if time >= drill.seconds - 1e-9:
-        return Verdict(drill.otherwise is DrillResult.SUCCESS, f"{drill.seconds:g} s", time)
+        return Verdict(drill.otherwise is DrillResult.SUCCESS, NO_CONDITION, time)
     return None
