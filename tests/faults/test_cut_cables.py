@@ -51,8 +51,8 @@ def test_robots_play_again_after_their_cable_was_unplugged(match: Match) -> None
 def test_a_robot_that_is_cut_off_is_at_rest_within_a_quarter_of_a_second(match: Match) -> None:
     restore(match)
     match.until_playing(*CYAN, since=match.log.tick)
-    match.log.for_ticks(SECOND)
     begin = len(match.log.applied)
+    match.log.for_ticks(SECOND)
     first, _ = match.after_fault(lambda: cut(match), SECOND, lambda: restore(match))
     commanded = [one.tick for one in match.log.applied[begin:] if one.inputs["cyan2"].answers_tick is not None]
     silent_from = max(tick for tick in commanded if tick < first + SECOND // 2)
