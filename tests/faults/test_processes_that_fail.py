@@ -49,13 +49,18 @@ def test_a_robot_whose_clock_is_an_hour_off_plays(match: Match) -> None:
 
 
 def test_a_match_goes_on_after_the_machine_was_suspended(match: Match) -> None:
-    """All processes at once, for longer than the agents wait for a host."""
+    """All processes at once, for longer than the agents wait for a host.
+
+    The observer is a new client: of those that were not suspended with the host, one of a hundred gets no data any more
+    over its next link (zenoh 1.10.2), and has to be started again.
+    """
     everything = ("host", *CYAN, "magenta1")
     match.log.update()
     before = match.log.tick
     match.field.suspend(*everything)
     match.pause(PATIENCE_S + 1.0)
     match.field.resume(*everything)
+    match.listen_again()
     match.until_playing(*CYAN, "magenta1", since=before + SECOND)
 
 
