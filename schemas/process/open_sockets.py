@@ -69,10 +69,24 @@ def close_in_background(peer: Peer) -> bool:
     return False
 
 
+def duplicate(descriptor: int) -> socket.socket:
+    """A socket with a descriptor of its own for the same connection.
+
+    Raises:
+        OSError: the descriptor is closed, or no socket's; nothing stays open.
+    """
+    copy = os.dup(descriptor)
+    try:
+        return socket.socket(fileno=copy)
+    except OSError:
+        os.close(copy)
+        raise
+
+
 def _end(descriptor: int, peer: Peer) -> bool:
     """End the connection, unless its descriptor has meanwhile become that of another one."""
     try:
-        with socket.socket(fileno=os.dup(descriptor)) as connection:
+        with duplicate(descriptor) as connection:
             if _peer(connection) != peer:
                 return False
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _DISCARD)

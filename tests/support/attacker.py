@@ -17,6 +17,8 @@ from typing import Any
 
 import zenoh
 
+from schemas.process.open_sockets import duplicate
+
 STAMP = struct.Struct("<QQq")
 """The attachment of a message: sequence number, wall time in ns, simulated time in ns."""
 BELIEF = b'{"version":"2.0","tick":1,"time":0.02,"robot":"cyan1","side":"cyan","message":{}}'
@@ -326,7 +328,7 @@ def _connections_to(endpoint: str) -> list[socket.socket]:
     found = []
     for entry in Path("/proc/self/fd").iterdir():
         try:
-            near = socket.socket(fileno=os.dup(int(entry.name)))
+            near = duplicate(int(entry.name))
         except OSError:
             continue
         try:

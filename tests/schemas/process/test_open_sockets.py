@@ -8,7 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from schemas.process.open_sockets import close_connection, close_in_background, plain_address, received_bytes
+from schemas.process.open_sockets import (
+    close_connection,
+    close_in_background,
+    duplicate,
+    plain_address,
+    received_bytes,
+)
 
 linux = pytest.mark.skipif(not hasattr(socket, "TCP_INFO"), reason="only Linux reports the bytes of a connection")
 
@@ -73,6 +79,14 @@ def test_no_descriptor_is_left_open(pair):
     received_bytes()
     close_connection(peer)
     assert not close_connection(("127.0.0.1", 1))
+    assert len(list(Path("/proc/self/fd").iterdir())) == before
+
+
+@linux
+def test_the_duplicate_of_what_is_no_socket_is_refused_and_leaves_no_descriptor_open(tmp_path):
+    before = len(list(Path("/proc/self/fd").iterdir()))
+    with (tmp_path / "file").open("w") as file, pytest.raises(OSError, match="non-socket"):
+        duplicate(file.fileno())
     assert len(list(Path("/proc/self/fd").iterdir())) == before
 
 

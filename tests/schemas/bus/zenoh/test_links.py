@@ -1,6 +1,5 @@
 """The links of a host's router: what a client has sent by its own, and how the host closes and refuses links."""
 
-import os
 import socket
 import struct
 import time
@@ -14,6 +13,7 @@ from schemas.bus.contract import Bus
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.messages.command import Command
 from schemas.process.clock import WallClock
+from schemas.process.open_sockets import duplicate
 from schemas.topics import COMMAND
 from support.attacker import open_session
 from support.process_story import wait_for
@@ -62,15 +62,18 @@ def test_no_end_of_a_link_waits_for_data_that_a_cut_network_cannot_take(host):
     """Zenoh would wait for 10 s for each link, and meanwhile admit nobody."""
 
     def lingers() -> dict[int, bool]:
-        """Descriptor of each TCP connection of this process → whether closing it waits."""
+        """Descriptor of each end of the host's connections → whether closing it waits."""
         found = {}
         for entry in Path("/proc/self/fd").iterdir():
-            with suppress(OSError), socket.socket(fileno=os.dup(int(entry.name))) as connection:
-                connection.getpeername()
+            with suppress(OSError), duplicate(int(entry.name)) as connection:
                 if connection.family in (socket.AF_INET, socket.AF_INET6):
-                    option = connection.getsockopt(socket.SOL_SOCKET, socket.SO_LINGER, 8)
-                    found[int(entry.name)] = bool(struct.unpack("ii", option)[0])
+                    ports = connection.getsockname()[1], connection.getpeername()[1]
+                    if port in ports:
+                        option = connection.getsockopt(socket.SOL_SOCKET, socket.SO_LINGER, 8)
+                        found[int(entry.name)] = bool(struct.unpack("ii", option)[0])
         return found
+
+    port = int(host.endpoint.rpartition(":")[2])
 
     with client_of(host):
         links_of(host, 1)
