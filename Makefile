@@ -2,7 +2,7 @@
 # into .venv. Its packages are pinned by hash in requirements.lock.
 
 .DEFAULT_GOAL := help
-.PHONY: help match test check bench bench-network bench-play bench-scheduling soak lowest mutants clean
+.PHONY: help match quick test test-all check bench bench-network bench-play bench-scheduling soak lowest mutants clean
 READY := .venv/.ready
 # Compiled once: where Python writes no bytecode, as in many containers, each process would compile them at its start.
 PACKAGES := schemas sim_host robot_agent coach_gateway recordings touchline
@@ -14,14 +14,23 @@ help: ## show this list
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
 
-test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/touchline
-	.venv/bin/pytest -n 2 --dist loadfile $(ARGS)
+PYTEST := .venv/bin/pytest -n 2 --dist loadfile
 
-check: $(READY) ## format, lint, types, and the contracts on imports
+quick: $(READY) ## run the tests without processes, browser and attacks, for example: make quick ARGS=tests/sim_host
+	$(PYTEST) -m "not processes and not browser and not hostile and not slow and not long" $(ARGS)
+
+test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/touchline
+	$(PYTEST) -m "not long" $(ARGS)
+
+test-all: $(READY) ## run the long tests as well: long cuts, floods, every size of the page, whole cups
+	$(PYTEST) $(ARGS)
+
+check: $(READY) ## format, lint, types, the contracts on imports, and the lines of each package against their budget
 	.venv/bin/ruff format --check
 	.venv/bin/ruff check
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+	@.venv/bin/python .ci/check_budgets.py
 
 bench: $(READY) ## run every benchmark but those of play and of plans of matches
 	@for bench in $(filter-out benchmarks/bench_play.py benchmarks/bench_scheduling.py, $(wildcard benchmarks/bench_*.py)); do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done

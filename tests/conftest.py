@@ -39,6 +39,15 @@ def pytest_configure() -> None:
     open_host("first", WallClock(), with_free_port("tcp/127.0.0.1:0")).close()
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what follows from a test's place and fixtures, so that no test can forget it."""
+    for item in items:
+        if "hostile" in item.path.relative_to(item.config.rootpath).parts:
+            item.add_marker("hostile")
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker("browser")
+
+
 def pytest_unconfigure() -> None:
     """Remove the announcements of the tests' hosts."""
     shutil.rmtree(os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
