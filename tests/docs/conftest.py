@@ -1,8 +1,11 @@
-"""Where the documents are, and the fenced pieces in them."""
+"""Where the documents are, the fenced pieces in them, and the scripts that make parts of them."""
 
+import importlib
 import re
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -21,3 +24,12 @@ def fenced() -> Callable[[str, str], list[str]]:
         return [piece for its_language, piece in every if its_language == language]
 
     return pieces
+
+
+@pytest.fixture(scope="session")
+def generator(root: Path) -> Iterator[Callable[[str], ModuleType]]:
+    """Imports a script of docs/generate by its name."""
+    before = list(sys.path)
+    sys.path.insert(0, str(root / "docs" / "generate"))
+    yield importlib.import_module
+    sys.path[:] = before

@@ -1,9 +1,7 @@
 """The pages on simplifications and on real figures: their figures are those of runs, and what they name exists."""
 
-import importlib.util
 import re
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -16,22 +14,14 @@ PAGES = ("simplified.md", "sim_to_real.md")
 
 
 @pytest.fixture(scope="module")
-def figures(root: Path) -> Iterator[ModuleType]:
-    before = list(sys.path)
-    sys.path.insert(0, str(root / "docs"))
-    spec = importlib.util.spec_from_file_location("figures", root / "docs" / "figures.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    yield module
-    sys.path[:] = before
-    sys.modules.pop("physics_runs", None)
+def figures(generator: Callable[[str], ModuleType]) -> ModuleType:
+    return generator("figures")
 
 
 @pytest.mark.parametrize("page", PAGES)
 def test_the_figures_are_those_of_runs(page: str, root: Path, figures: ModuleType) -> None:
     text = (root / "docs" / page).read_text("utf-8")
-    assert text == figures.filled(text), "run: .venv/bin/python docs/figures.py"
+    assert text == figures.filled(text), "run: .venv/bin/python docs/generate/figures.py"
 
 
 def test_every_figure_stands_in_a_page(root: Path, figures: ModuleType) -> None:

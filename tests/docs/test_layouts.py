@@ -1,6 +1,5 @@
 """The layouts that ship fit what a recorder writes."""
 
-import importlib.util
 import json
 import re
 from pathlib import Path
@@ -43,11 +42,8 @@ def test_every_scene_is_shown_and_every_topic_is_one_that_is_recorded(file):
     assert shown["RawMessages"]["topicPath"] in {topic.key for topic in TOPICS.values() if topic.recorded}
 
 
-def test_the_files_are_what_their_script_writes():
-    spec = importlib.util.spec_from_file_location("make_layouts", DOCS / "make_layouts.py")
-    assert spec is not None and spec.loader is not None
-    script = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(script)
-    assert {file.name for file in FILES} == set(script.LAYOUTS)
+def test_the_files_are_what_their_script_writes(generator):
+    layouts = generator("make_layouts").LAYOUTS
+    assert {file.name for file in FILES} == set(layouts)
     for file in FILES:
-        assert file.read_text() == script.LAYOUTS[file.name]()
+        assert file.read_text() == layouts[file.name]()

@@ -1,6 +1,6 @@
 """The comparison with earlier systems: every row has a status and, where it works, a test that exists."""
 
-import importlib.util
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -8,12 +8,8 @@ import pytest
 
 
 @pytest.fixture(scope="module")
-def parity(root: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location("parity", root / "docs" / "parity.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def parity(generator: Callable[[str], ModuleType]) -> ModuleType:
+    return generator("parity")
 
 
 def test_every_reference_names_one_test_or_benchmark_that_exists(parity: ModuleType) -> None:
@@ -50,7 +46,7 @@ def test_every_row_of_the_page_has_its_number(parity: ModuleType) -> None:
 
 def test_the_page_is_fresh(parity: ModuleType, root: Path) -> None:
     written = (root / "docs" / "parity.md").read_text("utf-8")
-    assert written == parity.page(), "run: .venv/bin/python docs/parity.py > docs/parity.md"
+    assert written == parity.page(), "run: .venv/bin/python docs/generate/parity.py > docs/parity.md"
 
 
 def test_a_reference_to_a_test_that_was_renamed_is_reported_with_the_nearest_name(parity: ModuleType) -> None:

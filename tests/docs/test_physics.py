@@ -3,7 +3,7 @@
 import importlib.util
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -15,22 +15,9 @@ from schemas.config.profile import load_profile
 from schemas.config.sections import SECTIONS
 
 
-def load(root: Path, name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, root / "docs" / f"{name}.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
 @pytest.fixture(scope="module")
-def drawing(root: Path) -> Iterator[ModuleType]:
-    before = list(sys.path)
-    yield load(root, "draw_physics")
-    sys.path[:] = before
-    for name in ("draw_physics", "physics_runs"):
-        sys.modules.pop(name)
+def drawing(generator: Callable[[str], ModuleType]) -> ModuleType:
+    return generator("draw_physics")
 
 
 @pytest.fixture(scope="module")
@@ -38,9 +25,9 @@ def text(root: Path) -> str:
     return (root / "docs" / "physics.md").read_text("utf-8")
 
 
-def test_the_tables_are_those_of_the_profiles(root: Path, text: str) -> None:
-    tables = load(root, "physics_tables")
-    assert text == tables.filled(text), "run: .venv/bin/python docs/physics_tables.py"
+def test_the_tables_are_those_of_the_profiles(text: str, generator: Callable[[str], ModuleType]) -> None:
+    tables = generator("physics_tables")
+    assert text == tables.filled(text), "run: .venv/bin/python docs/generate/physics_tables.py"
     shown = re.findall(r"<!-- table (\w+) -->", text)
     assert sorted(shown) == sorted(set(SECTIONS) - {"safety"})
 

@@ -38,10 +38,12 @@ def test_the_transcript_is_that_of_a_run(text: str, root: Path, fenced: Callable
     if shutil.which("node") is None:
         assert os.environ.get("TOUCHLINE_EXAMPLES") != "needed", "no node where the examples have to run"
         pytest.skip("no node; apt-get install nodejs")
-    script = [sys.executable, str(root / "docs" / "robot_transcript.py")]
+    script = [sys.executable, str(root / "docs" / "generate" / "robot_transcript.py")]
     environment = {**os.environ, "PYTHONPATH": str(root)}
     run = subprocess.run(script, capture_output=True, text=True, check=True, env=environment, timeout=100)
-    assert fenced(text, "text") == [run.stdout], "run: python docs/robot_transcript.py, and put its output there"
+    assert fenced(text, "text") == [run.stdout], (
+        "run: python docs/generate/robot_transcript.py, and put its output there"
+    )
 
 
 def test_it_is_short_enough_to_read(text: str) -> None:

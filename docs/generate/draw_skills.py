@@ -1,7 +1,6 @@
-"""Draws the pictures of skills in docs/team.md: `python docs/draw_skills.py [NAME …]`; without a name, all of them.
+"""Draws the pictures of skills in docs/team.md: `python docs/generate/draw_skills.py [NAME …]`; without a name, all.
 
-Each is a run of `docs/skill_runs.py`, written to `docs/images/skill_NAME.png`: where the bodies are at its end, with
-their ways.
+Each is a run of `skill_runs.py`, written to `docs/images/skill_NAME.png`: the bodies at its end, and their paths.
 """
 
 import sys
@@ -16,7 +15,7 @@ import skill_runs
 from recordings.picture.bodies import draw_bodies
 from recordings.picture.pitch import draw_pitch
 
-IMAGES = Path(__file__).parent / "images"
+IMAGES = Path(__file__).parents[1] / "images"
 WIDTH = 3.4
 """Inches."""
 

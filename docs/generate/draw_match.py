@@ -1,4 +1,4 @@
-"""Draws a recorded match: `python docs/draw_match.py RECORDING PICTURE [SECOND …]`, one panel for each second.
+"""Draws a recorded match: `python docs/generate/draw_match.py RECORDING PICTURE [SECOND …]`, one panel for each second.
 
 Seconds are simulated time; without any, the last moment of play is drawn. `docs/images/match.png` was drawn from a
 recording of `touchline match --seed 7 --duration 120`.

@@ -1,4 +1,4 @@
-"""Writes docs/parity.md from docs/parity.toml: `python docs/parity.py > docs/parity.md`."""
+"""Writes docs/parity.md from docs/generate/parity.toml: `python docs/generate/parity.py > docs/parity.md`."""
 
 import ast
 import tomllib
@@ -9,12 +9,12 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[1]
-TABLE = ROOT / "docs" / "parity.toml"
+ROOT = Path(__file__).parents[2]
+TABLE = Path(__file__).parent / "parity.toml"
 INTRODUCTION = """\
 # Compared with the simulation system of the NuBot team
 
-<!-- Written by `python docs/parity.py > docs/parity.md`; edit docs/parity.toml. -->
+<!-- Written by `python docs/generate/parity.py > docs/parity.md`; edit docs/generate/parity.toml. -->
 
 Touchline began as a replacement for the simulation of the NuBot team, which runs on ROS and Gazebo. This page lists
 what that simulation, its successor and the tools of its league offer, and whether Touchline offers it:

@@ -1,4 +1,4 @@
-"""Draws the plots of docs/physics.md from runs of the host's world: `python docs/draw_physics.py [NAME …]`.
+"""Draws the plots of docs/physics.md from runs of the host's world: `python docs/generate/draw_physics.py [NAME …]`.
 
 Each function below draws `docs/images/physics_NAME.png`; without a name all are drawn, in about a minute.
 """
@@ -20,7 +20,7 @@ import physics_runs as runs
 from schemas.config.profile import load_profile
 from schemas.messages.command import KickMode
 
-IMAGES = Path(__file__).parent / "images"
+IMAGES = Path(__file__).parents[1] / "images"
 _BLUE, _ORANGE, _GREEN, _GREY = "#1f6fb2", "#d9730d", "#2f8f4e", "#6b7570"
 _COLOURS = (_BLUE, _ORANGE, _GREEN)
 

@@ -1,4 +1,4 @@
-"""Takes a screenshot of the page: `python docs/draw_page.py ADDRESS PICTURE [WIDTH HEIGHT [WORDS]]`.
+"""Takes a screenshot of the page: `python docs/generate/draw_page.py ADDRESS PICTURE [WIDTH HEIGHT [WORDS]]`.
 
 ADDRESS is printed by `touchline match --web` or `touchline replay FILE --web`. The screenshot is taken when the page's
 phase, score or event list contains WORDS, or at once without WORDS. `docs/images/page_live.png` and `page_phone.png`

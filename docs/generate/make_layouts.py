@@ -1,6 +1,6 @@
 """Writes docs/layouts: layouts for recordings, to be imported into Foxglove and Lichtblick.
 
-Run from the top folder: .venv/bin/python docs/make_layouts.py
+Run from the top folder: .venv/bin/python docs/generate/make_layouts.py
 """
 
 import json
@@ -13,7 +13,7 @@ from recordings.viz.drawing import BALL, DRAWINGS, EVENTS, FIELD, GAME, ROBOTS
 from recordings.viz.transforms import MAP
 from schemas.topics import STATE
 
-FOLDER = Path(__file__).parent / "layouts"
+FOLDER = Path(__file__).parents[1] / "layouts"
 SCENES = (FIELD, ROBOTS, BALL, GAME, DRAWINGS)
 DARK = "#15171c"
 CAMERA: dict[str, Any] = {

@@ -1,6 +1,6 @@
-"""Prints the transcript of docs/robot.md: `python docs/robot_transcript.py`, from a match of examples/stdio_robot.
+"""Prints the transcript of docs/robot.md: `python docs/generate/robot_transcript.py`.
 
-The lines are those of the program, with numbers rounded to three decimals and broken to the width of the page.
+It is that of a match of examples/stdio_robot; numbers are rounded to three decimals, lines broken to the page width.
 """
 
 import json
@@ -17,7 +17,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from touchline.play import play_match
 
-MATCH = Path(__file__).resolve().parents[1] / "examples" / "stdio_robot" / "javascript.toml"
+MATCH = Path(__file__).resolve().parents[2] / "examples" / "stdio_robot" / "javascript.toml"
 SHOWN = (0, 1, 100, 150, 151, 152)
 """Ticks whose lines are printed."""
 WIDTH = 118

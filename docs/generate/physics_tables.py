@@ -1,4 +1,4 @@
-"""Writes the tables of parameters into docs/physics.md: `python docs/physics_tables.py`.
+"""Writes the tables of parameters into docs/physics.md: `python docs/generate/physics_tables.py`.
 
 Between `<!-- table SECTION -->` and `<!-- end -->` it writes each number of that section of a profile, with its unit,
 its values in the profiles `msl` and `paper`, and its meaning.
@@ -12,7 +12,7 @@ from schemas.config.profile import load_profile
 from schemas.config.quantity import Quantity, meanings
 from schemas.config.sections import SECTIONS
 
-PAGE = Path(__file__).parent / "physics.md"
+PAGE = Path(__file__).parents[1] / "physics.md"
 SHOWN = ("msl", "paper")
 _BLOCK = re.compile(r"<!-- table (\w+) -->\n.*?<!-- end -->", re.DOTALL)
 
