@@ -35,10 +35,6 @@ class EndpointInUseError(BusError):
     """Another process listens on the endpoint."""
 
 
-class RefusedClientError(TouchlineError):
-    """The host refuses this client, as it will the next time."""
-
-
 class NoReplyError(Exception):
     """No reply arrived in time, or the server reported that there is none."""
 

@@ -91,10 +91,11 @@ def test_a_client_finds_the_running_match_whatever_its_port_and_name(start, fold
 def test_an_agent_without_credentials_is_refused_in_one_line(start, folder, running):
     _, environment = running
     brain = ("--brain", "robot_agent.teams.nubot:NuBot")
-    refused = command(start, folder, "foreign", "agent", "--robot", "cyan1", *brain, **environment)
+    refused = command(start, folder, "foreign", "agent", "--robot", "cyan1", *brain, "--patience", "0", **environment)
     assert refused.status() == 2
     (line,) = refused.err.splitlines()
-    assert "admits only clients with credentials; add --credentials FILE, or set TOUCHLINE_CREDENTIALS" in line
+    assert "does not admit a client without credentials" in line
+    assert "add --credentials FILE, or set TOUCHLINE_CREDENTIALS" in line
 
 
 def test_a_second_agent_of_a_robot_is_refused_by_name_on_both_ends(start, folder, running):

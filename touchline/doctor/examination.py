@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from schemas.access.accounts import Account
 from schemas.access.credentials import Credentials, read_credentials
 from schemas.bus.announcement import running_hosts
-from schemas.bus.contract import RefusedClientError
 from schemas.bus.endpoint import with_tls
 from schemas.bus.find_host import find_host
 from schemas.bus.settings import ClientSettings
@@ -55,12 +54,8 @@ def _examine_host(
         bus = open_client(
             connection.match, clock, endpoint, _HANDSHAKE_S, connection.credentials, account=Account.VIEWER
         )
-    except RefusedClientError as error:
-        yield _failed("credentials", error)
-        return
     except TouchlineError as error:
-        text, _, remedy = str(error).partition("; ")
-        yield Finding("host", Status.FAILED, f"something listens there, but it plays no match ({text})", remedy)
+        yield _failed("host", error)
         return
     with bus:
         who = f'accepted as "{known.user.value}"' if known is not None else "not needed: the host admits everybody"

@@ -19,7 +19,6 @@ from schemas.bus.contract import (
     PresenceKind,
     PresenceWatch,
     Publisher,
-    RefusedClientError,
     Server,
     Subscription,
     check_publishable,
@@ -40,9 +39,6 @@ from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import WireMessage
-
-_ANNOUNCED_S = 0.2
-"""Wall time after which a host that listens has announced itself."""
 
 
 def open_host(
@@ -90,26 +86,20 @@ def open_client(
 
     Raises:
         TouchlineError: no endpoint is given, and several matches run on this machine.
-        RefusedClientError: the host refuses this client.
-        BusError: no host answers at the endpoint, or no match is played there.
+        BusError: no host admits this client at the endpoint, or no match is played there.
     """
-    known = read_credentials(credentials) if credentials is not None else None
-    if known is not None:
-        match, connect = match or known.match, connect or known.connect
+    given = read_credentials(credentials) if credentials is not None else None
+    if given is not None:
+        match, connect = match or given.match, connect or given.connect
     deadline = clock.now() + patience
-    if known is None or connect is None:
-        connect, found = _announced(match, connect, account if known is None else None)
-        known = known or found
-    try:
-        session, endpoint = open_connection(connect, clock, patience, known)
-    except RefusedClientError:
-        if known is not None:
-            raise
-        clock.sleep_until(clock.now() + _ANNOUNCED_S)
-        connect, known = _announced(match, connect, account)  # by a host that has started meanwhile
-        if known is None:
-            raise
-        session, endpoint = open_connection(connect, clock, patience, known)
+
+    def find() -> tuple[str, Credentials | None]:
+        if given is not None and connect is not None:
+            return connect, given
+        endpoint, announced = _announced(match, connect, account if given is None else None)
+        return endpoint, given or announced
+
+    session, endpoint, known = open_connection(find, clock, patience)
     try:
         name = match_at(session, endpoint, clock, deadline) if match is None else match
         if match is not None and match not in (others := hosts_of(session)) and others:

@@ -5,17 +5,16 @@ Multicast scouting, gossip and shared memory are off; a process listens on the g
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import zenoh
 
 from schemas.access.credentials import Credentials
 from schemas.access.protection import Protection
-from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError, RefusedClientError
+from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port, with_tls
 from schemas.bus.zenoh.protection_settings import client_settings, router_settings
-from schemas.bus.zenoh.refusal import refusal_at
 from schemas.bus.zenoh.unreachable import why_unreachable
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
@@ -49,8 +48,6 @@ at once. Ctrl-C takes effect between attempts."""
 _CONGESTION_TIMEOUT_US = 1_000_000
 """Wall time in which a client has to make room for data that must not be dropped, in µs; then its link is closed, and
 it may connect again."""
-_ONCE_MS = 700
-"""Wall time for the reply of a host in an attempt that shows why others failed, in ms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,55 +114,35 @@ def _listen_on(listen: str, has_tls: bool, more: Mapping[str, object]) -> tuple[
 
 
 def open_connection(
-    connect: str, clock: Clock, patience: float, credentials: Credentials | None = None
-) -> tuple[zenoh.Session, str]:
-    """A client's session, with attempts for `patience` s of wall time, and the endpoint of the host.
+    find: Callable[[], tuple[str, Credentials | None]], clock: Clock, patience: float
+) -> tuple[zenoh.Session, str, Credentials | None]:
+    """A client's session, with attempts for `patience` s of wall time, its host's endpoint and its credentials.
+
+    `find` returns endpoint and credentials before each attempt: a host may start, and announce them, meanwhile.
 
     Raises:
-        BusError: no host answers at that endpoint.
-        RefusedClientError: the host refuses this client.
+        BusError: no host admits this client.
     """
-    if credentials is not None and credentials.root_certificate is not None:
-        connect = with_tls(connect)
     deadline = clock.now() + patience
     lasts, longest = _TRY_S
     while True:
-        settings = {"connect/endpoints": [connect], "connect/retry": _RETRY, **client_settings(credentials)}
-        attempt_ms = round(1000 * max(lasts, _ATTEMPT_S))
-        config = _config(
-            "client",
-            {
-                **settings,
-                "connect/timeout_ms": round(lasts * 1000),
-                "transport/unicast/open_timeout": attempt_ms,
-            },
-        )
+        connect, credentials = find()
+        if credentials is not None and credentials.root_certificate is not None:
+            connect = with_tls(connect)
+        settings = {
+            "connect/endpoints": [connect],
+            "connect/retry": _RETRY,
+            "connect/timeout_ms": round(lasts * 1000),
+            "transport/unicast/open_timeout": round(1000 * max(lasts, _ATTEMPT_S)),
+            **client_settings(credentials),
+        }
         try:
-            return _open(config, _CLIENT_THREADS), connect
+            return _open(_config("client", settings), _CLIENT_THREADS), connect, credentials
         except zenoh.ZError as error:
-            refusal = refusal_at(connect, credentials, lambda endpoint: _can_open(endpoint, credentials))
-            if refusal is not None:
-                raise RefusedClientError(refusal) from None
             if clock.now() >= deadline:
-                raise BusError(why_unreachable(connect)) from error
+                raise BusError(why_unreachable(connect, credentials)) from error
             clock.sleep_until(clock.now() + 0.1)
             lasts = min(2 * lasts, longest)
-
-
-def _can_open(endpoint: str, credentials: Credentials | None) -> bool:
-    """Whether a single attempt at an endpoint opens a session, which is closed again."""
-    settings = {
-        "connect/endpoints": [endpoint],
-        "connect/timeout_ms": 0,
-        "transport/unicast/open_timeout": _ONCE_MS,
-        **client_settings(credentials),
-    }
-    try:
-        session = _open(_config("client", settings), _CLIENT_THREADS)
-    except zenoh.ZError:
-        return False
-    session.close()  # type: ignore[no-untyped-call]
-    return True
 
 
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:

@@ -1,14 +1,18 @@
-"""Why no host can be reached at an endpoint: an unknown name, a closed or filtered port, no way there."""
+"""Why no host admits a client at an endpoint: an unknown name, a closed or filtered port, no way there, a refusal.
+
+Zenoh reports every refusal as "unable to connect", and a host that is too busy to answer looks alike.
+"""
 
 import socket
 
+from schemas.access.credentials import Credentials
 from schemas.bus.endpoint import parse_endpoint
 
 _CONNECT_S = 1.0
 """Wall time for a connection; longer than one packet that is lost and sent again takes."""
 
 
-def why_unreachable(connect: str) -> str:
+def why_unreachable(connect: str, credentials: Credentials | None = None) -> str:
     """The fault and the remedy, in one line."""
     protocol, host, port = parse_endpoint(connect)
     try:
@@ -33,4 +37,21 @@ def why_unreachable(connect: str) -> str:
                 f"--connect {connect}: no way there from this machine ({error.strerror}); "
                 "check its network, and the address"
             )
+        else:
+            return _refused(connect, credentials)
     return f"--connect {connect}: no host answers there; start one with `touchline host`, or name its endpoint"
+
+
+def _refused(connect: str, credentials: Credentials | None) -> str:
+    """The line where a program listens."""
+    if credentials is None:
+        who, remedy = "a client without credentials", "add --credentials FILE, or set TOUCHLINE_CREDENTIALS"
+    else:
+        who, remedy = (
+            f'the user "{credentials.user.value}"',
+            "check --credentials: the file must be of the host's own set",
+        )
+    return (
+        f"--connect {connect}: what listens there does not admit {who}, or is no host that is ready; {remedy} "
+        f"(`touchline doctor --connect {connect}` examines port and certificate)"
+    )

@@ -143,7 +143,7 @@ def test_a_server_that_is_no_host_is_not_taken_for_one() -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         finding = last(f"tcp/127.0.0.1:{server.getsockname()[1]}")
     assert (finding.name, finding.status) == ("host", Status.FAILED)
-    assert "something listens there, but it plays no match" in finding.text
+    assert "is no host that is ready" in finding.text
 
 
 def test_a_host_of_another_version_fails_with_both_versions() -> None:
@@ -176,8 +176,8 @@ def test_a_refused_password_and_missing_credentials_fail(tmp_path: Path) -> None
     with guarded(tmp_path / "own", tls=False) as (bus, _):
         wrong = last(bus.endpoint, credentials=account_file(tmp_path / "others", Account.CYAN))
         without = last(bus.endpoint)
-    assert (wrong.name, wrong.status) == ("credentials", Status.FAILED)
-    assert "user or password refused" in wrong.text
+    assert (wrong.name, wrong.status) == ("host", Status.FAILED)
+    assert 'does not admit the user "cyan"' in wrong.text
     assert without.status is Status.FAILED
     assert "--credentials" in without.remedy
 
