@@ -20,6 +20,9 @@ from schemas.config.roster import Placement
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.scene import SceneOperation, SceneRequest
 from sim_host.match.simulation import Simulation
+from support.recorded_match import match_recorder, played
+
+__all__ = ["match_recorder", "played"]
 
 Fields = dict[str, Any]
 Edit = Callable[[Fields], Fields | None]

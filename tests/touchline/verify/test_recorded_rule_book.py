@@ -26,7 +26,7 @@ from touchline.command_line import app
 from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
 
-BEFORE_VERSIONS = Path(__file__).parents[1] / "data" / "before_versions.mcap"
+BEFORE_VERSIONS = Path(__file__).parents[2] / "recordings" / "data" / "before_versions.mcap"
 SHORTER_STOP = ("stop_to_signal = { value = 2.0", "stop_to_signal = { value = 0.3")
 FRIENDLY_STOP = ("stop_to_signal = { value = 0.5", "stop_to_signal = { value = 0.1")
 TWO_A_SIDE = {"teams.cyan.size": 2, "teams.magenta.size": 2}

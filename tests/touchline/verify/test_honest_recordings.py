@@ -25,7 +25,7 @@ from sim_host.match.simulation import Simulation
 from touchline.verify.resimulate import verify
 from touchline.verify.segment_check import resimulate_segment
 
-VERSION_1 = Path(__file__).parents[1] / "data" / "version_1.mcap"
+VERSION_1 = Path(__file__).parents[2] / "recordings" / "data" / "version_1.mcap"
 TWO_A_SIDE = {"teams.cyan.size": 2, "teams.magenta.size": 2}
 
 

@@ -10,7 +10,10 @@ import pytest
 
 from recordings.reading.recording import Recording, open_recording
 from schemas.config.match_config import load_match
+from support.recorded_match import match_recorder
 from touchline.debugger.agent_replay import AgentReplay
+
+__all__ = ["match_recorder"]
 
 SIMPLE = "robot_agent.teams.simple:Simple"
 SIDES = {f"teams.{side}": {"size": 2, "brain": SIMPLE} for side in ("cyan", "magenta")}
