@@ -12,7 +12,6 @@ Memory = Annotated[float, Field(ge=0.1, le=10_000)]
 OpenFiles = Annotated[int, Field(ge=32, le=1_000_000)]
 Processes = Annotated[int, Field(ge=16, le=100_000)]
 FileSize = Annotated[float, Field(ge=0.001, le=1e6)]
-Cores = Annotated[float, Field(ge=0.05, le=1024)]
 
 
 class Isolation(StrEnum):
@@ -27,20 +26,18 @@ class Isolation(StrEnum):
 
 
 class Limits(Part):
-    """What one robot may use of its machine, with all processes that its program starts."""
+    """What the processes of one robot may use of its machine; all of them inherit these limits."""
 
     cpu_time: CpuTime = 3600.0
-    """CPU time in s. An hour of a whole core; matches last minutes."""
+    """CPU time of each process in s. An hour of a whole core; matches last minutes."""
     memory: Memory = 4.0
-    """Memory in GB. Above what numpy and a network of torch on the CPU need, and too little to fill a machine."""
+    """Memory of each process in GB. Above what numpy and a network of torch need, too little to fill a machine."""
     open_files: OpenFiles = 1024
     """Open files of each process. What Linux allows by default."""
     processes: Processes = 256
-    """Processes and threads. A robot has about a dozen threads, numpy and torch add some for each core."""
+    """Processes and threads; root has no such limit. A robot has about a dozen threads, and numpy some per core."""
     file_size: FileSize = 1000.0
     """Size of each written file, in MB. More than a model, less than a disk."""
-    cores: Cores = 2.0
-    """CPU cores. Enforced only where control groups can be written: a brain and the threads of its link."""
 
     def breach(self, limit: str) -> str:
         """What a robot did that exceeded a limit, named by its field, and the remedy."""
@@ -53,7 +50,6 @@ _BREACHES = {
     "cpu_time": "used more than {:g} s of CPU time",
     "memory": "used more than {:g} GB of memory",
     "open_files": "opened more than {} files at once",
-    "processes": "had more than {} processes and threads",
     "file_size": "wrote more than {:g} MB into one file",
 }
 """Limit → what exceeds it."""
@@ -63,17 +59,15 @@ class TeamLimits(Part):
     """Limits of the robots of one team that replace those of the match."""
 
     cpu_time: CpuTime | None = None
-    """CPU time of a robot in s; None for the match's."""
+    """CPU time of each process in s; None for the match's."""
     memory: Memory | None = None
-    """Memory of a robot in GB; None for the match's."""
+    """Memory of each process in GB; None for the match's."""
     open_files: OpenFiles | None = None
     """Open files of each process; None for the match's."""
     processes: Processes | None = None
     """Processes and threads of a robot; None for the match's."""
     file_size: FileSize | None = None
     """Size of each written file, in MB; None for the match's."""
-    cores: Cores | None = None
-    """CPU cores of a robot; None for the match's."""
 
     def over(self, limits: Limits) -> Limits:
         """The limits of the match with those of this team in their place."""

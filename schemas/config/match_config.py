@@ -73,12 +73,11 @@ REMEDIES = {
     "obstacles.size": "x, y and z of a box in m",
     "referee.mode": f"one of {', '.join(OfficiatingMode)}",
     "isolate": f"one of {', '.join(Isolation)}",
-    "limits.cpu_time": "CPU time of a robot in s, from 1",
-    "limits.memory": "memory of a robot in GB, from 0.1",
+    "limits.cpu_time": "CPU time of a process in s, from 1",
+    "limits.memory": "memory of a process in GB, from 0.1",
     "limits.open_files": "open files of a process, from 32",
     "limits.processes": "processes and threads of a robot, from 16",
     "limits.file_size": "size of a file in MB, from 0.001",
-    "limits.cores": "CPU cores of a robot, from 0.05",
     "noise.preset": f"one of {', '.join(PRESETS)}",
 }
 """Key → remedy for an invalid value; keys without one get the validator's message."""

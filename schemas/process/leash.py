@@ -18,8 +18,6 @@ from typing import TypedDict
 
 _PR_SET_PDEATHSIG = 1
 """linux/prctl.h; the setting survives exec, but not a change of user."""
-_PR_SET_CHILD_SUBREAPER = 36
-"""Descendants whose parent ends become children of this process."""
 _PR_SET_NO_NEW_PRIVS = 38
 """No program that it executes gains rights, as `sudo` would."""
 
@@ -27,8 +25,6 @@ _PR_SET_NO_NEW_PRIVS = 38
 class OwnConfinement(TypedDict, total=False):
     """What a process applies to itself; what is absent stays as it is."""
 
-    control_group: str
-    """Folder of the control group that it joins."""
     limits: dict[str, tuple[int, int]]
     """Name in the module `resource` → soft and hard limit."""
     folder: str
@@ -43,10 +39,6 @@ def confine(wanted: OwnConfinement) -> None:
     Raises:
         OSError: the kernel refuses.
     """
-    if "control_group" in wanted:
-        handle = os.open(f"{wanted['control_group']}/cgroup.procs", os.O_WRONLY)
-        os.write(handle, b"0")
-        os.close(handle)
     for name, (soft, hard) in wanted.get("limits", {}).items():
         number = getattr(resource, name)
         most = resource.getrlimit(number)[1]
@@ -61,13 +53,6 @@ def confine(wanted: OwnConfinement) -> None:
         os.setgid(group)
         os.setuid(user)
         _prctl(_PR_SET_NO_NEW_PRIVS, 1)
-    if wanted:
-        _prctl(_PR_SET_CHILD_SUBREAPER, 1)
-
-
-def adopt_orphans() -> None:
-    """Let descendants whose parent ends become children of this process."""
-    _prctl(_PR_SET_CHILD_SUBREAPER, 1)
 
 
 def main(arguments: list[str]) -> int:

@@ -21,7 +21,6 @@ from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process import leash
-from schemas.process.leash import adopt_orphans
 from schemas.side import Side
 from touchline.launch.confinement import Confinement, team_confinements
 from touchline.launch.fork_server import PATIENCE_S, ForkServer
@@ -30,7 +29,6 @@ from touchline.launch.robot_fork import RobotProcess
 from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.run_folder import RUNS
 from touchline.launch.team_error import TeamError
-from touchline.launch.usage_watch import UsageWatch
 
 NOTICE_S = 3.0
 """Wall time after which a wait for brains is reported."""
@@ -62,12 +60,10 @@ def check_teams(
                 check_command_line(f"teams.{side.value}.stdio", team.stdio, brain_folder)
     confinements = confinements or team_confinements(config, brain_folder, RUNS)
     built = [side for side in here if config.team(side).program is None]
-    adopt_orphans()
     server = ForkServer()
     if not all(confinements[side].is_isolated for side in built):
         server.prepare(ROBOT_ENVIRONMENT)
     with ExitStack() as running:
-        running.callback(UsageWatch().end_left_behind)
         checks = []
         for side in built:
             folder = Path(running.enter_context(tempfile.TemporaryDirectory(prefix="touchline-")))

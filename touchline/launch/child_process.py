@@ -15,9 +15,7 @@ from schemas.errors import TouchlineError
 from schemas.process import leash
 from schemas.process.leash import OwnConfinement
 from schemas.process.process_log import message_of
-from touchline.launch.control_groups import end_group, killed_for_memory
 from touchline.launch.process_table import Process
-from touchline.launch.process_tree import tree_of
 
 _TAIL_BYTES = 8192
 _SIGNAL_IN_BUBBLEWRAP = 128
@@ -35,9 +33,6 @@ class ProcessHandle(ABC):
         self.log = log
         self._log_start = log_start
         self._status: int | None = None
-        self._exceeded: str | None = None
-        self._control_group = process.confinement.control_group if process.confinement is not None else None
-        self._killed_before = killed_for_memory(self._control_group) if self._control_group is not None else 0
 
     @property
     @abstractmethod
@@ -54,8 +49,8 @@ class ProcessHandle(ABC):
             self._status = self._poll()
             if self._status is not None:
                 self._signal_group(signal.SIGKILL)  # ends its descendants, too
-                if self._control_group is not None:
-                    end_group(self._control_group)
+                if self.process.confinement is not None:
+                    self.process.confinement.remove_empty_folder()
         return self._status
 
     def send(self, number: signal.Signals) -> None:
@@ -67,19 +62,9 @@ class ProcessHandle(ABC):
         else:
             self._signal_group(number)
 
-    def end_for(self, limit: str) -> None:
-        """End the process and all its descendants for exceeding this limit."""
-        if self._exceeded is None:
-            self._exceeded = limit
-        for pid in tree_of(self.pid):
-            with suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-
     def breach(self) -> str:
         """What the process did beyond its limits, with the remedy, if it has ended for that; empty if not."""
-        limit = self._exceeded or _SIGNALS_OF_LIMITS.get(self._status or 0)
-        if self._control_group is not None and killed_for_memory(self._control_group) > self._killed_before:
-            limit = limit or "memory"
+        limit = _SIGNALS_OF_LIMITS.get(self._status or 0)
         limits = self.process.confinement.limits if self.process.confinement is not None else None
         return limits.breach(limit) if limit is not None and limits is not None else ""
 
@@ -95,10 +80,10 @@ class ProcessHandle(ABC):
 
     def _signal_within(self, number: signal.Signals) -> None:
         """Signal the programs in bubblewrap; bwrap itself ends with them, or at once by SIGKILL."""
-        _, *inner = tree_of(self.pid)
-        if number == signal.SIGKILL or len(inner) < 2:
+        programs = [pid for init in _children_of(self.pid) for pid in _children_of(init)]
+        if number == signal.SIGKILL or not programs:
             self._signal_group(number)
-        for pid in inner[1:]:  # the first is the namespace's own
+        for pid in programs:
             with suppress(ProcessLookupError):
                 os.kill(pid, number)
 
@@ -107,6 +92,13 @@ class ProcessHandle(ABC):
             os.killpg(self.pid, number)
         except ProcessLookupError:
             return  # no process of the group is left
+
+
+def _children_of(pid: int) -> list[int]:
+    try:
+        return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except OSError:  # it has ended, or the kernel does not list them
+        return []
 
 
 def write_settings_of(process: Process) -> None:

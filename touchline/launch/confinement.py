@@ -13,10 +13,10 @@ from schemas.errors import TouchlineError
 from schemas.process.leash import OwnConfinement
 from schemas.side import Side
 from touchline.launch.bubblewrap import bubblewrap, check_bubblewrap
-from touchline.launch.process_tree import tasks_of_user
 from touchline.launch.robot_environment import robot_environment
 from touchline.launch.team_code import are_rivals, interpreter_folders, share_a_folder, system_folders, team_code
 from touchline.launch.team_user import TeamUser, team_users
+from touchline.launch.user_tasks import tasks_of_user
 
 _GRACE_S = 5
 """CPU time in s from the signal SIGXCPU to SIGKILL."""
@@ -43,9 +43,6 @@ class Confinement:
     """What it can read in bubblewrap; None without bubblewrap."""
     hidden: tuple[Path, ...] = ()
     """What it cannot read there."""
-    control_group: Path | None = None
-    """The control group that it joins."""
-
     credentials: Path | None = None
     """The file of the team's credentials; None in a match without."""
 
@@ -83,8 +80,6 @@ class Confinement:
             },
             "folder": str(self.folder),
         }
-        if self.control_group is not None:
-            wanted["control_group"] = str(self.control_group)
         if self.user is not None:
             wanted["user"] = (self.user.user, self.user.group)
         return wanted

@@ -1,7 +1,7 @@
 """A whole match: launches, watches and ends its processes, and returns the result."""
 
 import shutil
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -31,10 +31,9 @@ from touchline.launch.processes import MatchPlan, client_processes, host_process
 from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
-from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, EndStep, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.launch.team_error import TeamLeftError
 from touchline.watch.screen import Screen
 
@@ -93,7 +92,6 @@ class MatchRun:
         self._logs: dict[str, Path] = {}
         self._log_limit, self._log_notes = LogLimit(), LogNotes()
         self._fork_server = ForkServer()
-        self._limits = RobotLimits(plan.config, clock)
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
         self._address: AddressLines | None = None
         if plan.page is not None:
@@ -114,19 +112,18 @@ class MatchRun:
                 self._supervisor.start()
                 if self._plan.config.isolate is Isolation.NONE:
                     self._fork_server.prepare(ROBOT_ENVIRONMENT)
-                    self._limits.add_helpers()
                 self._check()
                 follower = self._follow(stop) if self._launch_clients(stop) else None
                 empty = self._empty_side()
             except BaseException:
-                self._end(AT_ONCE)
+                self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
                 is_over = self._supervisor.host_status == 0
                 steps, keep = (AFTER_THE_MATCH, _AFTER_THE_RESULT) if is_over else (ABANDONED, _NONE)
-                self._end(steps, should_abort=lambda: stop.received is not None, keep=keep)
+                self._supervisor.end(steps, should_abort=lambda: stop.received is not None, keep=keep)
             if follower is None or empty is not None or stop.received is not None:
-                self._end(AT_ONCE)  # the remaining processes
+                self._supervisor.end(AT_ONCE)  # the remaining processes
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
         try:
@@ -163,28 +160,14 @@ class MatchRun:
     def _launch(self, process: Process) -> ProcessHandle:
         log = self._plan.folder / f"{process.name}.log"
         self._logs[process.name] = log
-        handle = self._fork_server.launch(self._limits.placed(process), log)
-        self._limits.launched(handle)
-        return handle
-
-    def _end(
-        self,
-        steps: Sequence[EndStep],
-        should_abort: Callable[[], bool] = lambda: False,
-        keep: frozenset[ProcessKind] = _NONE,
-    ) -> None:
-        """End processes, and what robots have left behind."""
-        self._limits.look_before_the_end()
-        self._supervisor.end(steps, should_abort, keep)
-        for sentence in self._limits.close():
-            self._screen.warn(sentence)
+        return self._fork_server.launch(process, log)
 
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""
         while self._poll_processes(stop):
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
-                self._match_screen.begin(announcement, (self._plan.isolation_note, self._limits.note))
+                self._match_screen.begin(announcement, (self._plan.isolation_note,))
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
@@ -224,8 +207,6 @@ class MatchRun:
         for sentence in filter(None, map(self._log_limit.check, self._logs.values())):
             self._screen.warn(sentence)
         for sentence in (note for log in self._logs.values() for note in self._log_notes.update(log)):
-            self._screen.warn(sentence)
-        for sentence in self._limits.check():
             self._screen.warn(sentence)
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)

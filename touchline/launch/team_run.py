@@ -21,7 +21,6 @@ from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.log_notes import LogNotes
 from touchline.launch.process_table import Process
-from touchline.launch.robot_limits import RobotLimits
 from touchline.launch.robot_process import ROBOT_ENVIRONMENT, robot_process
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import AT_ONCE, Supervisor
@@ -73,7 +72,6 @@ class TeamRun:
         if not member.fits(setup):
             member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
         self._fork_server, self._log_limit, self._log_notes = ForkServer(), LogLimit(), LogNotes()
-        self._limits = RobotLimits(self._config, clock)
         self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
 
     def play(self) -> None:
@@ -87,19 +85,15 @@ class TeamRun:
             try:
                 if self._plan.isolate is Isolation.NONE:
                     self._fork_server.prepare(ROBOT_ENVIRONMENT)
-                    self._limits.add_helpers()
-                for note in filter(None, (self._note, self._limits.note)):
-                    self._screen.warn(note)
+                if self._note:
+                    self._screen.warn(self._note)
                 self._supervisor.start()
                 self._screen.event(f"{', '.join(self._robots)} started; logs are in {self._plan.folder}", notable=True)
                 while stop.received is None and not self._has_ended(follower):
                     self._show(follower)
                     self._clock.sleep_until(self._clock.now() + _POLL_S)
             finally:
-                self._limits.look_before_the_end()
                 self._supervisor.end(AT_ONCE)
-                for sentence in self._limits.close():
-                    self._screen.warn(sentence)
         self._report_end(follower, interrupted=stop.received is not None)
 
     def _has_ended(self, follower: MatchFollower) -> bool:
@@ -113,8 +107,6 @@ class TeamRun:
             log = self._log_of(robot)
             for sentence in filter(None, (self._log_limit.check(log), *self._log_notes.update(log))):
                 self._screen.warn(sentence)
-        for sentence in self._limits.check():
-            self._screen.warn(sentence)
         for notice in self._supervisor.check():
             if self._supervisor.ended.get(notice.name) == 0 and follower.gone:
                 continue  # it has left with its host
@@ -147,9 +139,7 @@ class TeamRun:
         return self._plan.folder / f"{robot}.log"
 
     def _launch(self, process: Process) -> ProcessHandle:
-        handle = self._fork_server.launch(self._limits.placed(process), self._log_of(process.name))
-        self._limits.launched(handle)
-        return handle
+        return self._fork_server.launch(process, self._log_of(process.name))
 
 
 def _config_of(plan: TeamPlan, match: str, robots: Sequence[str]) -> MatchConfig:

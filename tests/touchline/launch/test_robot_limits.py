@@ -29,26 +29,6 @@ def test_a_brain_that_allocates_10_gb_fails_with_the_limit_and_the_remedy(tmp_pa
     )
 
 
-def test_a_robot_whose_processes_together_use_too_much_memory_is_ended(tmp_path: Path) -> None:
-    brain = (
-        "    def begin(self):\n        for _ in range(4):\n            if not os.fork():\n"
-        "                held = b'x' * 150_000_000\n                time.sleep(600)\n        time.sleep(600)"
-    )
-    played = IsolatedMatch(tmp_path, brain, limits="memory = 0.5").play()
-    assert played.is_whole(), played.printed
-    assert "cyan1 was ended: it used more than 0.5 GB of memory; raise [limits] memory" in played.printed
-
-
-def test_a_brain_that_starts_1000_processes_is_ended_with_them(tmp_path: Path) -> None:
-    brain = (
-        "    def begin(self):\n        for _ in range(1000):\n            if not os.fork():\n"
-        "                time.sleep(600)\n        time.sleep(600)"
-    )
-    played = IsolatedMatch(tmp_path, brain, limits="processes = 60").play()
-    assert played.is_whole(), played.printed
-    assert "cyan1 was ended: it had more than 60 processes and threads; raise [limits] processes" in played.printed
-
-
 def test_a_thread_that_spins_is_ended_when_its_cpu_time_is_used_up(tmp_path: Path) -> None:
     brain = (
         "    def begin(self):\n        def spin():\n            while True:\n                pass\n"
@@ -70,21 +50,6 @@ def test_a_brain_that_writes_10_gb_fails_at_the_size_of_a_file(tmp_path: Path) -
         "  cyan1: limit reached: it wrote more than 3 MB into one file; raise [limits] file_size"
     )
     assert (played.run / "cyan1" / "much").stat().st_size == 3_000_000
-
-
-def test_a_process_that_left_its_group_and_session_is_ended_with_the_match(tmp_path: Path) -> None:
-    brain = (
-        "    def begin(self):\n        if not os.fork():\n            os.setsid()\n            if not os.fork():\n"
-        "                signal.signal(signal.SIGTERM, signal.SIG_IGN)\n"
-        "                Path('daemon').write_text(str(os.getpid()))\n"
-        "                time.sleep(600)\n            os._exit(0)\n        while not Path('daemon').exists():\n"
-        "            time.sleep(0.01)\n        time.sleep(0.05)"
-    )
-    played = IsolatedMatch(tmp_path, brain).play()
-    assert played.is_whole()
-    daemon = int((played.run / "cyan1" / "daemon").read_text())
-    assert not is_running(daemon)
-    assert played.line("left process") == f"cyan1 left process {daemon} behind, outside its process group; it was ended"
 
 
 def test_a_brain_that_stays_after_sigterm_is_ended_with_the_match(tmp_path: Path) -> None:
