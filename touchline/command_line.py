@@ -25,7 +25,6 @@ from touchline.commands import (
     import_log,
     info,
     match,
-    merge,
     new,
     parameters,
     player,
@@ -114,7 +113,6 @@ app.command("stats", rich_help_panel=RECORDINGS)(stats.stats)
 app.command("verify", rich_help_panel=RECORDINGS)(verify.verify)
 app.command("diff", rich_help_panel=RECORDINGS)(diff.diff)
 app.command("filter", rich_help_panel=RECORDINGS)(filter.filter)
-app.command("merge", rich_help_panel=RECORDINGS)(merge.merge)
 app.command("recover", rich_help_panel=RECORDINGS)(recover.recover)
 app.command("export", rich_help_panel=RECORDINGS)(export.export)
 app.command("import", rich_help_panel=RECORDINGS)(import_log.import_log)

@@ -56,7 +56,7 @@ class Manifest(Part):
     attached: dict[str, str] = {}
     """Attachment → blake2b of its content, hex."""
     made: str = "recorded"
-    """`recorded`, `snapshot: REASON`, or how it was made from other recordings: `filtered`, `merged`."""
+    """`recorded`, `snapshot: REASON`, or `filtered` for a copy of a part of a recording."""
 
     @model_validator(mode="before")
     @classmethod

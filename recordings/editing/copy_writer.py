@@ -1,10 +1,10 @@
-"""Writes a recording from the unchanged messages of other recordings."""
+"""Writes a recording from the unchanged messages of another recording."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import NamedTuple, Self
 
 from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
@@ -13,13 +13,22 @@ from recordings.container.mcap_file import ChannelRecord
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
 from recordings.container.sealed_metadata import digest, to_metadata
-from recordings.editing.message_copies import MessageCopy
 from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.topics import TOPICS
 from schemas.wire.older_versions import converted
+
+
+class MessageCopy(NamedTuple):
+    """A message to be copied, with the channel of its original."""
+
+    log_ns: int
+    channel: ChannelRecord
+    payload: bytes
+    sent_ns: int
+    sequence: int
 
 
 class CopyWriter:

@@ -5,14 +5,9 @@ from itertools import islice
 from pathlib import Path
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.editing.copy_writer import CopyWriter
-from recordings.editing.message_copies import (
-    CopySummary,
-    MessageCopy,
-    check_output,
-    copy_manifest,
-    message_copies,
-)
+from recordings.container.manifest import Manifest
+from recordings.container.mcap_file import is_derived
+from recordings.editing.copy_writer import CopyWriter, MessageCopy
 from recordings.reading.recording import RecordedMessage, Recording
 from recordings.recorder.latched_messages import LatchedMessages
 from schemas.bus.contract import ReceivedMessage
@@ -25,25 +20,28 @@ def filter_recording(
     selection: KeySelection = EVERYTHING,
     start: float | None = None,
     end: float | None = None,
-) -> CopySummary:
+) -> int:
     """Copy the selected keys of a recording, from `start` up to but not including `end`, in s of simulated time.
+
+    Returns the number of messages in the copy.
 
     A copy that begins later than the recording begins with the latched messages of that time.
 
     Raises:
         TouchlineError: no message is selected, the recording is damaged inside, or the copy cannot be written.
     """
-    check_output(out, [recording])
+    if out.exists() and recording.path.exists() and out.samefile(recording.path):
+        raise TouchlineError(f"{out}: would overwrite the recording that is read; give another name for --out")
     if not any(selection.includes(channel.key) for channel in recording.channels):
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
     start_ns, end_ns = _ns(start), _ns(end)
-    entries = message_copies(recording, selection, end_ns)
+    entries = _copies(recording, selection, end_ns)
     if start_ns is None:
         repeated = islice(entries, recording.manifest.latched_count)
         latched, rest = [entry for entry in repeated if selection.includes(entry.channel.key)], entries
     else:
         latched, rest = _latched_at(recording, selection, start_ns), _from(entries, start_ns)
-    manifest = copy_manifest(recording.manifest, "filtered", selection)
+    manifest = _manifest_of_copy(recording.manifest, selection)
     with CopyWriter(out) as writer:
         writer.begin(manifest, recording.attachments, len(latched), viz=bool(recording.drawn))
         for entry in latched:
@@ -60,7 +58,34 @@ def filter_recording(
                 f"{recording.path}: has no message of the selected keys and times; "
                 f"it lasts from {begin:.2f} to {finish:.2f} s of simulated time"
             )
-        return CopySummary(out, writer.finish(recording.result), 0)
+        return writer.finish(recording.result)
+
+
+def _copies(recording: Recording, selection: KeySelection, end_ns: int | None) -> Iterator[MessageCopy]:
+    """Yield the messages of a recording.
+
+    The latched messages at its beginning are not filtered, as callers count them.
+    """
+    channels = {
+        channel.key: channel for channel in recording.mcap_file.channels.values() if not is_derived(channel.metadata)
+    }
+    wanted = (
+        {key for key in channels if selection.includes(key)} if not recording.manifest.latched_count else set(channels)
+    )
+    for key, message in recording.mcap_file.messages(wanted, None, end_ns):
+        yield MessageCopy(message.log_time, channels[key], message.data, message.publish_time, message.sequence)
+
+
+def _manifest_of_copy(manifest: Manifest, selection: KeySelection) -> Manifest:
+    """The manifest of a copy: part 1, whatever the original was."""
+    return manifest.model_copy(
+        update={
+            "made": "filtered",
+            "part": 1,
+            "include": [*manifest.include, *selection.include],
+            "exclude": [*manifest.exclude, *selection.exclude],
+        }
+    )
 
 
 def _from(entries: Iterable[MessageCopy], start_ns: int) -> Iterator[MessageCopy]:

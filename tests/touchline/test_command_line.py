@@ -23,7 +23,6 @@ COMMANDS = (
     "recover",
     "diff",
     "filter",
-    "merge",
     "info",
     "stats",
     "topics",

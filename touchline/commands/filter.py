@@ -24,5 +24,5 @@ def filter(
     from recordings.reading.recording import open_recording
 
     options.check_span(start, end)
-    copied = filter_recording(open_recording(file), out, options.selection(include, exclude), start, end)
-    typer.echo(f"{copied.path}: {copied.messages} messages")
+    messages = filter_recording(open_recording(file), out, options.selection(include, exclude), start, end)
+    typer.echo(f"{out}: {messages} messages")

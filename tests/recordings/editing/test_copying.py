@@ -1,10 +1,9 @@
-"""Recordings compared, filtered and merged: what differs first is found, what is copied keeps every byte."""
+"""Recordings compared and filtered: what differs first is found, what is copied keeps every byte."""
 
 import pytest
 
 from recordings.container.key_selection import KeySelection
 from recordings.editing.filtering import filter_recording
-from recordings.editing.merging import merge_recordings
 from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
@@ -111,7 +110,7 @@ def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run,
     wanted = [m for m in told(recording) if m[0].startswith("robot/") and 1_000_000_000 <= m[3] < 2_000_000_000]
     assert told(part)[1:] == wanted
     assert told(part)[0][0] == "game/state"
-    assert copied.messages == len(wanted) + 1
+    assert copied == len(wanted) + 1
     facts = facts_of(part)
     assert (facts.messages, facts.lost) == (len(wanted), 0)
     assert part.result.keys["robot/cyan1/command"].messages == 50
@@ -122,41 +121,6 @@ def test_a_copy_is_not_written_over_what_is_read(run):
     with pytest.raises(TouchlineError, match="another name"):
         filter_recording(recording, recording.path)
     assert open_recording(recording.path, whole=True)
-
-
-def test_the_files_of_a_split_recording_are_merged_to_what_one_file_would_have_been(run, tmp_path):
-    (whole,) = run("whole")
-    parts = run("split", limits=FileLimits(duration=0.7))
-    assert len(parts) == 4
-    copied = merge_recordings(list(reversed(parts)), tmp_path / "merged.mcap")
-
-    merged = open_recording(copied.path, whole=True)
-    assert told(merged) == told(whole)
-    assert merged.result.keys == whole.result.keys
-    assert copied.dropped == sum(part.manifest.latched_count for part in parts)
-
-
-def test_two_recordings_of_different_keys_become_one(run, tmp_path):
-    (recording,) = run("a")
-    paths = [tmp_path / "robots.mcap", tmp_path / "rest.mcap"]
-    filter_recording(recording, paths[0], KeySelection(("robot/**", "world")))
-    filter_recording(recording, paths[1], KeySelection(exclude=("robot/**",)))
-    merged = merge_recordings([open_recording(path) for path in paths], tmp_path / "merged.mcap")
-    assert merged.dropped == 120  # both have the world
-    assert sorted(told(open_recording(merged.path))) == sorted(told(recording))
-    assert compare(recording, open_recording(merged.path)).identical
-
-
-def test_two_runs_of_one_match_are_not_merged(run, make_rig, tmp_path):
-    (one,) = run("a")
-    rig = make_rig(path=tmp_path / "b.mcap")
-    rig.begin()
-    rig.host.bus.clock.sleep_until(5.0)
-    rig.play(range(10))
-    (other,) = rig.leave().files
-    with pytest.raises(TouchlineError, match="different runs"):
-        merge_recordings([one, open_recording(other)], tmp_path / "merged.mcap")
-    assert not list(tmp_path.glob("merged*"))
 
 
 def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_path):
@@ -184,8 +148,8 @@ def test_the_name_of_a_split_recording_stands_for_all_its_files(run, tmp_path):
         (key.key, key.messages, key.rate) for key in expected.keys
     ]
     assert facts.size == sum(file.path.stat().st_size for file in files)
-    copied = merge_recordings([split], tmp_path / "copy.mcap")
-    assert told(open_recording(copied.path)) == told(whole)
+    filter_recording(split, tmp_path / "copy.mcap")
+    assert told(open_recording(tmp_path / "copy.mcap", whole=True)) == told(whole)
 
 
 def told_between(recording, start: float, end: float) -> list[tuple[str, int]]:
