@@ -15,13 +15,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from schemas.config.match_config import load_match
-from touchline.scheduling.child_processes import cores
-from touchline.series.match_row import FailedMatch, MatchRow, Row
-from touchline.series.plan import SeriesPlan, plan_series
-from touchline.series.play_series import play_series
-from touchline.series.summary import summary_of
-from touchline.series.table import figure_rows, longest_lines
-from touchline.series.team_names import brain_of
+from touchline.matches.engine.child_processes import cores
+from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
+from touchline.matches.series.plan import SeriesPlan, plan_series
+from touchline.matches.series.play_series import play_series
+from touchline.matches.series.summary import summary_of
+from touchline.matches.series.table import figure_rows, longest_lines
+from touchline.matches.series.team_names import brain_of
 
 LADDER = ("reference", "simple", "nubot", "random")
 """From the strongest team to the weakest."""

@@ -27,13 +27,13 @@ from typing import Any
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.topics import APPLIED
-from touchline.scheduling.child_processes import ChildProcesses, Poll, cores
-from touchline.scheduling.outcome import Outcome, Played
-from touchline.scheduling.plan import ListPlan
-from touchline.scheduling.planned_match import PlannedMatch, Way
-from touchline.scheduling.play import play
-from touchline.scheduling.run import run_plan
-from touchline.scheduling.store import RunStore
+from touchline.matches.engine.child_processes import ChildProcesses, Poll, cores
+from touchline.matches.engine.outcome import Outcome, Played
+from touchline.matches.engine.plan import ListPlan
+from touchline.matches.engine.planned_match import PlannedMatch, Way
+from touchline.matches.engine.play import play
+from touchline.matches.engine.run import run_plan
+from touchline.matches.engine.store import RunStore
 
 MOST_OVERHEAD_S = {Way.IN_PROCESS: 0.1, Way.PROCESSES: 1.5}
 LEAST_SPEED_UP = 1.8

@@ -4,10 +4,10 @@ import re
 from pathlib import Path
 
 from schemas.side import Side
-from touchline.tournament.cup_config import CupConfig, FormatConfig, TableConfig, TeamEntry, load_cup
-from touchline.tournament.cup_plan import match_config
-from touchline.tournament.cup_state import state_of
-from touchline.tournament.tie_breaks import CRITERIA, ORDERS
+from touchline.matches.cup.cup_config import CupConfig, FormatConfig, TableConfig, TeamEntry, load_cup
+from touchline.matches.cup.cup_plan import match_config
+from touchline.matches.cup.cup_state import state_of
+from touchline.matches.cup.tie_breaks import CRITERIA, ORDERS
 
 
 def document(root: Path) -> str:

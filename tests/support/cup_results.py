@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from touchline.tournament.match_result import Fixture, FixtureResult, MatchResult, Pair
+from touchline.matches.cup.match_result import Fixture, FixtureResult, MatchResult, Pair
 
 
 def played(first: str, second: str, goals: Pair, *, reds: Pair = (0, 0), yellows: Pair = (0, 0)) -> FixtureResult:

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from touchline.scheduling.child_processes import ChildProcesses
-from touchline.tournament.cup_config import load_cup
-from touchline.tournament.cup_state import CupState
-from touchline.tournament.run_cup import CupRun
+from touchline.matches.cup.cup_config import load_cup
+from touchline.matches.cup.cup_state import CupState
+from touchline.matches.cup.run_cup import CupRun
+from touchline.matches.engine.child_processes import ChildProcesses
 
 CUP = """
 name = "mini"

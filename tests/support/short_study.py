@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from touchline.experiment.run_study import StudyResult
+    from touchline.matches.study.run_study import StudyResult
 
 SHORT = """
 seeds = "1-2"

@@ -39,7 +39,7 @@ def check(
     from touchline.check.checks import CHECKS, run_checks
     from touchline.check.examination import Examination
     from touchline.check.subject import Subject
-    from touchline.series.team_names import brain_of
+    from touchline.matches.series.team_names import brain_of
 
     if list_checks:
         for row in CHECKS:

@@ -16,7 +16,7 @@ from touchline.cli.errors import FAILED
 from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
-    from touchline.drill.play_drill import DrillRow, PlannedDrill
+    from touchline.matches.drill.play_drill import DrillRow, PlannedDrill
 
 
 def drill(
@@ -45,9 +45,9 @@ def drill(
     Example: touchline drill one_against_keeper --brain simple --seeds 1-50
     """
     options.need_pybullet()
-    from touchline.drill.play_drill import play_drills
-    from touchline.scheduling.child_processes import cores
-    from touchline.scheduling.progress import progress_of
+    from touchline.matches.drill.play_drill import play_drills
+    from touchline.matches.engine.child_processes import cores
+    from touchline.matches.engine.progress import progress_of
 
     if jobs < 0:
         raise TouchlineError(f"--jobs is {jobs}; give a number of drills at a time, or 0 for one per core")
@@ -81,11 +81,11 @@ def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str
         TouchlineError: the scene has no drill, or an option is invalid.
     """
     from schemas.config.scene import load_scene, shipped_scenes
-    from touchline.drill.drill_match import drill_match
-    from touchline.drill.play_drill import PlannedDrill
+    from touchline.matches.drill.drill_match import drill_match
+    from touchline.matches.drill.play_drill import PlannedDrill
+    from touchline.matches.series.seeds import seeds_of
+    from touchline.matches.series.team_names import brain_of
     from touchline.play import InProcessMatch
-    from touchline.series.seeds import seeds_of
-    from touchline.series.team_names import brain_of
 
     loaded = load_scene(scene)
     if loaded.drill is None:
@@ -107,7 +107,7 @@ def _sentence(row: "DrillRow") -> str:
 
 
 def _print(scene: str, rows: "list[DrillRow]", planned: int, *, json: bool) -> None:
-    from touchline.series.intervals import share
+    from touchline.matches.series.intervals import share
 
     verdicts = [row.verdict for row in rows if row.verdict is not None]
     score = sum(verdict.success for verdict in verdicts)

@@ -17,9 +17,9 @@ from touchline.cli.errors import FAILED
 from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
-    from touchline.scheduling.outcome import Outcome
-    from touchline.scheduling.planned_match import PlannedMatch
-    from touchline.scheduling.verify import MatchCheck
+    from touchline.matches.engine.outcome import Outcome
+    from touchline.matches.engine.planned_match import PlannedMatch
+    from touchline.matches.engine.verify import MatchCheck
 
 NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
 _DEFAULT = "run"
@@ -80,15 +80,15 @@ def run(
     Example: touchline experiment run studies/sides.toml --jobs 2
     """
     _need_packages()
-    from touchline.experiment.cells import cells_of
-    from touchline.experiment.comparisons import answers
-    from touchline.experiment.run_study import run_study
-    from touchline.experiment.sentences import sentence_of
-    from touchline.experiment.study_config import load_study
-    from touchline.experiment.study_folder import REPORT, read_study
-    from touchline.experiment.study_plan import StudyPlan
-    from touchline.scheduling.executors.chosen_executor import chosen_executor
-    from touchline.scheduling.progress import ProgressReporter, progress_of
+    from touchline.matches.engine.executors.chosen_executor import chosen_executor
+    from touchline.matches.engine.progress import ProgressReporter, progress_of
+    from touchline.matches.study.cells import cells_of
+    from touchline.matches.study.comparisons import answers
+    from touchline.matches.study.run_study import run_study
+    from touchline.matches.study.sentences import sentence_of
+    from touchline.matches.study.study_config import load_study
+    from touchline.matches.study.study_folder import REPORT, read_study
+    from touchline.matches.study.study_plan import StudyPlan
 
     given = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "record": record}
     study = load_study(file, {key: value for key, value in given.items() if value is not None})
@@ -134,9 +134,9 @@ def compare(
     _need_packages()
     from dataclasses import asdict
 
-    from touchline.experiment.compare_studies import compare_studies
-    from touchline.experiment.sentences import sentence_of
-    from touchline.experiment.study_folder import read_study
+    from touchline.matches.study.compare_studies import compare_studies
+    from touchline.matches.study.sentences import sentence_of
+    from touchline.matches.study.study_folder import read_study
 
     found = compare_studies(read_study(first), read_study(second))
     if json:
@@ -178,10 +178,10 @@ def _check(
     _need_packages()
     from dataclasses import asdict
 
-    from touchline.experiment.study_folder import read_study
-    from touchline.experiment.verify_study import verify_study
-    from touchline.scheduling.executors.chosen_executor import chosen_executor
-    from touchline.scheduling.progress import progress_of
+    from touchline.matches.engine.executors.chosen_executor import chosen_executor
+    from touchline.matches.engine.progress import progress_of
+    from touchline.matches.study.study_folder import read_study
+    from touchline.matches.study.verify_study import verify_study
 
     stored = read_study(folder)
     planned = len({match.identity for match in stored.plan.matches(stored.seeds)})
@@ -210,7 +210,7 @@ def _check(
 
 
 def _match_sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
-    from touchline.scheduling.outcome import Failed
+    from touchline.matches.engine.outcome import Failed
 
     if isinstance(outcome, Failed):
         return f"{planned.label}: failed: {outcome.reason}"

@@ -17,9 +17,9 @@ from touchline.cli.interrupts import sigterm_interrupts
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
-    from touchline.series.match_row import FailedMatch, MatchRow, Row
-    from touchline.series.plan import SeriesPlan
-    from touchline.series.summary import Summary
+    from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
+    from touchline.matches.series.plan import SeriesPlan
+    from touchline.matches.series.summary import Summary
 
 _TEAM_HELP = "The team in {}: the name of a shipped team, or module:Class; by default that of the match file."
 
@@ -58,14 +58,14 @@ def series(
     """
     options.need_pybullet()
     options.need_scipy()
-    from touchline.scheduling.child_processes import cores
-    from touchline.scheduling.progress import progress_of
-    from touchline.series.match_row import FailedMatch
-    from touchline.series.plan import plan_series, with_brains
-    from touchline.series.play_series import play_series
-    from touchline.series.seeds import seeds_of
-    from touchline.series.table import sentence_of
-    from touchline.series.team_names import brain_of
+    from touchline.matches.engine.child_processes import cores
+    from touchline.matches.engine.progress import progress_of
+    from touchline.matches.series.match_row import FailedMatch
+    from touchline.matches.series.plan import plan_series, with_brains
+    from touchline.matches.series.play_series import play_series
+    from touchline.matches.series.seeds import seeds_of
+    from touchline.matches.series.table import sentence_of
+    from touchline.matches.series.team_names import brain_of
 
     if jobs < 0:
         raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
@@ -115,9 +115,9 @@ def _check(plan: "SeriesPlan") -> None:
 
 def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
     """Print the figures; returns whether a match has failed."""
-    from touchline.series.match_row import FailedMatch, MatchRow
-    from touchline.series.summary import summary_of
-    from touchline.series.table import sentence_of
+    from touchline.matches.series.match_row import FailedMatch, MatchRow
+    from touchline.matches.series.summary import summary_of
+    from touchline.matches.series.table import sentence_of
 
     rows = sorted((one for one in ended if isinstance(one, MatchRow)), key=lambda one: one.number)
     failed = sorted((one for one in ended if isinstance(one, FailedMatch)), key=lambda one: one.number)
@@ -138,7 +138,7 @@ def _plain(part: Any) -> Any:
 
 
 def _show(plan: "SeriesPlan", summary: "Summary", rows: "list[MatchRow]", failed: "list[FailedMatch]") -> None:
-    from touchline.series.table import aligned, figure_rows, headline, longest_lines
+    from touchline.matches.series.table import aligned, figure_rows, headline, longest_lines
 
     typer.echo(headline(plan, rows, failed))
     if not rows:

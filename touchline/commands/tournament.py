@@ -15,8 +15,8 @@ from touchline.cli.errors import FAILED
 from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
-    from touchline.tournament.cup_config import CupConfig
-    from touchline.tournament.cup_state import CupState
+    from touchline.matches.cup.cup_config import CupConfig
+    from touchline.matches.cup.cup_state import CupState
 
 VERIFY, DIGEST = "verify", "digest"
 
@@ -79,10 +79,10 @@ def tournament(
         return
     if folder is not None:
         raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
-    from touchline.scheduling.executors.chosen_executor import chosen_executor
-    from touchline.scheduling.progress import progress_of
-    from touchline.tournament.run_cup import CupRun
-    from touchline.tournament.serve import served
+    from touchline.matches.cup.run_cup import CupRun
+    from touchline.matches.cup.serve import served
+    from touchline.matches.engine.executors.chosen_executor import chosen_executor
+    from touchline.matches.engine.progress import progress_of
 
     cup = _cup_of(file, until_significant)
     place = out or Path("runs") / cup.name
@@ -112,8 +112,8 @@ def tournament(
 
 
 def _cup_of(file: Path, until_significant: int | None) -> "CupConfig":
-    from touchline.tournament.cup_config import SignificanceConfig, load_cup
-    from touchline.tournament.ratings import need_scipy
+    from touchline.matches.cup.cup_config import SignificanceConfig, load_cup
+    from touchline.matches.cup.ratings import need_scipy
 
     cup = load_cup(file)
     if until_significant is not None:
@@ -125,7 +125,7 @@ def _cup_of(file: Path, until_significant: int | None) -> "CupConfig":
 
 
 def _print(state: "CupState", folder: Path, *, json: bool) -> None:
-    from touchline.tournament.report import report_of, report_text
+    from touchline.matches.cup.report import report_of, report_text
 
     if json:
         typer.echo(json_text.dumps(report_of(state), ensure_ascii=False))
@@ -142,9 +142,9 @@ def _print_digest(brain: str) -> None:
     """
     from schemas.side import Side
     from touchline.launch.team_code import team_code
-    from touchline.scheduling.code_digest import code_digest
-    from touchline.tournament.cup_config import CupConfig, TeamEntry
-    from touchline.tournament.cup_plan import config_with
+    from touchline.matches.cup.cup_config import CupConfig, TeamEntry
+    from touchline.matches.cup.cup_plan import config_with
+    from touchline.matches.engine.code_digest import code_digest
 
     teams = [TeamEntry(name=name, brain=brain) for name in ("one", "other")]
     config = config_with(teams[0], CupConfig(teams=teams))
@@ -154,9 +154,9 @@ def _print_digest(brain: str) -> None:
 
 
 def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *, json: bool) -> None:
-    from touchline.scheduling.executors.chosen_executor import chosen_executor
-    from touchline.scheduling.progress import progress_of
-    from touchline.tournament.verify_cup import verify_cup
+    from touchline.matches.cup.verify_cup import verify_cup
+    from touchline.matches.engine.executors.chosen_executor import chosen_executor
+    from touchline.matches.engine.progress import progress_of
 
     with (
         chosen_executor(jobs, None) as chosen,

@@ -14,11 +14,11 @@ from schemas.config.scene import Scene, load_scene
 from schemas.messages.command import Command
 from schemas.messages.game import GameEvent
 from schemas.side import Side
-from touchline.drill.drill_match import drill_match
-from touchline.drill.occurrences import Occurrence, OccurrenceTracker
-from touchline.drill.scene_run import run_scene
+from touchline.matches.drill.drill_match import drill_match
+from touchline.matches.drill.occurrences import Occurrence, OccurrenceTracker
+from touchline.matches.drill.scene_run import run_scene
+from touchline.matches.series.team_names import brain_of
 from touchline.play import BrainSource, InProcessMatch
-from touchline.series.team_names import brain_of
 from touchline.testing.facts import Facts
 from touchline.testing.runs import Runs
 

@@ -10,7 +10,7 @@ from schemas.process.clock import SteppedClock
 from touchline.check.checks import CHECKS, CheckResult, run_check, run_checks
 from touchline.check.examination import Examination
 from touchline.check.subject import Subject
-from touchline.series.team_names import brain_of, shipped_teams
+from touchline.matches.series.team_names import brain_of, shipped_teams
 
 MODULE = "checked_team"
 BRAINS = """

@@ -25,7 +25,7 @@ from touchline.launch.child_process import ChildProcess, ProcessHandle
 from touchline.launch.fork_server import ForkedRobot, ForkServer
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.processes import MatchPlan, client_processes
-from touchline.scheduling.child_processes import run_in_processes
+from touchline.matches.engine.child_processes import run_in_processes
 
 pytestmark = [
     pytest.mark.processes,

@@ -1,0 +1,102 @@
+"""Verification of a cup names what does not fit."""
+
+import json
+import shutil
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from schemas.side import Side
+from support.cups import CUP, mini_cup
+from touchline.matches.cup.cup_config import load_cup
+from touchline.matches.cup.cup_plan import CupPlan, digests_of
+from touchline.matches.cup.verify_cup import CupVerdict, verify_cup
+from touchline.matches.engine.executors.this_process import ThisProcess
+from touchline.matches.engine.outcome import Failed, FailureKind, Played
+from touchline.matches.engine.store import RunStore
+
+
+@pytest.fixture
+def cup(undisturbed: Path, tmp_path: Path) -> Iterator[Path]:
+    """A copy of the folder of a cup, which has been moved."""
+    shutil.copytree(undisturbed / "out", tmp_path / "moved")
+    yield tmp_path / "moved"
+
+
+def verified(folder: Path, sample: int | None = 1) -> CupVerdict:
+    with ThisProcess() as executor:
+        return verify_cup(folder, executor, sample)
+
+
+def identity_of(folder: Path, name: str, undisturbed: Path) -> str:
+    config = load_cup(undisturbed / "mini.toml")
+    plan = CupPlan(config, undisturbed, folder, digests_of(config, undisturbed))
+    (slot,) = (one.slot for one in plan.state({}).matches if one.slot.name == name)
+    return plan.match(slot).identity
+
+
+def test_a_cup_whose_folder_was_moved_is_verified(cup: Path) -> None:
+    whole = verified(cup, None)
+    assert (whole.faults, whole.notes, whole.simulated) == ([], [], 3)
+    part = verified(cup, 1)
+    assert (part.faults, part.simulated) == ([], 1)
+    assert 0 < part.ticks < whole.ticks
+
+
+def test_a_stored_result_that_was_changed_is_named_with_its_match_and_the_table(cup: Path, undisturbed: Path) -> None:
+    with RunStore(cup) as store:
+        outcome = store.outcomes()[identity_of(cup, "league 3", undisturbed)]
+        assert isinstance(outcome, Played)
+        sides = {side: replace(figures, goals=7) for side, figures in outcome.figures.sides.items()}
+        store.add(replace(outcome, figures=replace(outcome.figures, sides=sides)))
+    faults = verified(cup).faults
+    assert faults[0].startswith("league 3: ") and faults[0].endswith(" is recorded, and 7 : 7 in the table")
+    assert any(fault.startswith("result.json: ") for fault in faults)
+
+
+def test_a_recording_of_another_match_or_none_is_named(cup: Path) -> None:
+    recordings = cup / "recordings"
+    shutil.copy(recordings / "league_1.mcap", recordings / "league_2.mcap")
+    (recordings / "league_3.mcap").unlink()
+    faults = verified(cup).faults
+    assert any(
+        fault == "league 2: it is the recording of another match: its configuration is not that of the plan"
+        for fault in faults
+    )
+    assert any(fault.startswith("league 3: ") for fault in faults)
+
+
+def test_a_published_table_that_does_not_follow_from_the_matches_is_named(cup: Path) -> None:
+    page, result = cup / "index.html", cup / "result.json"
+    content = json.loads(result.read_text())
+    first, second, *_ = content["tables"]["league"]
+    content["tables"]["league"][0] = second | {"place": 1}
+    result.write_text(json.dumps(content))
+    page.write_text(page.read_text().replace("<b>", "<b>9"))
+    assert verified(cup).faults == [
+        f"result.json: place 1 of league is {second['team']}, and {first['team']} by the matches",
+        "index.html: its table of league is not the one that follows from the matches",
+    ]
+
+
+def test_files_of_a_team_that_have_changed_are_a_fault_and_absent_ones_a_note(tmp_path: Path) -> None:
+    own = tmp_path / "own_team.py"
+    own.write_text("class Own: ...")
+    (tmp_path / "mini.toml").write_text(CUP.replace('"random"', '"own_team:Own"'))
+    mini_cup(tmp_path).close()
+    own.write_text("class Own: pass")
+    assert 'the files of team "Three" have changed since the cup began' in verified(tmp_path / "out").faults
+    own.unlink()
+    verdict = verified(tmp_path / "out")
+    assert any('the files of team "Three" are not here' in note for note in verdict.notes)
+
+
+def test_a_failed_match_whose_evidence_is_gone_is_named(tmp_path: Path) -> None:
+    with closing(mini_cup(tmp_path)) as run:
+        (first, *_) = run.plan.due({})
+    with RunStore(tmp_path / "out") as store:
+        store.add(Failed(first.identity, FailureKind.CRASHED, "no ball", Side.CYAN, "logs/league_1/traceback.txt"))
+    assert "league 1: its evidence logs/league_1/traceback.txt is gone" in verified(tmp_path / "out").faults

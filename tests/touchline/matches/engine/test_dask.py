@@ -1,0 +1,63 @@
+"""A run on a Dask scheduler with real workers, on loopback."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
+from support.dask_cluster import Cluster
+from touchline.matches.engine.executors import dask_cluster
+from touchline.matches.engine.executors.this_process import ThisProcess
+from touchline.matches.engine.outcome import Outcome, to_json
+from touchline.matches.engine.plan import ListPlan
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.run import Remote, run_plan
+from touchline.matches.engine.store import MemoryStore
+
+pytest.importorskip("distributed", reason='needs Dask: pip install "touchline[cluster]"')
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(240)]
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[Cluster]:
+    made = Cluster(tmp_path)
+    yield made
+    made.close()
+
+
+class LosesWorker:
+    """Kills a worker as soon as the first match has ended."""
+
+    def __init__(self, cluster: Cluster) -> None:
+        self._cluster = cluster
+        self.ended_matches = 0
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del planned, outcome
+        self.ended_matches += 1
+        if self.ended_matches == 1:
+            self._cluster.workers[0].kill()
+
+
+def test_a_run_on_two_workers_of_which_one_is_killed_ends_with_the_same_outcomes(
+    cluster: Cluster, match_of: Callable[..., MatchConfig], folder: Path, tmp_path: Path
+) -> None:
+    plan = ListPlan(tuple(PlannedMatch(match_of(seed=seed), brain_folder=folder) for seed in range(1, 9)))
+    log = LosesWorker(cluster)
+    with dask_cluster.DaskCluster(cluster.address) as executor:
+        there = run_plan(plan, executor, MemoryStore(tmp_path), log, remote=Remote())
+    with ThisProcess() as executor:
+        here = run_plan(plan, executor, MemoryStore(tmp_path), LosesWorker(cluster))
+    assert {name: to_json(one) for name, one in there.items()} == {name: to_json(one) for name, one in here.items()}
+    assert log.ended_matches == 8
+
+
+def test_a_scheduler_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dask_cluster, "CONNECT_S", 0.5)
+    with pytest.raises(TouchlineError, match="no scheduler answers"):
+        dask_cluster.DaskCluster("tcp://127.0.0.1:9")

@@ -1,0 +1,222 @@
+"""How planned matches end, and whose fault it is if they do not."""
+
+import os
+import signal
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.side import Side
+from support.process_story import descendants, is_running, wait_for
+from touchline.matches.engine.child_processes import ChildProcesses, DiedProcessError
+from touchline.matches.engine.code_digest import code_digest
+from touchline.matches.engine.hang_limit import HangLimit, HungError
+from touchline.matches.engine.in_process import outcome_of_death, play_in_process
+from touchline.matches.engine.inputs_only import with_inputs_only
+from touchline.matches.engine.measurement import measured
+from touchline.matches.engine.outcome import Failed, FailureKind, Played, from_json, to_json
+from touchline.matches.engine.planned_match import PlannedMatch, Way
+from touchline.matches.engine.play import play
+from touchline.matches.engine.worker import play_here
+from touchline.verify.resimulate import verify
+
+MatchOf = Callable[..., MatchConfig]
+
+
+def test_a_match_has_the_same_outcome_each_time_and_as_json(match_of: MatchOf, folder: Path) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder)
+    first, again = play(planned), play(planned)
+    assert isinstance(first, Played)
+    assert to_json(first) == to_json(again)
+    assert from_json(to_json(first)) == first
+
+
+def test_the_identity_depends_on_configuration_and_code_alone(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder)
+    assert (
+        replace(planned, label="final", recording=tmp_path / "a.mcap", way=Way.PROCESSES).identity == planned.identity
+    )
+    assert replace(planned, config=match_of(seed=2)).identity != planned.identity
+    assert replace(planned, config=match_of(**{"radio.loss": 0.5})).identity != planned.identity
+    assert replace(planned, code={Side.CYAN: "0" * 32}).identity != planned.identity
+
+
+@pytest.mark.parametrize(
+    ("brain", "kind", "words"),
+    [
+        ("Raises", FailureKind.CRASHED, "magenta1, tick 10: ValueError: no idea"),
+        ("Hangs", FailureKind.HUNG, "no answer within 0.5 s"),
+        ("NotBuilt", FailureKind.DID_NOT_START, "raised RuntimeError: no plan"),
+        ("HangsAtFirst", FailureKind.DID_NOT_START, "magenta1 is not built: no answer within 0.5 s"),
+    ],
+)
+def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
+    match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, words: str
+) -> None:
+    outcome = play_in_process(
+        PlannedMatch(match_of(magenta=brain), brain_folder=folder, logs=tmp_path / "logs", hang_s=0.5)
+    )
+    assert isinstance(outcome, Failed)
+    assert (outcome.kind, outcome.culprit) == (kind, Side.MAGENTA)
+    assert words in outcome.reason
+    assert outcome.evidence is not None
+    assert "planned_brains.py" in Path(outcome.evidence).read_text()
+
+
+def test_a_brain_that_nothing_interrupts_is_named_with_its_stack(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    brains = ("CatchesAll", "HoldsTheLock")
+    with ChildProcesses(2) as children:
+        futures = [
+            children.submit(
+                play_here, PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5)
+            )
+            for brain in brains
+        ]
+        errors = [future.exception() for future in futures]
+    for brain, error in zip(brains, errors, strict=True):
+        assert isinstance(error, DiedProcessError)
+        planned = PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5)
+        outcome = outcome_of_death(planned, error)
+        assert (outcome.kind, outcome.culprit) == (FailureKind.HUNG, Side.CYAN)
+        assert outcome.reason == "cyan1: no answer within 0.5 s"
+        assert outcome.evidence is not None
+        assert "planned_brains.py" in Path(outcome.evidence).read_text()
+
+
+def test_time_in_which_no_brain_has_control_is_not_counted() -> None:
+    with HangLimit(0.05) as limit:
+        limit.wait_for(None)
+        signal.raise_signal(signal.SIGALRM)
+        limit.wait_for("cyan1")
+        with pytest.raises(HungError, match=r"no answer within 0\.05 s"):
+            signal.raise_signal(signal.SIGALRM)
+
+
+def test_what_an_earlier_attempt_has_left_is_removed(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    logs, recording = tmp_path / "logs", tmp_path / "match.mcap"
+    logs.mkdir()
+    (logs / "endpoint.json").write_text("tcp/127.0.0.1:1")
+    recording.write_text("half of a recording")
+    outcome = play(PlannedMatch(match_of("Raises"), brain_folder=folder, logs=logs, recording=recording))
+    assert isinstance(outcome, Failed)
+    assert [one.name for one in logs.iterdir()] == ["traceback.txt"]
+    played = play(PlannedMatch(match_of(), brain_folder=folder, logs=logs, recording=recording))
+    assert isinstance(played, Played)
+    assert not logs.exists()
+
+
+def test_a_recording_of_inputs_alone_is_smaller_and_can_be_simulated_again(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    whole = PlannedMatch(match_of(), brain_folder=folder, recording=tmp_path / "whole.mcap")
+    inputs = replace(whole, config=with_inputs_only(whole.config), recording=tmp_path / "inputs.mcap")
+    assert whole.recording is not None
+    assert inputs.recording is not None
+    played, again = play(whole), play(inputs)
+    assert isinstance(played, Played)
+    assert isinstance(again, Played)
+    assert played.chain == again.chain
+    assert inputs.recording.stat().st_size < whole.recording.stat().st_size
+    assert verify(inputs.recording).identical
+
+
+def test_what_is_measured_while_a_match_is_played_is_what_its_recording_shows(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder, recording=tmp_path / "match.mcap")
+    assert measured(tmp_path / "match.mcap", play(planned).identity) == replace(
+        play(planned), recording=str(tmp_path / "match.mcap")
+    )
+
+
+def test_changed_files_of_a_team_are_not_played(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    config = match_of()
+    (tmp_path / "planned_brains.py").write_text((folder / "planned_brains.py").read_text())
+    digest = code_digest(config, Side.CYAN, tmp_path)
+    assert digest == code_digest(config, Side.CYAN, folder)
+    (tmp_path / "planned_brains.py").write_text("# changed\n" + (folder / "planned_brains.py").read_text())
+    outcome = play(PlannedMatch(config, {Side.CYAN: digest}, brain_folder=tmp_path))
+    assert isinstance(outcome, Failed)
+    assert "the files of Forward are not those of the plan" in outcome.reason
+    assert (outcome.kind, outcome.culprit) == (FailureKind.WORKER, None)
+
+
+def test_what_tools_leave_in_the_folder_of_a_team_is_no_part_of_its_digest(match_of: MatchOf, tmp_path: Path) -> None:
+    config = match_of(**{"teams.cyan.brain": "own.team:Own"})
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "team.py").write_text("class Own: ...")
+    digest = code_digest(config, Side.CYAN, tmp_path)
+    for name in ("__pycache__", ".pytest_cache", "runs"):
+        (tmp_path / "own" / name).mkdir()
+        (tmp_path / "own" / name / "left").write_text("left")
+    assert code_digest(config, Side.CYAN, tmp_path) == digest
+    (tmp_path / "own" / "numbers.toml").write_text("speed = 2.0")
+    assert code_digest(config, Side.CYAN, tmp_path) != digest
+
+
+@pytest.mark.processes
+def test_processes_and_one_process_play_the_same_match(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    planned = PlannedMatch(match_of(), brain_folder=folder)
+    over_zenoh = replace(planned, way=Way.PROCESSES, recording=tmp_path / "match.mcap", logs=tmp_path / "logs")
+    here, there = play(planned), play(over_zenoh)
+    assert isinstance(here, Played)
+    assert isinstance(there, Played), there
+    assert there.chain == here.chain
+    assert there.goals == here.goals
+    assert verify(tmp_path / "match.mcap").identical
+
+
+@pytest.mark.processes
+def test_a_forked_process_launches_the_others_of_its_match_itself(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = PlannedMatch(match_of(), way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
+    with ChildProcesses(1) as executor:
+        played = executor.submit(play_here, planned).result().outcome
+        not_built = replace(planned, config=match_of(magenta="NotBuilt"), logs=tmp_path / "failed")
+        failed = executor.submit(play_here, not_built).result().outcome
+    assert isinstance(played, Played), played
+    assert played.chain == play(PlannedMatch(match_of(), brain_folder=folder)).chain
+    assert (failed.kind, failed.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
+    assert "full time" in (tmp_path / "logs" / "match.log").read_text()
+    assert failed.reason in (tmp_path / "failed" / "match.log").read_text()
+
+
+@pytest.mark.processes
+def test_a_match_that_is_cancelled_leaves_no_process(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    long = match_of(duration=600.0)
+    planned = PlannedMatch(long, way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
+    executor = ChildProcesses(1)
+    future = executor.submit(play_here, planned)
+    wait_for((tmp_path / "logs" / "cyan1.log").exists, "a robot")
+    programs = [pid for pid in descendants(os.getpid()) if "logs/host.json" in command_line(pid)]
+    assert len(programs) == 1
+    executor.shutdown(cancel_futures=True)
+    assert isinstance(future.exception(), DiedProcessError)
+    wait_for(lambda: not any(map(is_running, programs)), "the end of the host")
+
+
+def command_line(pid: int) -> str:
+    """The words of a process; empty if it has ended."""
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_text()
+    except OSError:
+        return ""
+
+
+@pytest.mark.processes
+def test_a_team_that_does_not_start_is_named_with_processes_too(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    outcome = play(
+        PlannedMatch(match_of(magenta="NotBuilt"), way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
+    )
+    assert isinstance(outcome, Failed)
+    assert (outcome.kind, outcome.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
+    assert outcome.evidence == str(tmp_path / "logs")
+    assert not (tmp_path / "logs" / "credentials").exists()

@@ -1,0 +1,302 @@
+"""Plans that are played to their end, whatever happens meanwhile."""
+
+import multiprocessing
+import os
+import random
+import signal
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
+from schemas.side import Side
+from touchline.matches.engine.child_processes import ChildProcesses
+from touchline.matches.engine.code_digest import code_digest
+from touchline.matches.engine.executors.this_process import ThisProcess
+from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played, to_json
+from touchline.matches.engine.plan import ListPlan
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.run import Remote, run_plan
+from touchline.matches.engine.store import MemoryStore, RunStore
+from touchline.matches.engine.verify import Depth, verify_run
+
+MatchOf = Callable[..., MatchConfig]
+
+
+@dataclass
+class Log:
+    """Notes which matches have ended."""
+
+    ended_labels: list[str] = field(default_factory=list)
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del outcome
+        self.ended_labels.append(planned.label)
+
+
+def matches(match_of: MatchOf, folder: Path, number: int, recordings: Path | None = None) -> list[PlannedMatch]:
+    return [
+        PlannedMatch(
+            match_of(seed=seed),
+            brain_folder=folder,
+            recording=recordings / f"{seed}.mcap" if recordings is not None else None,
+            label=f"seed {seed}",
+        )
+        for seed in range(1, number + 1)
+    ]
+
+
+def swapped(sides: Mapping[Side, Any]) -> dict[Side, Any]:
+    return {side: sides[side.opponent] for side in Side}
+
+
+def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
+    return {identity: to_json(outcome) for identity, outcome in sorted(outcomes.items())}
+
+
+def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    plan = ListPlan(tuple(matches(match_of, folder, 4)))
+    results = []
+    executors: list[tuple[Executor, Remote | None]] = [
+        (ThisProcess(), None),
+        (ChildProcesses(1), None),
+        (ChildProcesses(8), None),
+        (ThreadPoolExecutor(2), Remote()),
+    ]
+    for number, (executor, remote) in enumerate(executors):
+        with executor, RunStore(tmp_path / str(number)) as store:
+            results.append(bytes_of(run_plan(plan, executor, store, Log(), remote=remote, at_once=8)))
+    assert all(result == results[0] for result in results)
+    assert len(results[0]) == 4
+
+
+def test_recordings_of_other_machines_come_back_or_stay(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    run, far = tmp_path / "run", tmp_path / "far"
+    plan = ListPlan(tuple(matches(match_of, folder, 1, run / "recordings")))
+    with ThreadPoolExecutor(1) as executor:
+        with RunStore(run) as store:
+            (outcome,) = run_plan(plan, executor, store, Log(), remote=Remote()).values()
+        assert isinstance(outcome, Played)
+        assert outcome.recording == "recordings/1.mcap"
+        assert (run / "recordings" / "1.mcap").stat().st_size > 1000
+        with RunStore(tmp_path / "second") as store:
+            moved = ListPlan(tuple(matches(match_of, folder, 1, tmp_path / "second" / "recordings")))
+            (stays,) = run_plan(moved, executor, store, Log(), remote=Remote(keep=far)).values()
+    assert isinstance(stays, Played)
+    assert stays.recording == str(far / "recordings" / "1.mcap")
+    assert Path(stays.recording).exists()
+
+
+@dataclass(frozen=True)
+class Final:
+    """The second match is that of the seed which the goals of the first decide."""
+
+    first: PlannedMatch
+    second: PlannedMatch
+
+    def due(self, outcomes: Mapping[str, Outcome]) -> Sequence[PlannedMatch]:
+        order = [self.first] if self.first.identity not in outcomes else [self.second]
+        return [one for one in order if one.identity not in outcomes]
+
+
+def test_a_plan_may_depend_on_outcomes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    first, second = matches(match_of, folder, 2)
+    log = Log()
+    with ThisProcess() as executor:
+        run_plan(Final(first, second), executor, MemoryStore(tmp_path), log)
+    assert log.ended_labels == ["seed 1", "seed 2"]
+
+
+def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    few, all_of_them = (ListPlan(tuple(matches(match_of, folder, number))) for number in (2, 4))
+    log = Log()
+    with ThisProcess() as executor:
+        with RunStore(tmp_path) as store:
+            run_plan(few, executor, store, Log())
+        with RunStore(tmp_path) as store:
+            outcomes = run_plan(all_of_them, executor, store, log)
+    assert log.ended_labels == ["seed 3", "seed 4"]
+    assert len(outcomes) == 4
+
+
+@pytest.mark.parametrize(
+    ("brain", "kind", "culprit", "reason"),
+    [
+        ("Dies", FailureKind.CRASHED, Side.MAGENTA, "magenta1: its process ended with status 7"),
+        ("IsKilled", FailureKind.WORKER, None, "its process was ended by SIGKILL"),
+    ],
+)
+def test_a_match_whose_process_ends_costs_itself_alone(
+    match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, culprit: Side | None, reason: str
+) -> None:
+    lost = PlannedMatch(match_of(magenta=brain), brain_folder=folder, label="lost")
+    with ChildProcesses(2) as executor:
+        outcomes = run_plan(
+            ListPlan((lost, *matches(match_of, folder, 2))), executor, MemoryStore(tmp_path), Log(), at_once=2
+        )
+    assert [isinstance(one, Played) for one in outcomes.values()].count(True) == 2
+    failed = outcomes[lost.identity]
+    assert isinstance(failed, Failed)
+    assert (failed.kind, failed.culprit, failed.reason) == (kind, culprit, reason)
+
+
+def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    one, other = matches(match_of, folder, 2)
+    with RunStore(tmp_path) as store:
+        store.add(Failed(one.identity, FailureKind.WORKER, "no disk"))
+        store.add(Failed(other.identity, FailureKind.CRASHED, "no idea", Side.CYAN))
+        log = Log()
+        with ThisProcess() as executor:
+            outcomes = run_plan(ListPlan((one, other)), executor, store, log)
+        assert store.outcomes() == outcomes
+    assert log.ended_labels == ["seed 1"]
+    assert isinstance(outcomes[one.identity], Played)
+
+
+def test_teams_whose_files_have_the_same_name_do_not_meet(
+    match_of: MatchOf, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "path", [one for one in sys.path if Path(one) != folder])  # a match was played here before
+    text = (folder / "planned_brains.py").read_text()
+    (tmp_path / "planned_brains.py").write_text(text.replace("vx=1.0", "vx=-1.0"))
+    forward, backward = (
+        PlannedMatch(match_of(), {Side.CYAN: code_digest(match_of(), Side.CYAN, home)}, brain_folder=home)
+        for home in (folder, tmp_path)
+    )
+    with ChildProcesses(1) as executor:
+        outcomes = run_plan(
+            ListPlan((forward, backward, *matches(match_of, folder, 1))), executor, MemoryStore(tmp_path), Log()
+        )
+    chains = [one.chain for one in outcomes.values() if isinstance(one, Played)]
+    assert len(chains) == 3, outcomes[backward.identity]
+    assert chains[0] != chains[1]
+    assert chains[0] == chains[2]
+
+
+def _loaded_modules(poll: Callable[[], None]) -> set[str]:
+    poll()
+    return set(sys.modules)
+
+
+def test_a_process_of_a_match_begins_with_the_modules_of_a_match(match_of: MatchOf) -> None:
+    with ChildProcesses(1) as executor:
+        loaded = executor.submit(_loaded_modules).result()
+    assert {"pybullet", "robot_agent.teams.simple.team", "recordings.stats.match_statistics"} <= loaded
+
+
+class KilledWorkerError(Exception):
+    """Of a library that knows its own exceptions only, as Dask does."""
+
+
+class LostWorkers(ThreadPoolExecutor):
+    """Workers that are lost with each match."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        def lose() -> None:
+            raise KilledWorkerError("lost three times")
+
+        return super().submit(lose)
+
+
+def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    plan = ListPlan(tuple(matches(match_of, folder, 2)))
+    with LostWorkers(1) as executor:
+        outcomes = run_plan(plan, executor, MemoryStore(tmp_path), Log())
+    assert len(outcomes) == 2
+    for outcome in outcomes.values():
+        assert isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER and outcome.culprit is None
+        assert outcome.reason == "its worker failed: KilledWorkerError: lost three times"
+
+
+def test_equal_matches_in_a_plan_are_refused(match_of: MatchOf, folder: Path) -> None:
+    (one,) = matches(match_of, folder, 1)
+    with pytest.raises(TouchlineError, match='has "seed 1" and "seed 1", which are the same match'):
+        ListPlan((one, one))
+
+
+def test_two_processes_do_not_play_the_same_run(tmp_path: Path) -> None:
+    with RunStore(tmp_path), pytest.raises(TouchlineError, match="another process plays this run"):
+        RunStore(tmp_path)
+    RunStore(tmp_path).close()
+
+
+def _play_in_child(plan: ListPlan, folder: Path) -> None:
+    os.setpgrp()
+    with ThisProcess() as executor, RunStore(folder) as store:
+        run_plan(plan, executor, store, Log(), at_once=1)
+
+
+def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    """Killed 20 times, each time a random while after it has begun, and resumed."""
+    plan = ListPlan(tuple(matches(match_of, folder, 6)))
+    with ThisProcess() as executor, RunStore(tmp_path / "undisturbed") as store:
+        wanted = bytes_of(run_plan(plan, executor, store, Log()))
+    draw = random.Random(7)
+    context = multiprocessing.get_context("fork")
+    for _ in range(20):
+        child = context.Process(target=_play_in_child, args=(plan, tmp_path / "killed"))
+        child.start()
+        child.join(draw.uniform(0.02, 0.5))
+        if child.pid is not None and child.is_alive():
+            os.kill(child.pid, signal.SIGKILL)
+        child.join()
+    with ThisProcess() as executor, RunStore(tmp_path / "killed") as store:
+        assert bytes_of(run_plan(plan, executor, store, Log(), at_once=1)) == wanted
+
+
+def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = matches(match_of, folder, 3, tmp_path / "recordings")
+    with ThisProcess() as executor, RunStore(tmp_path) as store:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
+        assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
+        (tmp_path / "recordings" / "2.mcap").write_bytes((tmp_path / "recordings" / "3.mcap").read_bytes())
+        (found,) = (check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults)
+    assert found.label == "seed 2"
+    assert "its configuration is not that of the plan" in found.faults[0]
+
+
+def test_a_match_without_a_recording_is_verified_by_playing_it_again(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = matches(match_of, folder, 1)
+    with ThisProcess() as executor, RunStore(tmp_path) as store:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
+        assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
+        (identity, played) = next(iter(outcomes.items()))
+        assert isinstance(played, Played)
+        forged = {identity: replace(played, chain="0" * 32)}
+        (check,) = verify_run(planned, forged, tmp_path, executor)
+    assert check.faults
+
+
+def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found_without_a_simulation(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    planned = matches(match_of, folder, 1, tmp_path / "recordings")
+    with ThisProcess() as executor:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, MemoryStore(tmp_path), Log())
+        ((identity, played),) = outcomes.items()
+        assert isinstance(played, Played)
+        forged = {identity: replace(played, figures=replace(played.figures, sides=swapped(played.figures.sides)))}
+        shallow = Depth(again=False)
+        (check,) = verify_run(planned, forged, tmp_path, executor, lambda _: shallow)
+        (untouched,) = verify_run(planned, outcomes, tmp_path, executor, lambda _: shallow)
+    assert check.faults == ("its figures are not those of its recording, such as cards and penalties",)
+    assert (untouched.faults, untouched.ticks) == ((), 0)

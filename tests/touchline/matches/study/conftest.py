@@ -1,0 +1,118 @@
+"""Studies of constructed results and of short matches."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from support.short_study import Run
+from touchline.matches.engine.executors.this_process import ThisProcess
+from touchline.matches.engine.outcome import Outcome
+from touchline.matches.engine.planned_match import PlannedMatch
+
+if TYPE_CHECKING:
+    from touchline.matches.study.run_study import StudyResult
+    from touchline.matches.study.study_config import Study
+    from touchline.matches.study.study_plan import StudyPlan
+
+MakePlan = Callable[[str], "StudyPlan"]
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> "Callable[[str], Study]":
+    """The study of a text."""
+
+    def load(text: str) -> "Study":
+        from touchline.matches.study.study_config import load_study
+
+        path = tmp_path / "try.toml"
+        path.write_text(text)
+        return load_study(path)
+
+    return load
+
+
+@pytest.fixture
+def plan(study: "Callable[[str], Study]", tmp_path: Path) -> MakePlan:
+    """The plan of the study of a text."""
+
+    def make(text: str) -> "StudyPlan":
+        from touchline.matches.study.cells import cells_of
+        from touchline.matches.study.study_plan import StudyPlan
+
+        loaded = study(text)
+        return StudyPlan(loaded, cells_of(loaded, tmp_path))
+
+    return make
+
+
+@pytest.fixture
+def bare_plan(study: "Callable[[str], Study]") -> MakePlan:
+    """A plan whose cells have levels and no match of their own: for constructed results."""
+
+    def make(text: str) -> "StudyPlan":
+        from touchline.matches.study.cells import Cell, combinations
+        from touchline.matches.study.study_plan import StudyPlan
+
+        loaded = study(text)
+        return StudyPlan(loaded, [Cell(levels, MatchConfig()) for levels in combinations(loaded)])
+
+    return make
+
+
+@pytest.fixture
+def table() -> Callable[..., Any]:
+    """A table of results with these values of a response: cell → one value a seed."""
+
+    def make(response: str, cells: Mapping[int, Sequence[float | None]]) -> Any:
+        import pandas as pd
+
+        return pd.DataFrame(
+            {"cell": cell, "seed": seed, "swapped": False, response: value}
+            for cell, values in cells.items()
+            for seed, value in enumerate(values, start=1)
+        )
+
+    return make
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    """The folder of a study."""
+    return tmp_path / "study"
+
+
+@dataclass
+class Labels:
+    """Collects the labels of the matches that were played."""
+
+    played: list[str]
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del outcome
+        self.played.append(planned.label)
+
+
+@pytest.fixture
+def run(tmp_path: Path, home: Path) -> Run:
+    """Plays the study of a text into `home`."""
+
+    def play(text: str, played: list[str] | None = None, *, fresh: bool = False) -> "StudyResult":
+        from touchline.matches.study.cells import cells_of
+        from touchline.matches.study.run_study import run_study
+        from touchline.matches.study.study_config import load_study
+        from touchline.matches.study.study_plan import StudyPlan
+
+        path = tmp_path / "try.toml"
+        path.write_text(text)
+        study = load_study(path)
+        plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
+        return run_study(plan, home, ThisProcess(), Labels(played if played is not None else []), fresh=fresh)
+
+    return play

@@ -1,0 +1,133 @@
+"""Estimates on constructed results, whose truth is known."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("scipy", reason="experiments need the extra study")
+pd = pytest.importorskip("pandas", reason="experiments need the extra study")
+
+from touchline.matches.study.analysis import adjusted, estimate_of, is_narrow, seed_means  # noqa: E402
+from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
+from touchline.matches.study.sentences import rounded_up, sentence_of  # noqa: E402
+from touchline.matches.study.study_plan import StudyPlan  # noqa: E402
+
+MakePlan = Callable[[str], StudyPlan]
+MakeTable = Callable[..., Any]
+TWO_LEVELS = 'both_sides = false\nresponses = ["goals"]\n[factors]\nradio.loss = [0, 0.4]'
+REPETITIONS = 200
+
+
+def test_intervals_of_paired_differences_cover_the_truth_in_95_percent_of_200_studies(
+    bare_plan: MakePlan, table: MakeTable
+) -> None:
+    plan, rng, effect = bare_plan(TWO_LEVELS), np.random.default_rng(18), 0.7
+    covered = 0
+    for _ in range(REPETITIONS):
+        shared = rng.normal(3.0, 2.0, 12)  # what the seed does to both cells
+        second = shared + effect + rng.normal(0.0, 1.0, 12)
+        (found,) = answers(plan, table("goals", {1: shared, 2: second}), "goals")
+        assert found.estimate.low is not None
+        assert found.estimate.high is not None
+        covered += found.estimate.low <= effect <= found.estimate.high
+    assert 0.91 <= covered / REPETITIONS <= 0.985  # three standard deviations about 0.95
+
+
+def test_intervals_of_means_of_goals_cover_the_truth_in_95_percent_of_200_studies() -> None:
+    rng = np.random.default_rng(7)
+    estimates = [estimate_of(pd.Series(rng.poisson(2.5, 25))) for _ in range(REPETITIONS)]
+    covered = sum(one.low is not None and one.high is not None and one.low <= 2.5 <= one.high for one in estimates)
+    assert 0.91 <= covered / REPETITIONS <= 0.985
+
+
+def test_without_an_effect_one_comparison_in_twenty_leaves_0_out(bare_plan: MakePlan, table: MakeTable) -> None:
+    plan, rng = bare_plan(TWO_LEVELS), np.random.default_rng(3)
+    found = [
+        answers(plan, table("goals", {1: rng.poisson(2, 15), 2: rng.poisson(2, 15)}), "goals")[0]
+        for _ in range(REPETITIONS)
+    ]
+    assert sum(one.estimate.contains_zero is False for one in found) / REPETITIONS <= 0.09
+
+
+def test_the_same_seeds_in_each_cell_show_an_effect_that_independent_samples_hide(
+    bare_plan: MakePlan, table: MakeTable
+) -> None:
+    seeds = [0.0, 10.0, 20.0, 30.0, 40.0]
+    lower = [value - 1.0 + wobble for value, wobble in zip(seeds, (0.1, -0.1, 0.0, 0.2, -0.2), strict=True)]
+    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", {1: seeds, 2: lower}), "goals")
+    assert found.estimate.contains_zero is False
+    assert found.effect_size is not None
+    assert found.effect_size < -5
+    assert sentence_of(found, "goals") == (
+        "Goals: 1 less (95 % interval 0.804 to 1.2) with radio.loss = 0.4 than with radio.loss = 0, from 10 matches."
+    )
+
+
+def test_an_interval_with_0_states_the_largest_difference_that_is_possible(
+    bare_plan: MakePlan, table: MakeTable
+) -> None:
+    values = {1: [1, 2, 0, 1, 3, 2], 2: [2, 1, 1, 0, 3, 2]}
+    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", values), "goals")
+    assert found.estimate.high is not None
+    most = float(sentence_of(found, "goals").split("more than ")[1].split()[0])
+    assert found.estimate.low is not None
+    assert most >= max(-found.estimate.low, found.estimate.high)
+    assert sentence_of(found, "goals").endswith(
+        "between radio.loss = 0.4 and radio.loss = 0 can be told from 12 matches."
+    )
+
+
+@pytest.mark.parametrize(("value", "text"), [(0.291, "0.3"), (1.96, "2"), (0.30000000000000004, "0.3"), (12.1, "13")])
+def test_a_bound_is_rounded_up(value: float, text: str) -> None:
+    assert rounded_up(value) == text
+
+
+def test_equal_values_in_all_seeds_give_no_interval_and_no_warning(bare_plan: MakePlan, table: MakeTable) -> None:
+    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", {1: [2, 2, 2], 2: [2, 2, 2]}), "goals")
+    assert (found.estimate.low, found.p, found.effect_size) == (None, None, None)
+    assert "no difference" in sentence_of(found, "goals")
+
+
+def test_a_seed_that_failed_in_one_cell_is_left_out_of_the_pairs(bare_plan: MakePlan, table: MakeTable) -> None:
+    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", {1: [1, 2, 3, 9], 2: [2, 3, 5, None]}), "goals")
+    assert (found.estimate.seeds, found.matches) == (3, 6)
+
+
+def test_both_sides_of_a_seed_count_as_one_sample(bare_plan: MakePlan) -> None:
+    plan = bare_plan('both_sides = true\nresponses = ["goals"]')
+    rows = [(1, 1, False, 4), (1, 1, True, 2), (1, 2, False, 1), (1, 2, True, 0), (1, 3, False, 7)]
+    table = pd.DataFrame(rows, columns=["cell", "seed", "swapped", "goals"])
+    means = seed_means(table, "goals", plan.study)
+    assert means[1].tolist()[:2] == [3.0, 0.5]
+    assert pd.isna(means[1].tolist()[2])
+
+
+def test_a_main_effect_is_averaged_over_the_other_factors(bare_plan: MakePlan, table: MakeTable) -> None:
+    plan = bare_plan("both_sides = false\n[factors]\nradio.loss = [0, 0.4]\nradio.delay = [0.1, 0.5]")
+    values = {1: [10, 11, 12], 2: [20, 22, 21], 3: [8, 9, 11], 4: [16, 18, 18]}
+    loss, delay, cells = comparison_groups(plan, table("goals", values), "goals")
+    assert [one.label for one in loss.comparisons] == ["radio.loss = 0.4"]
+    assert loss.comparisons[0].estimate.value == pytest.approx((-3.0 - 3.0 - 2.0) / 3)
+    assert delay.comparisons[0].estimate.value == pytest.approx((9.0 + 10.0 + 8.0) / 3)
+    assert loss.is_answer
+    assert not cells.is_answer
+    assert len(cells.comparisons) == 3
+
+
+def test_p_values_are_adjusted_for_their_number(bare_plan: MakePlan, table: MakeTable) -> None:
+    plan = bare_plan("both_sides = false\n[factors]\nradio.loss = [0, 0.2, 0.4]")
+    found = answers(plan, table("goals", {1: [1, 2, 3, 2], 2: [2, 3, 4, 4], 3: [1, 3, 3, 1]}), "goals")
+    assert all(
+        after is not None and one.p is not None and after >= one.p
+        for one, after in zip(found, adjusted(found), strict=True)
+    )
+
+
+def test_an_interval_is_narrow_once_seeds_suffice(bare_plan: MakePlan, table: MakeTable) -> None:
+    plan, rng = bare_plan(TWO_LEVELS), np.random.default_rng(1)
+    few, many = (table("goals", {1: rng.normal(0, 1, n), 2: rng.normal(0, 1, n)}) for n in (4, 400))
+    assert not is_narrow(few, plan.study, 0.5)
+    assert is_narrow(many, plan.study, 0.5)
+    assert not is_narrow(table("goals", {1: [1, 1], 2: [1, 1]}), plan.study, 0.5)

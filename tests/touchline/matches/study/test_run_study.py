@@ -1,0 +1,176 @@
+"""Studies of real matches, short and with few robots."""
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from schemas.errors import MatchFailedError, TouchlineError
+from support.short_study import SHORT, Run
+
+pytest.importorskip("scipy", reason="experiments need the extra study")
+pytest.importorskip("pyarrow", reason="experiments need the extra study")
+pd = pytest.importorskip("pandas", reason="experiments need the extra study")
+
+from touchline.matches.engine.executors.this_process import ThisProcess  # noqa: E402
+from touchline.matches.study import study_plan  # noqa: E402
+from touchline.matches.study.compare_studies import compare_studies  # noqa: E402
+from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
+from touchline.matches.study.study_config import Study  # noqa: E402
+from touchline.matches.study.study_folder import read_study  # noqa: E402
+from touchline.matches.study.verify_study import verify_study  # noqa: E402
+
+LINES = """
+import json, sys
+
+sys.stdin.readline()
+for line in sys.stdin:
+    sight = json.loads(line)
+    print(json.dumps({"answers_tick": sight["tick"], "drive": {"vx": 1.0}}), flush=True)
+"""
+
+
+def test_a_study_leaves_plan_versions_digests_results_and_report(run: Run, home: Path) -> None:
+    result = run(SHORT)
+    assert (result.seeds, result.played, result.failed) == ([1, 2], 4, [])
+    names = ("plan.json", "versions.json", "digests.json", "results.csv", "results.parquet", "report.html")
+    assert [name for name in names if not (home / name).exists()] == []
+    table = pd.read_csv(home / "results.csv")
+    assert table[["cell", "seed", "level:radio.loss"]].values.tolist() == [
+        [1, 1, 0],
+        [2, 1, 0.4],
+        [1, 2, 0],
+        [2, 2, 0.4],
+    ]
+    assert {"first.goals", "second.goals", "goals", "goals.difference", "first.1.distance", "fouls"} <= {*table.columns}
+    report = (home / "report.html").read_text()
+    assert report.count("<svg ") >= 4
+    assert "http" not in report.replace("http://www.w3.org", "")
+
+
+def test_a_study_that_is_run_again_plays_only_what_has_no_result(run: Run, home: Path) -> None:
+    again, fresh = list[str](), list[str]()
+    run(SHORT)
+    before = (home / "results.csv").read_bytes()
+    run(SHORT, again)
+    assert again == []
+    run(SHORT.replace('"1-2"', '"1-3"'), again)
+    assert again == ["cell 1, seed 3", "cell 2, seed 3"]
+    run(SHORT, fresh, fresh=True)
+    assert len(fresh) == 4
+    assert (home / "results.csv").read_bytes() == before
+
+
+def test_a_folder_with_the_results_of_another_plan_is_left_alone(run: Run) -> None:
+    run(SHORT)
+    with pytest.raises(TouchlineError, match="has the results of another plan; give another folder with --into"):
+        run(SHORT.replace("0.4", "0.5"))
+
+
+def test_seeds_are_added_until_the_interval_is_narrow_or_the_budget_is_spent(run: Run, home: Path) -> None:
+    wide = "until_interval = 1e-9\nmost_seeds = 5\n" + SHORT.replace('responses = ["', 'responses = ["distance", "')
+    assert run(wide).seeds == [1, 2, 3, 4, 5]
+    one_cell = wide.replace("[factors]\nradio.loss = [0, 0.4]", "")
+    shutil.rmtree(home)
+    assert run(one_cell.replace("1e-9", "1000.0")).seeds == [1, 2]
+
+
+def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path: Path) -> None:
+    (tmp_path / "measures_of_mine.py").write_text(
+        "def worlds(recording):\n    return sum(1 for _ in recording.decoded('world'))\n"
+    )
+    run(SHORT + '[functions]\nworlds = "measures_of_mine:worlds"\n')
+    table = pd.read_csv(home / "results.csv")
+    assert (table["worlds"] > 50).all()
+    assert "Worlds" in (home / "report.html").read_text()
+    sample = verify_study(home, ThisProcess(), 1, None, lambda check: None)
+    assert sample.faults == []
+    again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
+    assert (again.faults, again.byte_identical) == ([], True)
+
+
+def test_a_function_that_is_not_there_is_named_before_any_match(run: Run) -> None:
+    played = list[str]()
+    with pytest.raises(TouchlineError, match="function nowhere_at_all:worlds: ModuleNotFoundError"):
+        run(SHORT + '[functions]\nworlds = "nowhere_at_all:worlds"\n', played)
+    assert played == []
+
+
+def test_a_study_in_which_every_match_fails_says_why(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "raises_always.py").write_text(
+        "class Broken:\n    def __init__(self, briefing):\n        pass\n\n"
+        "    def act(self, sight):\n        raise ValueError('no idea')\n"
+    )
+    with pytest.raises(MatchFailedError, match=r"all 4 matches failed: cyan1.*no idea"):
+        run(SHORT.replace("[settings]", '[settings]\ncyan = "raises_always:Broken"'))
+
+
+def test_a_team_against_itself_shows_no_effect_and_one_robot_less_shows_one(run: Run, home: Path) -> None:
+    run(
+        'seeds = "1-4"\nboth_sides = true\nresponses = ["possession_s.difference"]\n[settings]\nduration = 5\n'
+        'cyan = "simple"\nmagenta = "simple"\nteams.cyan.size = 2\n[factors]\nteams.magenta.size = [2, 1]\n'
+    )
+    stored = read_study(home)
+    response = "possession_s.difference"
+    (effect,) = answers(stored.plan, stored.table, response)
+    groups = comparison_groups(stored.plan, stored.table, response)
+    itself, one_less = groups[-1].comparisons
+    assert itself.estimate.value == pytest.approx(0.0)
+    assert itself.estimate.contains_zero is not False
+    assert one_less.estimate.contains_zero is False
+    assert effect.estimate.contains_zero is False
+    assert effect.estimate.value > 0
+    assert 'class="found"' in (home / "report.html").read_text()
+
+
+def test_seeds_that_were_judged_are_not_judged_again(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    judged = list[int]()
+    is_narrow = study_plan.is_narrow
+
+    def count(table: Any, study: Study, limit: float) -> bool:
+        judged.append(len(table))
+        return is_narrow(table, study, limit)
+
+    monkeypatch.setattr(study_plan, "is_narrow", count)
+    run("until_interval = 1e-9\nmost_seeds = 6\n" + SHORT.replace('responses = ["', 'responses = ["distance", "'))
+    assert judged == [4, 8]
+
+
+def test_a_team_on_the_network_is_refused_in_one_process_before_any_match(run: Run) -> None:
+    played = list[str]()
+    with pytest.raises(TouchlineError, match=r'teams\.cyan has a command.*write way = "processes"'):
+        run(SHORT.replace("[settings]", '[settings]\nteams.cyan.command = ["robot"]'), played)
+    assert played == []
+
+
+@pytest.mark.processes
+@pytest.mark.parametrize("program", ["", 'teams.cyan.stdio = ["python3", "robot.py"]'], ids=["brains", "lines"])
+def test_processes_and_one_process_give_the_same_table_to_the_byte(
+    run: Run, home: Path, tmp_path: Path, program: str
+) -> None:
+    (tmp_path / "robot.py").write_text(LINES)
+    short = SHORT.replace('"1-2"', '"1"').replace("[0, 0.4]", "[0.4]").replace("[settings]", f"[settings]\n{program}")
+    run(short)
+    table = (home / "results.csv").read_bytes()
+    shutil.rmtree(home)
+    run(f'way = "processes"\n{short}')
+    assert (home / "results.csv").read_bytes() == table
+    assert not list((home / "logs").iterdir())
+
+
+def test_two_runs_of_a_study_are_compared_seed_by_seed(run: Run, home: Path, tmp_path: Path) -> None:
+    run(SHORT)
+    shutil.copytree(home, tmp_path / "other")
+    found = compare_studies(read_study(home), read_study(tmp_path / "other"))
+    assert {one.cell for one in found} == {"radio.loss = 0", "radio.loss = 0.4"}
+    driven = [one for one in found if one.response == "distance"]
+    assert [(one.paired, one.comparison.estimate.value) for one in driven] == [(True, 0.0), (True, 0.0)]
+
+
+def test_a_published_study_names_no_path_of_this_machine(run: Run, home: Path, tmp_path: Path) -> None:
+    run(SHORT)
+    texts = [path.read_text() for path in home.glob("*.json")] + [(home / "report.html").read_text()]
+    assert [text for text in texts if str(tmp_path) in text] == []
+    assert json.loads((home / "plan.json").read_text())["brain_folder"] == ".."

@@ -1,0 +1,169 @@
+"""A cup as a plan of matches: which are due follows from the outcomes so far, and how each counts."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import TeamConfig, TeamConfigs
+from schemas.errors import TouchlineError
+from schemas.game import Card
+from schemas.side import Side
+from touchline.matches.cup.cup_config import CupConfig, TeamEntry
+from touchline.matches.cup.cup_state import CupState, Ended, Slot, state_of
+from touchline.matches.cup.match_result import MatchResult, Pair
+from touchline.matches.engine.code_digest import code_digest
+from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.series.team_names import brain_of
+
+RECORDINGS, LOGS = "recordings", "logs"
+"""Folders in that of a cup: a recording of each match; logs of processes, and tracebacks."""
+_FORFEITS = {
+    FailureKind.DID_NOT_START: "did not start",
+    FailureKind.CRASHED: "crashed",
+    FailureKind.HUNG: "hung",
+    FailureKind.BROKE_ACCESS_RULES: "broke the access rules",
+}
+"""Failures for which a team forfeits, in words."""
+
+
+@dataclass(frozen=True)
+class CupPlan:
+    """The plan of a cup in a folder."""
+
+    cup: CupConfig
+    code_folder: Path
+    """Where brains and programs are looked for first: the folder of the cup file."""
+    folder: Path
+    """The folder of the cup, an absolute path."""
+    digests: Mapping[str, str]
+    """Team → digest of its files."""
+    _matches: dict[Slot, PlannedMatch] = field(default_factory=dict, init=False, compare=False, repr=False)
+    """Slot → match; its identity is computed once."""
+    _ended: dict[str, Ended] = field(default_factory=dict, init=False, compare=False, repr=False)
+    """Identity → how a match ended; outcomes are decoded once."""
+
+    @cached_property
+    def forfeit_goals(self) -> int:
+        """Goals of a forfeit, by the rule book."""
+        return self.cup.match_config().load_rule_book().people.forfeit_goals
+
+    def due(self, outcomes: Mapping[str, Outcome]) -> Sequence[PlannedMatch]:
+        """The matches that can be played now."""
+        return [self.match(slot) for slot in self.state(outcomes).due]
+
+    def state(self, outcomes: Mapping[str, Outcome]) -> CupState:
+        """How far the cup is."""
+
+        def ended(slot: Slot) -> Ended | None:
+            identity = self.match(slot).identity
+            if identity not in outcomes:
+                return None
+            known = self._ended.get(identity)
+            if known is None or known.result is None:  # a match without a result may have been played again
+                known = self._ended[identity] = self.ended(slot, outcomes[identity])
+            return known
+
+        return state_of(self.cup, ended)
+
+    def match(self, slot: Slot) -> PlannedMatch:
+        """The match of a slot.
+
+        Raises:
+            TouchlineError: a team is none that ships, or a key of the match is invalid.
+        """
+        if slot not in self._matches:
+            self._matches[slot] = PlannedMatch(
+                config=match_config(self.cup, slot),
+                code={side: self.digests[name] for side, name in zip(Side, slot.sides, strict=True)},
+                way=self.cup.way,
+                brain_folder=self.code_folder,
+                recording=self.folder / RECORDINGS / f"{slot.file_name}.mcap",
+                logs=self.folder / LOGS / slot.file_name,
+                hang_s=self.cup.hang,
+                label=slot.name,
+            )
+        return self._matches[slot]
+
+    def ended(self, slot: Slot, outcome: Outcome) -> Ended:
+        """How a match ended, in the order of the teams of its fixture."""
+        if isinstance(outcome, Played):
+            return Ended(_result(slot, outcome), outcome.identity, recording=outcome.recording, chain=outcome.chain)
+        return self._forfeited(slot, outcome)
+
+    def _forfeited(self, slot: Slot, failed: Failed) -> Ended:
+        if failed.culprit is None or failed.kind not in _FORFEITS:
+            return Ended(None, failed.identity, failed.reason, evidence=failed.evidence)
+        culprit = slot.sides[tuple(Side).index(failed.culprit)]
+        first, second = slot.fixture.teams
+        goals = (0, self.forfeit_goals) if culprit == first else (self.forfeit_goals, 0)
+        result = MatchResult((first, second), goals, forfeited_by=culprit)
+        reason = f"{culprit} {_FORFEITS[failed.kind]}: {failed.reason}"
+        return Ended(result, failed.identity, reason, evidence=failed.evidence)
+
+
+def digests_of(cup: CupConfig, code_folder: Path) -> dict[str, str]:
+    """Team → digest of its files.
+
+    Raises:
+        TouchlineError: a team is none that ships.
+    """
+    return {team.name: code_digest(config_with(team, cup), Side.CYAN, code_folder) for team in cup.teams}
+
+
+def check_submitted(cup: CupConfig, digests: Mapping[str, str]) -> None:
+    """Check that each team has the files that were submitted, where the cup file gives their digest.
+
+    Raises:
+        TouchlineError: a team has other files.
+    """
+    for team in cup.teams:
+        found = digests[team.name]
+        if team.digest and found != team.digest:
+            raise TouchlineError(
+                f'the files of team "{team.name}" have the digest {found}, and {team.digest} was submitted; '
+                "restore them, or correct teams.digest"
+            )
+
+
+def match_config(cup: CupConfig, slot: Slot) -> MatchConfig:
+    """The config of a match; its name is that of the cup, so that its place in the cup is no part of it.
+
+    Raises:
+        TouchlineError: a team is none that ships, or a key of the match is invalid.
+    """
+    entries = {team.name: team for team in cup.teams}
+    config = cup.match_config(name=cup.name, seed=slot.seed(cup))
+    cyan, magenta = (_team(entries[name], cup) for name in slot.sides)
+    changes: dict[str, object] = {"teams": TeamConfigs(cyan=cyan, magenta=magenta)}
+    if slot.fixture.decisive:
+        changes["referee"] = config.referee.model_copy(update={"winner": True})
+    return MatchConfig.model_validate(config.model_copy(update=changes).model_dump())
+
+
+def config_with(entry: TeamEntry, cup: CupConfig) -> MatchConfig:
+    """A match in which the team plays in cyan.
+
+    Raises:
+        TouchlineError: the team is none that ships.
+    """
+    return MatchConfig(teams=TeamConfigs(cyan=_team(entry, cup)))
+
+
+def _team(entry: TeamEntry, cup: CupConfig) -> TeamConfig:
+    brain = brain_of(entry.brain) if entry.brain is not None else None
+    size = entry.size or cup.size
+    return TeamConfig(name=entry.name, brain=brain, command=entry.command, stdio=entry.stdio, size=size)
+
+
+def _result(slot: Slot, played: Played) -> MatchResult:
+    """The result in the order of the fixture; figures are by side."""
+    order = [tuple(Side)[slot.sides.index(team)] for team in slot.fixture.teams]
+    first, second = (played.figures.sides[side] for side in order)
+    penalties: Pair | None = None
+    if first.shoot_out is not None and second.shoot_out is not None:
+        penalties = first.shoot_out, second.shoot_out
+    yellows, reds = ((first.cards.get(card, 0), second.cards.get(card, 0)) for card in (Card.YELLOW, Card.RED))
+    return MatchResult(slot.fixture.teams, (first.goals or 0, second.goals or 0), penalties, yellows, reds)

@@ -1,0 +1,70 @@
+"""The result of a cup: as one object for programs, as tables for people."""
+
+from dataclasses import asdict
+from typing import Any
+
+from touchline.matches.cup.cup_state import CupMatch, CupState, MatchState
+from touchline.matches.cup.ratings import Ratings, is_available, rate
+from touchline.matches.cup.site.links import score_text
+from touchline.matches.cup.site.tables import signed
+from touchline.matches.series.table import aligned
+
+
+def report_of(state: CupState) -> dict[str, Any]:
+    """Tables, matches, ratings and winner."""
+    rated = _rated(state)
+    return {
+        "name": state.cup.name,
+        "complete": state.is_complete,
+        "winner": state.winner,
+        "tables": {stage: [asdict(row) for row in rows] for stage, rows in state.schedule.tables.items()},
+        "matches": [_match(one) for one in state.matches],
+        "ratings": [asdict(one) for one in rated.teams] if rated is not None else None,
+        "order": [asdict(one) for one in rated.order] if rated is not None else None,
+        "order_is_significant": rated.significant if rated is not None else None,
+    }
+
+
+def report_text(state: CupState) -> str:
+    """Tables, the knock-out, matches without a result, ratings and winner."""
+    lines: list[str] = []
+    for stage, rows in state.schedule.tables.items():
+        cells = [(str(row.place), row.team, *_numbers(row)) for row in rows]
+        lines += [stage, *aligned(("", "team", "P", "W", "D", "L", "goals", "points"), cells), ""]
+    if state.schedule.bracket is not None:
+        names = {one.name for one in state.schedule.bracket.fixtures}
+        played = [one for one in state.matches if one.slot.fixture.name in names and one.result is not None]
+        lines += [*(_line(one) for one in played), ""]
+    for one in state.matches:
+        if one.state in (MatchState.FORFEITED, MatchState.FAILED) and one.ended is not None:
+            lines.append(f"{one.slot.name} {one.state}: {one.ended.reason}")
+    rated = _rated(state)
+    if rated is not None:
+        cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]
+        sentence = "the order is significant" if rated.significant else "the order is not significant"
+        lines += [*aligned(("", "rating", "interval of 95 %"), cells), sentence, ""]
+    else:
+        lines.append("no ratings: they need scipy; pip install 'touchline[sim]'")
+    lines.append(f"winner  {state.winner}" if state.winner is not None else "the cup is not complete")
+    return "\n".join(lines)
+
+
+def _rated(state: CupState) -> Ratings | None:
+    return rate(state.cup.names, state.results) if is_available() else None
+
+
+def _numbers(row: Any) -> tuple[str, ...]:
+    counts = (row.played, row.won, row.drawn, row.lost)
+    return (*map(str, counts), f"{row.goals_for}:{row.goals_against}", str(row.points))
+
+
+def _line(one: CupMatch) -> str:
+    cyan, magenta = one.slot.sides
+    assert one.result is not None
+    return f"{one.slot.name}: {cyan} {score_text(one.result, cyan)} {magenta}"
+
+
+def _match(one: CupMatch) -> dict[str, Any]:
+    cyan, magenta = one.slot.sides
+    ended = asdict(one.ended) if one.ended is not None else {}
+    return {"match": one.slot.name, "cyan": cyan, "magenta": magenta, "state": one.state.value} | ended

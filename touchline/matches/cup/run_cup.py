@@ -1,0 +1,127 @@
+"""Plays a cup: what is due is played, each outcome is stored at once, and the pages follow."""
+
+import json
+from collections.abc import Mapping
+from concurrent.futures import Executor
+from importlib.metadata import version
+from pathlib import Path
+
+from schemas.errors import TouchlineError
+from touchline.matches.cup.cup_config import CupConfig
+from touchline.matches.cup.cup_documents import CODE_FOLDER, CUP, DIGESTS, RESULT, VERSION, stored_cup
+from touchline.matches.cup.cup_plan import CupPlan, check_submitted, digests_of, match_config
+from touchline.matches.cup.cup_state import CupState, state_of
+from touchline.matches.cup.report import report_of
+from touchline.matches.cup.site.links import score_text
+from touchline.matches.cup.site.write_site import Site
+from touchline.matches.engine.outcome import Failed, Outcome
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.run import Remote, run_plan
+from touchline.matches.engine.store import RunStore
+
+
+class CupRun:
+    """A cup that is played in a folder; to be closed."""
+
+    def __init__(self, cup: CupConfig, code_folder: Path, folder: Path, *, resume: bool) -> None:
+        """Begin a cup, or go on with the one of the folder.
+
+        Raises:
+            TouchlineError: a team or a key is invalid; the folder has a cup already, or another one.
+        """
+        digests = digests_of(cup, code_folder)
+        check_submitted(cup, digests)
+        self.plan = CupPlan(cup, code_folder.absolute(), folder.absolute(), digests)
+        for slot in state_of(cup, lambda _: None).due[:1]:
+            match_config(cup, slot)
+        self._store = RunStore(folder.absolute())
+        try:
+            self._begin(folder, resume=resume)
+        except BaseException:
+            self._store.close()
+            raise
+        self._site = Site(folder, digests)
+
+    def close(self) -> None:
+        """Free the folder."""
+        self._store.close()
+
+    @property
+    def state(self) -> CupState:
+        """How far the cup is."""
+        return self.plan.state(self._store.outcomes())
+
+    def play(self, executor: Executor, progress: Progress, remote: Remote | None = None) -> CupState:
+        """Play all matches that have no outcome yet; pages are written after each.
+
+        `remote` is for executors whose workers do not see the folder of the cup.
+        """
+        reporter = _Reporter(self.plan, self._store.outcomes(), self._site, progress)
+        self._site.write(reporter.state, running=True)
+        try:
+            run_plan(self.plan, executor, self._store, reporter, remote=remote)
+        finally:
+            self._site.write(reporter.state, running=False)
+            text = json.dumps(report_of(reporter.state), ensure_ascii=False, indent=1)
+            (self.plan.folder / RESULT).write_text(text, "utf-8")
+        return reporter.state
+
+    def _begin(self, folder: Path, *, resume: bool) -> None:
+        """Check the cup of the folder, or store this one.
+
+        Raises:
+            TouchlineError: the cup cannot be begun or resumed.
+        """
+        plan, store = self.plan, self._store
+        stored = stored_cup(store)
+        if stored is None:
+            for name, content in (
+                (CUP, plan.cup.model_dump_json()),
+                (DIGESTS, json.dumps(dict(plan.digests))),
+                (CODE_FOLDER, str(plan.code_folder)),
+                (VERSION, version("touchline")),
+            ):
+                store.set_document(name, content)
+            return
+        if not resume:
+            raise TouchlineError(f"{folder}: has a cup already; add --resume to go on, or give another --out")
+        if stored.cup != plan.cup:
+            raise TouchlineError(f"{folder}: its cup is another one than that of the file; give another --out")
+        for team, digest in stored.digests.items():
+            if plan.digests[team] != digest:
+                raise TouchlineError(
+                    f'the files of team "{team}" have changed since the cup began; restore them, or give another --out'
+                )
+        store.forget_lost()
+
+
+class _Reporter:
+    """Writes the pages and shows the progress."""
+
+    def __init__(self, plan: CupPlan, outcomes: Mapping[str, Outcome], site: Site, progress: Progress) -> None:
+        self._plan = plan
+        self._outcomes = dict(outcomes)
+        self._site = site
+        self._progress = progress
+        self.state = plan.state(outcomes)
+
+    def planned(self, done: int, due: int) -> None:
+        """Show how many matches there are."""
+        self._progress.planned(done, due)
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        """Write the pages with a match, and show it."""
+        self._outcomes[planned.identity] = outcome
+        self.state = self._plan.state(self._outcomes)
+        self._site.write(self.state, running=True)
+        self._progress.ended(_sentence(self.state, planned.label), failed=isinstance(outcome, Failed))
+
+
+def _sentence(state: CupState, name: str) -> str:
+    """One line on a match that has ended."""
+    (match,) = (one for one in state.matches if one.slot.name == name)
+    cyan, magenta = match.slot.sides
+    score = score_text(match.result, cyan) if match.result is not None else "failed"
+    reason = f"   {match.ended.reason}" if match.ended is not None and match.ended.reason is not None else ""
+    return f"{name}: {cyan} {score} {magenta}{reason}"

@@ -1,0 +1,125 @@
+"""The schedule of a cup: all fixtures that follow from its format and the results so far."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from touchline.matches.cup.cup_config import CupConfig, FormatKind
+from touchline.matches.cup.formats.groups import divided, seeded_from
+from touchline.matches.cup.formats.knock_out import Bracket, knock_out
+from touchline.matches.cup.formats.round_robin import round_robin
+from touchline.matches.cup.formats.swiss import STAGE as SWISS
+from touchline.matches.cup.formats.swiss import most_rounds, swiss
+from touchline.matches.cup.match_result import Fixture, FixtureResult
+from touchline.matches.cup.ratings import LEVEL, rate
+from touchline.matches.cup.standings import Standing
+from touchline.matches.cup.tie_breaks import table, winner_of_level
+
+LEAGUE = "league"
+KNOCK_OUT = "knock-out"
+Results = Mapping[str, FixtureResult]
+"""Name of a fixture → its matches that are over."""
+
+
+@dataclass(slots=True)
+class Schedule:
+    """A cup as far as it is known."""
+
+    fixtures: list[Fixture] = field(default_factory=list)
+    tables: dict[str, list[Standing]] = field(default_factory=dict)
+    """Stage → its table: `league`, `swiss`, or each group."""
+    bracket: Bracket | None = None
+
+
+def schedule_of(cup: CupConfig, results: Results) -> Schedule:
+    """All fixtures, tables and the bracket of a cup with these results."""
+    return _KINDS[cup.format.kind](cup, results)
+
+
+def _league(cup: CupConfig, results: Results) -> Schedule:
+    repeats = _repeats(cup, results) if cup.until_significant is not None else 1
+    chosen = cup.format
+    fixtures = round_robin(cup.names, LEAGUE, double=chosen.double, best_of=chosen.best_of, repeats=repeats)
+    return Schedule(fixtures, {LEAGUE: table(cup.names, _of(fixtures, results), cup.ranking)})
+
+
+def _repeats(cup: CupConfig, results: Results) -> int:
+    """How often the round robin is played: until its order is significant, or the budget does not suffice for more.
+
+    Each look at the ratings could find a false order, so that each gets its share of the level.
+    """
+    chosen, budget = cup.format, cup.until_significant.budget if cup.until_significant is not None else 0
+    once = round_robin(cup.names, LEAGUE, double=chosen.double, best_of=chosen.best_of)
+    most = max(1, budget // sum(one.best_of for one in once))
+    for repeats in range(1, most):
+        fixtures = round_robin(cup.names, LEAGUE, double=chosen.double, best_of=chosen.best_of, repeats=repeats)
+        played = _of(fixtures, results)
+        if len(played) < len(fixtures) or not all(one.is_over for one in played):
+            return repeats
+        matches = [match for one in played for match in one.matches]
+        if rate(cup.names, matches, level=look_level(most)).significant:
+            return repeats
+    return most
+
+
+def look_level(looks: int) -> float:
+    """The level of each of so many looks at the ratings that all of them together have `LEVEL` (Bonferroni)."""
+    return 1 - (1 - LEVEL) / looks
+
+
+def _groups(cup: CupConfig, results: Results) -> Schedule:
+    chosen, schedule = cup.format, Schedule()
+    groups = divided(cup.names, chosen.groups)
+    for name, teams in groups.items():
+        fixtures = round_robin(teams, name, double=chosen.double, best_of=chosen.best_of)
+        schedule.fixtures += fixtures
+        schedule.tables[name] = table(teams, _of(fixtures, results), cup.ranking)
+    played = _of(schedule.fixtures, results)
+    if len(played) == len(schedule.fixtures) and all(one.is_over for one in played):
+        advancing = [[row.team for row in rows[: chosen.advance]] for rows in schedule.tables.values()]
+        _add_bracket(schedule, cup, seeded_from(advancing), results, played)
+    return schedule
+
+
+def _knock_out(cup: CupConfig, results: Results) -> Schedule:
+    schedule = Schedule()
+    _add_bracket(schedule, cup, cup.names, results, ())
+    return schedule
+
+
+def _add_bracket(
+    schedule: Schedule, cup: CupConfig, seeded: Sequence[str], results: Results, before: Sequence[FixtureResult]
+) -> None:
+    schedule.bracket = knock_out(
+        seeded,
+        results,
+        lambda result, earlier: winner_of_level(result, list(earlier), cup.ranking),
+        best_of=cup.format.knock_out_matches,
+        third_place=cup.format.third_place,
+        before=before,
+    )
+    schedule.fixtures += schedule.bracket.fixtures
+
+
+def _swiss(cup: CupConfig, results: Results) -> Schedule:
+    rounds = cup.format.rounds or most_rounds(len(cup.names))
+    ranking = cup.ranking
+    known = swiss(
+        cup.names,
+        rounds,
+        results,
+        lambda played, byes: [row.team for row in table(cup.names, played, ranking, byes)],
+        best_of=cup.format.best_of,
+    )
+    return Schedule(known.fixtures, {SWISS: table(cup.names, _of(known.fixtures, results), ranking, known.byes)})
+
+
+def _of(fixtures: Sequence[Fixture], results: Results) -> list[FixtureResult]:
+    return [results[one.name] for one in fixtures if one.name in results]
+
+
+_KINDS = {
+    FormatKind.ROUND_ROBIN: _league,
+    FormatKind.GROUPS: _groups,
+    FormatKind.KNOCK_OUT: _knock_out,
+    FormatKind.SWISS: _swiss,
+}

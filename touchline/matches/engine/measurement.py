@@ -1,0 +1,57 @@
+"""Measures a match tick by tick, while it is played or from its recording: both give the same outcome."""
+
+from pathlib import Path
+
+from recordings.reading.recording import open_recording
+from recordings.stats.match_statistics import MatchStatistics, match_ticks_of, setup_of
+from recordings.stats.match_tick import MatchTick
+from schemas.errors import TouchlineError
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup
+from touchline.matches.engine.outcome import Played
+
+
+class Measurement:
+    """The figures of a match so far."""
+
+    def __init__(self, setup: Setup) -> None:
+        self._statistics = MatchStatistics(setup, 0.0, 0.0)
+        self._first: GameState | None = None
+        self._last: GameState | None = None
+        self._chain: str | None = None
+
+    def update(self, tick: MatchTick) -> None:
+        """Add a tick."""
+        self._statistics.update(tick)
+        self._first, self._last = self._first or tick.state, tick.state
+        self._chain = tick.chain
+
+    def played(self, identity: str, recording: Path | None) -> Played:
+        """The outcome of the match that is over.
+
+        Raises:
+            TouchlineError: the inputs of the last tick are missing.
+        """
+        if self._chain is None:
+            raise TouchlineError("the inputs of the last tick are missing; record host/applied")
+        clocks = [state.clock for state in (self._first, self._last) if state is not None]
+        return Played(
+            identity=identity,
+            figures=self._statistics.figures(),
+            playing_time=clocks[-1] - clocks[0] if clocks else 0.0,
+            chain=self._chain,
+            recording=str(recording) if recording is not None else None,
+        )
+
+
+def measured(recording: Path, identity: str) -> Played:
+    """The outcome of a recorded match.
+
+    Raises:
+        TouchlineError: no recording, or one that lacks what figures need.
+    """
+    opened = open_recording(recording)
+    measurement = Measurement(setup_of(opened))
+    for tick in match_ticks_of(opened):
+        measurement.update(tick)
+    return measurement.played(identity, recording)

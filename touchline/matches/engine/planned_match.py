@@ -1,0 +1,59 @@
+"""A match of a plan: all that determines it, and its identity."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import cached_property
+from pathlib import Path
+
+from schemas.config.match_config import LOCKSTEP, MatchConfig
+from schemas.side import Side
+from touchline.matches.engine.hang_limit import HANG_S
+
+
+class Way(StrEnum):
+    """How a match is played. In lockstep both ways give the same states, so this is no part of the identity."""
+
+    IN_PROCESS = "in_process"
+    """In one process, without a network: for brains that are trusted."""
+    PROCESSES = "processes"
+    """Host, robots and recorder in processes of their own, over Zenoh: for rivals, and for programs in any language."""
+
+
+@dataclass(frozen=True)
+class PlannedMatch:
+    """One match of a plan."""
+
+    config: MatchConfig
+    """The whole match: teams, seed, sides, rule book, profile."""
+    code: Mapping[Side, str] = field(default_factory=dict)
+    """Side → digest of the files of its team, see `code_digest`; without one, the files are not checked."""
+    way: Way = Way.IN_PROCESS
+    brain_folder: Path | None = None
+    """Where brains are looked for first."""
+    recording: Path | None = None
+    """The file that gets its recording; None for none."""
+    logs: Path | None = None
+    """The folder that gets the logs of its processes, or the traceback of a brain that raised; None for none."""
+    hang_s: float = HANG_S
+    """Wall time in s for a decision of a brain, or to build it, after which its team hangs: in one process."""
+    label: str = ""
+    """Its name for people."""
+
+    @property
+    def seed(self) -> int:
+        """Seed of all random numbers of the match."""
+        return self.config.seed
+
+    @cached_property
+    def identity(self) -> str:
+        """A digest of configuration and code: equal for matches with equal results."""
+        content = {
+            "config": json.loads(self.config.model_dump_json(exclude={"record", "patience", "pace"})),
+            "pace": self.config.pace if self.config.pace != LOCKSTEP else None,
+            "code": {side.value: digest for side, digest in self.code.items()},
+        }
+        text = json.dumps(content, sort_keys=True, ensure_ascii=False)
+        return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()

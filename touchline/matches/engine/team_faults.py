@@ -1,0 +1,56 @@
+"""Which team broke the limits of the bus, and which stopped answering, in a match that was played with processes.
+
+The host plays such a match to its end: it drops what is too much, and does not wait for the silent for ever.
+"""
+
+from recordings.reading.recording import Recording
+from schemas.access.accounts import Account
+from schemas.config.match_config import MatchConfig
+from schemas.messages.health import Health, RobotHealth
+from schemas.side import Side
+from schemas.topics import HEALTH
+from sim_host.server.account_limits import CUT_OFF, OVER_RATE
+from touchline.matches.engine.outcome import FailureKind
+
+_SILENT_TICKS = 50
+"""Sights in a row that no robot of a side has answered after which the side counts as hung."""
+_BREACHES = (OVER_RATE, CUT_OFF)
+"""Reasons for dropped messages of which one is enough: more than 250 useless messages in a quarter of a second."""
+
+
+def fault_of(health: Health | None, config: MatchConfig) -> tuple[FailureKind, Side, str] | None:
+    """The fault, the side and the reason for which a match does not count; None if both sides played on."""
+    for kind, reason_of in ((FailureKind.BROKE_ACCESS_RULES, breach_of), (FailureKind.HUNG, silence_of)):
+        for side in Side:
+            reason = reason_of(health, config, side)
+            if reason is not None:
+                return kind, side, reason
+    return None
+
+
+def last_health(recording: Recording) -> Health | None:
+    """The host's last report on its clients; None without one."""
+    last = None
+    for _, health in recording.decoded(HEALTH.key):
+        last = health
+    return last
+
+
+def breach_of(health: Health | None, _: MatchConfig, side: Side) -> str | None:
+    """How the account of a side broke the limits of the bus; None if it did not.
+
+    Messages on keys that it has no right to are no breach: they never pass the router.
+    """
+    account = health.accounts.get(Account.of_team(side).value) if health is not None else None
+    dropped = {reason: account.dropped.get(reason, 0) for reason in _BREACHES} if account is not None else {}
+    counts = ", ".join(f"{count} messages were dropped: {reason}" for reason, count in dropped.items() if count)
+    return f"account {side.value}: {counts}" if counts else None
+
+
+def silence_of(health: Health | None, config: MatchConfig, side: Side) -> str | None:
+    """Since when no robot of a side answers; None if one does."""
+    robots = [health.robots.get(name, RobotHealth()) for name in config.robots(side)] if health is not None else []
+    missed = min((one.missed_in_a_row for one in robots), default=0)
+    if missed < _SILENT_TICKS:
+        return None
+    return f"none of its robots has answered the last {missed} sights"

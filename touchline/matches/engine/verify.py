@@ -1,0 +1,186 @@
+"""Checks a finished run: simulates recordings again, and compares what its table says with them."""
+
+import random
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor, as_completed
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Protocol
+
+from recordings.reading.recording import open_recording
+from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
+from schemas.messages.applied import Applied
+from schemas.side import Side
+from schemas.topics import APPLIED
+from touchline.matches.engine.child_processes import DiedProcessError, Poll
+from touchline.matches.engine.code_digest import code_digest
+from touchline.matches.engine.inputs_only import has_inputs_only
+from touchline.matches.engine.measurement import measured
+from touchline.matches.engine.outcome import Failed, Played
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.play import play
+from touchline.verify.resimulate import verify
+
+
+class Result(Protocol):
+    """What a table says of a match that was played: an outcome, or a row of a published table."""
+
+    @property
+    def chain(self) -> str:
+        """The hash chain over all states."""
+
+    @property
+    def goals(self) -> Mapping[Side, int]:
+        """The goals of each side."""
+
+    @property
+    def recording(self) -> str | None:
+        """The file of its recording, as that of an outcome."""
+
+
+@dataclass(frozen=True, slots=True)
+class MatchCheck:
+    """What was found about one match."""
+
+    identity: str
+    label: str
+    faults: tuple[str, ...]
+    """Sentences on what does not fit; empty if all does."""
+    ticks: int = 0
+    """Number of ticks that were simulated again."""
+    again: Played | None = None
+    """The outcome as its recording shows it, or that of the match that was played again; None without either."""
+
+
+def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> list[PlannedMatch]:
+    """So many of the matches, drawn at random; all without a number."""
+    if number is None or number >= len(matches):
+        return matches
+    drawn = set(random.Random(seed).sample(range(len(matches)), number))
+    return [one for place, one in enumerate(matches) if place in drawn]
+
+
+@dataclass(frozen=True, slots=True)
+class Depth:
+    """How much of a match is checked; its result is compared with its recording in any case."""
+
+    again: bool = True
+    """It is simulated or played again."""
+    code: bool = True
+    """The files of its teams are compared with their digests."""
+    recordings: bool = False
+    """A match that is played again leaves its recording where its plan says."""
+
+
+def verify_run(
+    matches: list[PlannedMatch],
+    outcomes: Mapping[str, Result | Failed],
+    folder: Path,
+    executor: Executor,
+    depth_of: Callable[[PlannedMatch], Depth] = lambda _: Depth(),
+) -> Iterator[MatchCheck]:
+    """Check each match on the executor; yields each check when it is there.
+
+    A match with a recording is simulated again from that. One without is played again, in the way it was planned.
+    """
+    futures = {
+        executor.submit(check_match, one, outcomes.get(one.identity), folder, depth_of(one)): one for one in matches
+    }
+    for future in as_completed(futures):
+        try:
+            yield future.result()
+        except DiedProcessError as error:
+            planned = futures[future]
+            yield MatchCheck(planned.identity, planned.label, (f"it could not be checked: {error}",))
+
+
+def check_match(
+    planned: PlannedMatch,
+    outcome: Result | Failed | None,
+    folder: Path,
+    depth: Depth | None = None,
+    poll: Poll = lambda: None,
+) -> MatchCheck:
+    """Check one match against its files; `poll` is called while it is played again."""
+    depth = depth or Depth()
+    if outcome is None:
+        return MatchCheck(planned.identity, planned.label, ("it was not played",))
+    faults = [
+        f"the files of {planned.config.team(side).name or side.value} have changed since then"
+        for side, digest in planned.code.items()
+        if depth.code and code_digest(planned.config, side, planned.brain_folder) != digest
+    ]
+    if isinstance(outcome, Failed):
+        if outcome.evidence is not None and not (folder / outcome.evidence).exists():
+            faults.append(f"its evidence {outcome.evidence} is gone")
+        return MatchCheck(planned.identity, planned.label, tuple(faults))
+    if outcome.recording is not None:
+        ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome, simulates=depth.again)
+    elif depth.again and not faults:
+        kept = planned if depth.recordings else replace(planned, recording=None)
+        ticks, more, again = _check_again(kept, outcome, poll)
+    else:
+        return MatchCheck(planned.identity, planned.label, tuple(faults))
+    return MatchCheck(planned.identity, planned.label, (*faults, *more), ticks, again)
+
+
+def _check_recording(
+    path: Path, planned: PlannedMatch, outcome: Result, *, simulates: bool
+) -> tuple[int, list[str], Played | None]:
+    try:
+        recorded = open_recording(path).manifest.config
+        ticks, faults = _simulated(path) if simulates else (0, [])
+        if recorded is None or _compared(recorded) != _compared(planned.config):
+            faults.append("it is the recording of another match: its configuration is not that of the plan")
+        again = None if has_inputs_only(planned.config) else measured(path, planned.identity)
+        chain = again.chain if again is not None else _last_chain(path)
+    except TouchlineError as error:
+        return 0, [str(error)], None
+    if chain != outcome.chain:
+        faults.append(f"its hash chain ends with {chain}, that of the table with {outcome.chain}")
+    if again is not None and again.goals != outcome.goals:
+        faults.append(f"{_score(again.goals)} is recorded, and {_score(outcome.goals)} in the table")
+    elif again is not None and isinstance(outcome, Played) and again.figures != outcome.figures:
+        faults.append("its figures are not those of its recording, such as cards and penalties")
+    return ticks, faults, again
+
+
+def _compared(config: MatchConfig) -> dict[str, Any]:
+    return config.model_dump(exclude={"record", "patience"})
+
+
+def _simulated(path: Path) -> tuple[int, list[str]]:
+    """The number of ticks that were simulated again, and the first that differs."""
+    verdict = verify(path)
+    if verdict.difference is not None:
+        why = f"tick {verdict.difference.tick} is the first that differs: {verdict.difference.why}"
+        return verdict.ticks, [why]
+    if not verdict.identical:
+        return verdict.ticks, ["; ".join(verdict.contradictions) or "not all of its ticks could be compared"]
+    return verdict.ticks, []
+
+
+def _check_again(planned: PlannedMatch, outcome: Result, poll: Poll) -> tuple[int, list[str], Played | None]:
+    """Play a match again that has left no recording."""
+    again = play(replace(planned, logs=None), poll)
+    if isinstance(again, Failed):
+        return 0, [f"played again, it failed: {again.reason}"], None
+    if again.chain == outcome.chain and again.goals == outcome.goals:
+        return 0, [], again
+    faults = [f"played again, it ended {_score(again.goals)}, and {_score(outcome.goals)} is in the table"]
+    if again.chain != outcome.chain:
+        faults.append(f"played again, it was another match: its hash chain ends with {again.chain}")
+    return 0, faults, again
+
+
+def _last_chain(path: Path) -> str:
+    last = ""
+    for _, message in open_recording(path).decoded(APPLIED.key):
+        assert isinstance(message, Applied)
+        last = message.chain
+    return last
+
+
+def _score(goals: Mapping[Side, int]) -> str:
+    return f"{goals[Side.CYAN]} : {goals[Side.MAGENTA]}"

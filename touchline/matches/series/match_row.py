@@ -1,0 +1,106 @@
+"""The result of one match of a series, as plain numbers."""
+
+from dataclasses import dataclass
+
+from recordings.stats.figures import MatchFigures, SideFigures
+from touchline.matches.engine.outcome import Failed, Outcome, Played
+from touchline.matches.series.plan import SeriesMatch
+
+
+@dataclass(frozen=True, slots=True)
+class TeamRow:
+    """The figures of one team in a match, in m and s."""
+
+    goals: int
+    passes: int
+    passes_completed: int
+    shots: int
+    shots_on_goal: int
+    saves: int
+    fouls: int
+    cards: int
+    possession_s: float
+    field_robots: int
+    """Robots without the goalkeeper."""
+    field_distance: float
+    """Sum of their ways while the game clock ran, in m."""
+
+
+@dataclass(frozen=True, slots=True)
+class MatchRow:
+    """A match that was played; times in s of simulated time."""
+
+    number: int
+    identity: str
+    seed: int
+    swapped: bool
+    """Whether the first team played in magenta."""
+    teams: tuple[TeamRow, TeamRow]
+    """The first team and the second."""
+    playing_time: float
+    """Game clock at the end less that at the beginning."""
+    in_play_s: float
+    crowded_s: float
+    longest_crowd_s: float
+    longest_stuck_s: float
+    chain: str
+    """The hash chain over all states: equal for equal matches."""
+
+
+@dataclass(frozen=True, slots=True)
+class FailedMatch:
+    """A match that was not played to its end."""
+
+    number: int
+    identity: str
+    seed: int
+    swapped: bool
+    reason: str
+    """One line that names robot, tick, file and line where they are known."""
+
+
+Row = MatchRow | FailedMatch
+
+
+def row_of(match: SeriesMatch, outcome: Outcome) -> Row:
+    """The row of a match that ended so."""
+    if isinstance(outcome, Failed):
+        return FailedMatch(match.number, outcome.identity, match.seed, match.swapped, outcome.reason)
+    return _played_row(match, outcome)
+
+
+def _played_row(match: SeriesMatch, played: Played) -> MatchRow:
+    figures = played.figures
+    first, second = (_team_row(figures, figures.sides[side]) for side in match.sides)
+    return MatchRow(
+        number=match.number,
+        identity=played.identity,
+        seed=match.seed,
+        swapped=match.swapped,
+        teams=(first, second),
+        playing_time=played.playing_time,
+        in_play_s=figures.in_play_s or 0.0,
+        crowded_s=figures.crowded_s or 0.0,
+        longest_crowd_s=figures.longest_crowd_s or 0.0,
+        longest_stuck_s=max((robot.longest_stuck_s for robot in figures.robots), default=0.0),
+        chain=played.chain,
+    )
+
+
+def _team_row(figures: MatchFigures, side: SideFigures) -> TeamRow:
+    name = next(one for one, of_side in figures.sides.items() if of_side is side)
+    field = [robot for robot in figures.robots if robot.side == name and not robot.keeper]
+    kicks = side.kicks
+    return TeamRow(
+        goals=side.goals or 0,
+        passes=kicks.passes if kicks is not None else 0,
+        passes_completed=kicks.passes_completed if kicks is not None else 0,
+        shots=kicks.shots if kicks is not None else 0,
+        shots_on_goal=kicks.shots_on_goal if kicks is not None else 0,
+        saves=side.saves or 0,
+        fouls=sum(side.fouls.values()),
+        cards=sum(side.cards.values()),
+        possession_s=side.possession_s or 0.0,
+        field_robots=len(field),
+        field_distance=sum(robot.clock_distance for robot in field),
+    )

@@ -1,0 +1,117 @@
+"""Estimates with intervals, paired differences and effect sizes, by scipy.
+
+The unit is a seed: a seed's matches in a cell, one or both sides, are averaged first, because they share all random
+numbers. Cells are compared seed by seed.
+"""
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import pandas as pd
+from scipy import stats
+
+from touchline.matches.study.study_config import Study
+
+LEVEL = 0.95
+"""Share of intervals that contain the true value."""
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """A mean over seeds, and its interval by Student's t."""
+
+    value: float
+    low: float | None
+    """None where there is no interval: fewer than two seeds, or equal values in all of them."""
+    high: float | None
+    seeds: int
+
+    @property
+    def width(self) -> float | None:
+        """`high` less `low`."""
+        return None if self.low is None or self.high is None else self.high - self.low
+
+    @property
+    def contains_zero(self) -> bool | None:
+        """Whether 0 is in the interval; None without an interval."""
+        return None if self.low is None or self.high is None else self.low <= 0 <= self.high
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A difference from a reference, seed by seed."""
+
+    label: str
+    """What is compared."""
+    reference: str
+    """What it is compared with."""
+    estimate: Estimate
+    effect_size: float | None
+    """Mean difference divided by the standard deviation of the seeds' differences (Cohen's d_z)."""
+    p: float | None
+    """Probability of a difference at least as large without any effect, by the paired t-test."""
+    matches: int
+    """Matches that were compared."""
+
+
+def estimate_of(values: "pd.Series[float]") -> Estimate:
+    """The mean of independent values with its interval."""
+    values = values.dropna()
+    if values.empty:
+        return Estimate(float("nan"), None, None, 0)
+    if values.nunique() < 2:
+        return Estimate(float(values.mean()), None, None, len(values))
+    interval = stats.ttest_1samp(values, 0.0).confidence_interval(LEVEL)
+    return Estimate(float(values.mean()), float(interval.low), float(interval.high), len(values))
+
+
+def seed_means(table: pd.DataFrame, response: str, study: Study) -> pd.DataFrame:
+    """One row a seed, one column a cell: the mean of the matches of the seed in the cell.
+
+    A seed of which a match is missing in a cell, or does not show the response, has no value in it.
+    """
+    groups = table.groupby(["seed", "cell"])[response]
+    whole = groups.count() == (2 if study.both_sides else 1)
+    return groups.mean().where(whole).unstack("cell")
+
+
+def comparison_of(difference: "pd.Series[float]", label: str, reference: str, matches: int) -> Comparison:
+    """The comparison of these differences, one of each seed, with 0; `matches` were played of each seed."""
+    difference = difference.dropna()
+    estimate = estimate_of(difference)
+    if estimate.width is None:
+        return Comparison(label, reference, estimate, None, None, matches * len(difference))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)  # loss of precision would be hidden otherwise
+        p = float(stats.ttest_1samp(difference, 0.0).pvalue)
+    effect_size = float(difference.mean() / difference.std())
+    return Comparison(label, reference, estimate, effect_size, p, matches * len(difference))
+
+
+def adjusted(comparisons: Sequence[Comparison]) -> list[float | None]:
+    """The p-values, adjusted for their number by Benjamini and Hochberg's procedure."""
+    known = [one.p for one in comparisons if one.p is not None]
+    each = iter(stats.false_discovery_control(known).tolist() if known else [])
+    return [None if one.p is None else next(each) for one in comparisons]
+
+
+def widest(table: pd.DataFrame, study: Study) -> float | None:
+    """Width of the widest interval of the primary response: of the differences, or of the mean of the only cell.
+
+    None if one of them has no interval.
+    """
+    if table.empty or study.primary not in table:
+        return None
+    means = seed_means(table, study.primary, study)
+    first, *others = means.columns
+    compared = [means[cell] - means[first] for cell in others] or [means[first]]
+    estimates = [estimate_of(values) for values in compared]
+    widths = [one.width for one in estimates if one.width is not None]
+    return max(widths) if len(widths) == len(estimates) else None
+
+
+def is_narrow(table: pd.DataFrame, study: Study, limit: float) -> bool:
+    """Whether the widest interval of the primary response is at most this wide."""
+    width = widest(table, study)
+    return width is not None and width <= limit

@@ -1,0 +1,84 @@
+"""Which comparisons a study makes of a response: levels of factors, cells, and the two teams."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pandas as pd
+
+from touchline.matches.series.plan import team_names
+from touchline.matches.study.analysis import Comparison, comparison_of, seed_means
+from touchline.matches.study.cells import level_text
+from touchline.matches.study.match_figures import DIFFERENCE
+from touchline.matches.study.study_plan import StudyPlan
+
+
+@dataclass(frozen=True, slots=True)
+class ComparisonGroup:
+    """Comparisons that belong together: one plot of a report."""
+
+    title: str
+    comparisons: list[Comparison]
+    is_answer: bool
+    """Whether they answer the question of the study; the others are details."""
+
+
+def comparison_groups(plan: StudyPlan, table: pd.DataFrame, response: str) -> list[ComparisonGroup]:
+    """All comparisons of a response; groups without one are left out."""
+    means = seed_means(table, response, plan.study)
+    effects = list(_main_effects(plan, means))
+    cells = _cells_with_first(plan, means)
+    groups = [*effects, ComparisonGroup(f"Cells, against {plan.cells[0].label}", cells, is_answer=not effects)]
+    if response.endswith(DIFFERENCE):
+        teams = _teams(plan, means)
+        groups.append(ComparisonGroup("First team against second", teams, is_answer=len(plan.cells) == 1))
+    return [group for group in groups if group.comparisons]
+
+
+def answers(plan: StudyPlan, table: pd.DataFrame, response: str) -> list[Comparison]:
+    """The comparisons of a response that answer the question of the study."""
+    return [one for group in comparison_groups(plan, table, response) if group.is_answer for one in group.comparisons]
+
+
+def _sides(plan: StudyPlan) -> int:
+    return 2 if plan.study.both_sides else 1
+
+
+def _cells_with_first(plan: StudyPlan, means: pd.DataFrame) -> list[Comparison]:
+    """Each cell against the first one that was played."""
+    first, *others = map(int, means.columns)
+    labels = [cell.label for cell in plan.cells]
+    return [
+        comparison_of(means[cell] - means[first], labels[cell - 1], labels[first - 1], 2 * _sides(plan))
+        for cell in others
+    ]
+
+
+def _teams(plan: StudyPlan, means: pd.DataFrame) -> list[Comparison]:
+    """The first team against the second in each cell."""
+    found = []
+    for number in map(int, means.columns):
+        cell = plan.cells[number - 1]
+        first, second = team_names(cell.config)
+        where = f" ({cell.label})" if cell.levels else ""
+        found.append(comparison_of(means[number], first, f"{second}{where}", _sides(plan)))
+    return found
+
+
+def _main_effects(plan: StudyPlan, means: pd.DataFrame) -> Iterator[ComparisonGroup]:
+    """Each level of a factor against the first one, averaged over all other factors; for two factors or more."""
+    if len(plan.study.factors) < 2:
+        return
+    for key, (baseline, *others) in plan.study.factors.items():
+        averages = {
+            level_text(level): means.reindex(
+                columns=[number for number, cell in enumerate(plan.cells, start=1) if cell.levels[key] == level]
+            ).mean(axis=1, skipna=False)
+            for level in (baseline, *others)
+        }
+        first = level_text(baseline)
+        matches = 2 * _sides(plan) * len(plan.cells) // (1 + len(others))
+        compared = [
+            comparison_of(averages[name] - averages[first], f"{key} = {name}", f"{key} = {first}", matches)
+            for name in map(level_text, others)
+        ]
+        yield ComparisonGroup(f"{key}, averaged over all other factors", compared, is_answer=True)

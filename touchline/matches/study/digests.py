@@ -1,0 +1,64 @@
+"""Digests of files and code, and the versions of all that computes a result."""
+
+import hashlib
+import json
+import platform
+from collections.abc import Iterable
+from pathlib import Path
+
+from robot_agent.user_code import OWN_PACKAGES
+from schemas.process.installed import installed_version
+from schemas.side import Side
+from schemas.wire.message import VERSION
+from touchline.launch.team_code import team_code
+from touchline.matches.study.cells import Cell
+
+_PACKAGES = ("touchline", "pybullet", "numpy", "scipy", "pandas", "pyarrow", "matplotlib", "msgspec", "pydantic")
+_LIBRARY = Path(__file__).resolve().parents[3]
+
+
+def file_digest(path: Path) -> str:
+    """The digest of a file's bytes."""
+    return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
+
+
+def code_digest(paths: Iterable[Path]) -> str:
+    """One digest of files and of all Python files in folders, with their names."""
+    whole = hashlib.blake2b(digest_size=16)
+    for path in paths:
+        files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
+        for file in files:
+            whole.update(f"{file.relative_to(path.parent).as_posix()} {file_digest(file)}\n".encode())
+    return whole.hexdigest()
+
+
+def library_digest() -> str:
+    """The digest of this library's code, shipped teams included."""
+    return code_digest(_LIBRARY / package for package in OWN_PACKAGES)
+
+
+def team_digests(cells: Iterable[Cell], brain_folder: Path | None) -> dict[str, str]:
+    """Program of a team → the digest of its own files, for teams that are no part of this library."""
+    found = dict[str, str]()
+    for cell in cells:
+        for side in Side:
+            team, code = cell.config.team(side), team_code(cell.config, side, brain_folder)
+            if code.own:
+                found[team.brain or " ".join(team.program or ())] = code_digest(code.own)
+    return dict(sorted(found.items()))
+
+
+def versions(engine: dict[str, str]) -> dict[str, object]:
+    """The versions of this library, of Python, of packages and of what computes the world."""
+    return {
+        "protocol": VERSION,
+        "python": platform.python_version(),
+        "machine": platform.machine(),
+        "packages": {package: installed_version(package) for package in _PACKAGES},
+        "engine": engine,
+    }
+
+
+def as_text(content: object) -> str:
+    """JSON with one key a line."""
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"

@@ -1,0 +1,54 @@
+"""A user's functions of a recording: responses beside the figures of `touchline stats`."""
+
+import math
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from recordings.reading.recording import open_recording
+from robot_agent.brain_folders import BrainFolders
+from schemas.errors import TouchlineError
+from touchline.matches.study.match_figures import Value
+
+
+def load_functions(paths: Mapping[str, str], folder: Path | None) -> dict[str, Callable[..., Any]]:
+    """Name of a response → the function `module:function`, its module looked for as those of brains are.
+
+    Raises:
+        TouchlineError: there is no such function.
+    """
+    BrainFolders(folder).add_to_module_path()
+    return {name: _function(path) for name, path in paths.items()}
+
+
+def measure(functions: Mapping[str, Callable[..., Any]], path: Path) -> dict[str, Value]:
+    """The values of all functions for a recording.
+
+    Raises:
+        TouchlineError: a function raises, or returns anything but a number.
+    """
+    return {name: _value(name, function, path) for name, function in functions.items()}
+
+
+def _function(path: str) -> Callable[..., Any]:
+    module, _, name = path.partition(":")
+    try:
+        found = getattr(import_module(module), name, None)
+    except Exception as error:
+        raise TouchlineError(f"function {path}: {type(error).__name__}: {error}") from None
+    if not callable(found):
+        raise TouchlineError(f"function {path}: {module} has no function {name}")
+    function: Callable[..., Any] = found
+    return function
+
+
+def _value(name: str, function: Callable[..., Any], path: Path) -> Value:
+    try:
+        value = function(open_recording(path))
+    except Exception as error:
+        reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
+        raise TouchlineError(f"function {name}, recording {path}: {reason}; mend it and run the study again") from None
+    if value is None or (isinstance(value, int | float) and math.isfinite(value)):
+        return value
+    raise TouchlineError(f"function {name} returned {value!r}; return a finite number, or None")

@@ -1,0 +1,49 @@
+"""The results of a study as a table: one row a match."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from touchline.matches.engine.outcome import Outcome, Played
+from touchline.matches.study.cells import level_text
+from touchline.matches.study.match_figures import by_team, flat_figures
+
+if TYPE_CHECKING:
+    from touchline.matches.study.study_plan import StudyPlan
+
+KEYS = ("cell", "seed", "swapped", "identity", "chain")
+"""Columns before the levels of the factors."""
+LEVEL = "level:"
+"""Prefix of the columns of the factors' levels."""
+_COUNTS = (".fouls.", ".cards.", ".restarts.")
+"""Parts of names of columns in which a missing value is 0: nothing of that name was counted in the match."""
+
+
+def result_table(plan: "StudyPlan", seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> pd.DataFrame:
+    """The matches of these seeds that were played, in the order of the plan. Cells are counted from 1."""
+    rows = []
+    for match in plan.matches(seeds):
+        outcome = outcomes.get(match.identity)
+        if not isinstance(outcome, Played):
+            continue
+        keys = (match.cell + 1, match.seed, match.swapped, match.identity, outcome.chain)
+        levels = plan.cells[match.cell].levels
+        rows.append(
+            dict(zip(KEYS, keys, strict=True))
+            | {
+                f"{LEVEL}{key}": level if isinstance(level, bool | int | float) else level_text(level)
+                for key, level in levels.items()
+            }
+            | by_team(flat_figures(outcome.figures), match.sides)
+            | dict(plan.measured.get(match.identity, {}))
+        )
+    table = pd.DataFrame(rows, columns=None if rows else list(KEYS))
+    leading = [name for name in table.columns if name in KEYS or name.startswith(LEVEL)]
+    table = table[[*leading, *sorted(name for name in table.columns if name not in leading)]]
+    for name in table.columns:
+        if name.startswith(LEVEL) and table[name].map(type).nunique() > 1:
+            table[name] = table[name].map(level_text)  # a column has one type
+        elif any(part in name for part in _COUNTS):
+            table[name] = table[name].fillna(0)
+    return table

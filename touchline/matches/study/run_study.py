@@ -1,0 +1,125 @@
+"""Runs a study to its end on an executor, and writes results and report."""
+
+import json
+import shutil
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from schemas.errors import MatchFailedError, TouchlineError
+from touchline.matches.engine.outcome import Failed, Outcome, Played
+from touchline.matches.engine.outcomes import Outcomes
+from touchline.matches.engine.plan import Plan
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.run import Remote, Reporter, Store, run_plan
+from touchline.matches.engine.store import FILE, RunStore
+from touchline.matches.study.digests import as_text, library_digest, team_digests, versions
+from touchline.matches.study.recording_functions import load_functions, measure
+from touchline.matches.study.report import report_of
+from touchline.matches.study.result_table import result_table
+from touchline.matches.study.study_folder import REPORT, VERSIONS, write_digests, write_plan, write_results
+from touchline.matches.study.study_plan import StudyPlan
+from touchline.matches.study.team_checks import check_study_teams
+
+_CODE = "code"
+"""Name of the document with the digests of all code, in the state of a run."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudyResult:
+    """What a study came to."""
+
+    seeds: list[int]
+    played: int
+    failed: list[Failed]
+
+
+def run_study(
+    plan: StudyPlan,
+    folder: Path,
+    executor: Executor,
+    report: Reporter,
+    *,
+    fresh: bool = False,
+    remote: Remote | None = None,
+) -> StudyResult:
+    """Play all matches of a study that have no outcome in its folder, and write what the folder is to have.
+
+    Raises:
+        TouchlineError: a team or a function cannot be loaded, or the folder has the results of another plan.
+        MatchFailedError: no match was played to its end.
+    """
+    functions = load_functions(plan.study.functions, plan.brain_folder)
+    engine = check_study_teams(plan)
+    code = {"touchline": library_digest(), **team_digests(plan.cells, plan.brain_folder)}
+    if fresh:
+        (folder / FILE).unlink(missing_ok=True)
+    write_plan(folder, plan)
+    (folder / VERSIONS).write_text(as_text(versions(engine)), "utf-8")
+    with RunStore(folder) as store:
+        _check_code(store, code)
+        outcomes = play_measured(plan, plan, store, executor, functions, report, remote)
+    seeds = plan.seeds_due(outcomes)
+    failed = _failed(plan, seeds, outcomes)
+    if len(failed) == len(plan.matches(seeds)):
+        raise MatchFailedError(f"all {len(failed)} matches failed: {failed[0].reason}; mend it and run with --fresh")
+    table = result_table(plan, seeds, outcomes)
+    write_results(folder, table)
+    (folder / REPORT).write_text(report_of(plan, table, seeds, failed, versions(engine)), "utf-8")
+    write_digests(folder, seeds, code)
+    return StudyResult(seeds, len(table), failed)
+
+
+def play_measured(
+    study: StudyPlan,
+    due: Plan,
+    store: Store,
+    executor: Executor,
+    functions: Mapping[str, Callable[..., Any]],
+    report: Reporter,
+    remote: Remote | None = None,
+) -> Outcomes:
+    """Play all that is due, and apply the study's functions to each recording."""
+
+    def add(outcome: Outcome) -> None:
+        if isinstance(outcome, Played) and outcome.recording is not None:
+            study.measured[outcome.identity] = measure(functions, store.folder / outcome.recording)
+
+    class Measuring:
+        """Measures each recording as soon as it is there, and removes the logs of matches that were played."""
+
+        def planned(self, done: int, due: int) -> None:
+            """Show how many matches there are."""
+            report.planned(done, due)
+
+        def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+            """Measure a match, and show it."""
+            if functions:
+                add(outcome)
+            if isinstance(outcome, Played) and planned.logs is not None:
+                shutil.rmtree(planned.logs, ignore_errors=True)
+            report.ended(planned, outcome)
+
+    if functions:
+        for outcome in store.outcomes().values():
+            add(outcome)
+    return run_plan(due, executor, store, Measuring(), remote=remote)
+
+
+def _check_code(store: RunStore, code: Mapping[str, str]) -> None:
+    """Check that no result of other code is in the folder."""
+    then = json.loads(store.document(_CODE) or "{}")
+    changed = [name for name, digest in code.items() if name in then and then[name] != digest]
+    if changed and store.outcomes():
+        raise TouchlineError(
+            f"{store.folder} has results of other code of {changed[0]}; play all again with --fresh, or give another "
+            "folder with --into"
+        )
+    store.set_document(_CODE, as_text(dict(code)))
+
+
+def _failed(plan: StudyPlan, seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> list[Failed]:
+    of_plan = (outcomes[match.identity] for match in plan.matches(seeds))
+    return [outcome for outcome in of_plan if isinstance(outcome, Failed)]

@@ -1,0 +1,141 @@
+"""The plan of a study: which matches are due, as a pure function of the outcomes so far."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import count, islice
+from pathlib import Path
+
+from schemas.config.match_config import MatchConfig
+from schemas.side import Side
+from touchline.matches.engine.inputs_only import with_inputs_only
+from touchline.matches.engine.outcome import Outcome
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.series.plan import with_sides_swapped
+from touchline.matches.study.analysis import is_narrow
+from touchline.matches.study.cells import Cell
+from touchline.matches.study.match_figures import Value
+from touchline.matches.study.result_table import result_table
+from touchline.matches.study.study_config import Study
+
+RECORDINGS = "recordings"
+"""The folder of the recordings, in that of a study."""
+LOGS = "logs"
+"""The folder of the logs of matches that failed, in that of a study."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudyMatch:
+    """One match of a study."""
+
+    cell: int
+    """Number of its cell, from 0."""
+    seed: int
+    swapped: bool
+    """Whether the first team plays in magenta."""
+    config: MatchConfig
+    identity: str
+    """A digest of the configuration: equal for matches that are played alike."""
+
+    @property
+    def sides(self) -> tuple[Side, Side]:
+        """The sides of the first and the second team."""
+        return (Side.MAGENTA, Side.CYAN) if self.swapped else (Side.CYAN, Side.MAGENTA)
+
+    @property
+    def title(self) -> str:
+        """Cell, seed and sides in a few words."""
+        return f"cell {self.cell + 1}, seed {self.seed}{', sides swapped' if self.swapped else ''}"
+
+
+@dataclass(frozen=True)
+class StudyPlan:
+    """A study, and its cells with their matches."""
+
+    study: Study
+    cells: Sequence[Cell]
+    brain_folder: Path | None = None
+    """Where brains and functions are looked for first."""
+    folder: Path | None = None
+    """The folder of the study, which gets recordings, where it wants any, and logs; None for neither."""
+    measured: dict[str, Mapping[str, Value]] = field(default_factory=dict, repr=False, compare=False)
+    """Identity of a match → values of the study's functions."""
+    _swapped: dict[int, MatchConfig] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _of_seeds: dict[int, tuple[StudyMatch, ...]] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _planned: dict[str, PlannedMatch] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _narrow: dict[int, bool] = field(init=False, default_factory=dict, repr=False, compare=False)
+    """Number of seeds, all of which were played → whether the interval is narrow enough."""
+
+    def due(self, outcomes: Mapping[str, Outcome]) -> list[PlannedMatch]:
+        """All matches that can be played now and have no outcome; none when the study is complete."""
+        matches = self.matches(self.seeds_due(outcomes))
+        distinct = {one.identity: one for one in matches}
+        return [self.planned(one) for identity, one in distinct.items() if identity not in outcomes]
+
+    def planned(self, match: StudyMatch) -> PlannedMatch:
+        """The match as it is played."""
+        if match.identity not in self._planned:
+            wants = self.folder is not None and (self.study.record or self.study.functions)
+            self._planned[match.identity] = PlannedMatch(
+                with_inputs_only(match.config) if self.study.record == "inputs" else match.config,
+                way=self.study.way,
+                brain_folder=self.brain_folder,
+                recording=self.folder / recording_name(match.identity) if wants and self.folder is not None else None,
+                logs=self.folder / LOGS / match.identity if self.folder is not None else None,
+                label=match.title,
+            )
+        return self._planned[match.identity]
+
+    def seeds_due(self, outcomes: Mapping[str, Outcome]) -> list[int]:
+        """The seeds to be played, in view of the outcomes so far.
+
+        With `until_interval`, as many seeds as at first are added whenever all are played and the interval is too wide.
+        """
+        first = self.study.first_seeds
+        if self.study.until_interval is None:
+            return first
+        number, most = len(first), max(self.study.most_seeds, len(first))
+        while number < most:
+            seeds = self._all_seeds[:number]
+            matches = self.matches(seeds)
+            if any(one.identity not in outcomes for one in matches):
+                break
+            if number not in self._narrow:
+                table = result_table(self, seeds, outcomes)
+                self._narrow[number] = is_narrow(table, self.study, self.study.until_interval)
+            if self._narrow[number]:
+                break
+            number = min(most, number + len(first))
+        return self._all_seeds[:number]
+
+    def matches(self, seeds: Sequence[int]) -> list[StudyMatch]:
+        """The matches of these seeds, seed by seed, so that pairs are complete early."""
+        for seed in seeds:
+            if seed not in self._of_seeds:
+                self._of_seeds[seed] = tuple(self._of_seed(seed))
+        return [match for seed in seeds for match in self._of_seeds[seed]]
+
+    def _of_seed(self, seed: int) -> Iterator[StudyMatch]:
+        for number, cell in enumerate(self.cells):
+            for swapped in (False, True) if self.study.both_sides else (False,):
+                config = self._config(number, cell, swapped=swapped).model_copy(update={"seed": seed})
+                yield StudyMatch(number, seed, swapped, config, PlannedMatch(config).identity)
+
+    def _config(self, number: int, cell: Cell, *, swapped: bool) -> MatchConfig:
+        if not swapped:
+            return cell.config
+        if number not in self._swapped:
+            self._swapped[number] = with_sides_swapped(cell.config)
+        return self._swapped[number]
+
+    @cached_property
+    def _all_seeds(self) -> list[int]:
+        """The seeds of the study file, and those that are added to them in order."""
+        first = self.study.first_seeds
+        further = (seed for seed in count(max(first) + 1))
+        return [*first, *islice(further, max(0, self.study.most_seeds - len(first)))]
+
+
+def recording_name(identity: str) -> str:
+    """Path of the recording of a match in the folder of its study."""
+    return f"{RECORDINGS}/{identity}.mcap"

@@ -1,0 +1,196 @@
+"""Checks a study that was played: digests, results and recordings, and matches that are simulated again."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import pandas as pd
+
+from schemas.side import Side
+from touchline.matches.engine.outcome import Outcome, Played
+from touchline.matches.engine.outcomes import Outcomes
+from touchline.matches.engine.plan import ListPlan
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.run import run_plan
+from touchline.matches.engine.store import MemoryStore
+from touchline.matches.engine.verify import Depth, MatchCheck, sampled, verify_run
+from touchline.matches.study.digests import file_digest, library_digest, team_digests
+from touchline.matches.study.match_figures import FIRST, SECOND
+from touchline.matches.study.recording_functions import load_functions, measure
+from touchline.matches.study.result_table import result_table
+from touchline.matches.study.study_folder import CSV, DIGESTS, PARQUET, StoredStudy, csv_bytes, read_study
+from touchline.matches.study.study_plan import StudyMatch, recording_name
+
+Checked = Callable[[MatchCheck], None]
+"""Called with what was found about each match."""
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What was found."""
+
+    faults: list[str]
+    """One line for each thing that does not fit; empty if all fits."""
+    notes: list[str]
+    """What differs without being a fault, such as another version of this library."""
+    played_again: int
+    """Matches that were simulated again from their recordings, or played again."""
+    byte_identical: bool | None
+    """Whether the whole table of results is the same to the byte; None if not all figures were computed again."""
+
+
+@dataclass(frozen=True, slots=True)
+class ResultRow:
+    """What the table of results says of a match."""
+
+    chain: str
+    goals: Mapping[Side, int]
+    recording: str | None = None
+    """Path of its recording in the folder of the study; None to play the match again."""
+
+
+def verify_study(
+    folder: Path,
+    executor: Executor,
+    sample: int | None,
+    brain_folder: Path | None,
+    checked: Checked,
+    *,
+    from_recordings: bool = True,
+) -> Verdict:
+    """Check the files of a study, and simulate a random sample of its matches again, or all of them.
+
+    Args:
+        folder: that of the study.
+        executor: where matches are simulated.
+        sample: number of matches; None for all.
+        brain_folder: where brains and functions are looked for; None as then.
+        checked: is told of each match.
+        from_recordings: simulate a match from its recording, where there is one, instead of playing it again.
+
+    Raises:
+        TouchlineError: the folder has no study that was played.
+    """
+    stored = read_study(folder)
+    home = brain_folder or stored.plan.brain_folder
+    functions = load_functions(stored.plan.study.functions, home)
+    faults = [*_file_faults(stored), *_table_faults(stored)]
+    matches = {match.identity: match for match in stored.plan.matches(stored.seeds)}
+    rows = dict(_rows(stored, matches.values(), from_recordings=from_recordings))
+    with TemporaryDirectory() as scratch:
+        plan = replace(stored.plan, brain_folder=home, folder=Path(scratch), measured={})
+        chosen = sampled([plan.planned(match) for match in matches.values()], sample)
+        outcomes = Outcomes()
+        for check in _checks(chosen, rows, folder, executor, Depth(recordings=bool(functions))):
+            faults += [f"{check.label}: {fault}" for fault in check.faults]
+            if check.again is not None:
+                outcomes[check.identity] = check.again
+                if functions and check.again.recording is not None:
+                    plan.measured[check.identity] = measure(functions, Path(check.again.recording))
+            checked(check)
+        again = result_table(plan, stored.seeds, outcomes)
+    newer = [name for name in again.columns if name not in stored.table.columns]
+    again = again.drop(columns=newer)
+    faults += [
+        fault
+        for planned in chosen
+        if planned.identity in rows and planned.identity in outcomes
+        for fault in _figure_faults(matches[planned.identity], stored.table, again)
+    ]
+    whole = None
+    if sample is None and len(outcomes) == len(rows):
+        whole = csv_bytes(again) == (folder / CSV).read_bytes()
+        if not whole and not faults:
+            faults.append(f"{CSV} differs from the table of the matches that were simulated again")
+    notes = [*_notes(stored, home), *(f"{name} is a figure that the study does not have" for name in newer)]
+    return Verdict(faults, notes, len(chosen), whole)
+
+
+def _rows(
+    stored: StoredStudy, matches: Iterable[StudyMatch], *, from_recordings: bool
+) -> Iterator[tuple[str, ResultRow]]:
+    """The identities of the matches that have a row, and what it says."""
+    known = set(stored.table["identity"])
+    for match in matches:
+        if match.identity not in known:
+            continue
+        row, path = _row(stored.table, match), recording_name(match.identity)
+        goals = pd.to_numeric(pd.Series([row.get(f"{team}.goals") for team in (FIRST, SECOND)]), errors="coerce")
+        counted = dict(zip(match.sides, goals.fillna(-1).astype(int), strict=True))
+        recorded = from_recordings and (stored.folder / path).exists()
+        yield match.identity, ResultRow(str(row["chain"]), counted, path if recorded else None)
+
+
+def _checks(
+    chosen: Sequence[PlannedMatch], rows: Mapping[str, ResultRow], folder: Path, executor: Executor, depth: Depth
+) -> Iterator[MatchCheck]:
+    """Check matches with a row against it; a match without one has failed, and should fail again."""
+    yield from verify_run([one for one in chosen if one.identity in rows], rows, folder, executor, lambda _: depth)
+    failed = {one.identity: one for one in chosen if one.identity not in rows}
+
+    class Silent:
+        """Shows nothing."""
+
+        def planned(self, done: int, due: int) -> None:
+            """Nothing to show."""
+
+        def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+            """Nothing to show."""
+
+    with TemporaryDirectory() as scratch:
+        again = run_plan(ListPlan(tuple(failed.values())), executor, MemoryStore(Path(scratch)), Silent())
+    for identity, outcome in again.items():
+        faults = ("has no result, and was played to its end again",) if isinstance(outcome, Played) else ()
+        yield MatchCheck(identity, failed[identity].label, faults)
+
+
+def _file_faults(stored: StoredStudy) -> Iterator[str]:
+    for name, digest in stored.digests["files"].items():
+        path = stored.folder / name
+        if not path.exists():
+            yield f"{name} is missing, and is listed in {DIGESTS}"
+        elif file_digest(path) != digest:
+            yield f"{name} was changed after the study: its digest is not that in {DIGESTS}"
+
+
+def _table_faults(stored: StoredStudy) -> Iterator[str]:
+    """CSV and Parquet have the same values, and each row is of a match of the plan."""
+    path = stored.folder / PARQUET
+    if path.exists() and csv_bytes(pd.read_parquet(path)) != (stored.folder / CSV).read_bytes():
+        yield f"{PARQUET} and {CSV} have different values"
+    planned = {match.identity for match in stored.plan.matches(stored.seeds)}
+    for row in stored.table.itertuples():
+        if row.identity not in planned:
+            yield f"{CSV}: cell {row.cell}, seed {row.seed}: {row.identity} is no match of the plan"
+
+
+def _figure_faults(match: StudyMatch, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
+    """The figures of a match are those of the table; its hash chain is not compared here."""
+    stored_row, new = _row(rows, match), _row(again, match)
+    different = [name for name in new.index if name != "chain" and not _equal(stored_row.get(name), new[name])]
+    if different:
+        name = different[0]
+        more = f", and {len(different) - 1} more figures" if len(different) > 1 else ""
+        yield f"{match.title}: {name} is {stored_row.get(name)} in {CSV} and {new[name]} when simulated again{more}"
+
+
+def _row(table: pd.DataFrame, match: StudyMatch) -> "pd.Series[Any]":
+    is_row = (table["identity"] == match.identity) & (table["swapped"] == match.swapped)
+    return table[is_row].iloc[0]
+
+
+def _equal(one: Any, other: Any) -> bool:
+    return bool(one == other or (pd.isna(one) and pd.isna(other)) or str(one) == str(other))
+
+
+def _notes(stored: StoredStudy, home: Path | None) -> list[str]:
+    here = {"touchline": library_digest(), **team_digests(stored.plan.cells, home)}
+    then = stored.digests["code"]
+    return [
+        f"the code of {name} is not that of the study (digest {here.get(name, 'none')}, then {digest})"
+        for name, digest in then.items()
+        if here.get(name) != digest
+    ]

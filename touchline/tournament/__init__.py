@@ -1,1 +1,0 @@
-"""A tournament: teams, a format and a table; the matches of its plan are played by `touchline.scheduling`."""
