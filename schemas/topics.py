@@ -16,7 +16,7 @@ from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.radio import Belief
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
-from schemas.messages.recorder import RecorderProgress, RecorderReply, RecorderRequest
+from schemas.messages.recorder import RecorderProgress
 from schemas.messages.referee_seat import SeatReply, SeatRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply, SceneRequest
@@ -304,17 +304,6 @@ RECORDER_PROGRESS = Topic(
     False,
     "progress of a recorder",
 )
-RECORDER_CONTROL = Topic(
-    "record/{name}/control",
-    RecorderRequest,
-    Party.OPERATOR,
-    (Party.RECORDER,),
-    "on demand",
-    Delivery.QUERY,
-    False,
-    "pauses, resumes or splits a recorder, takes a snapshot, or reports its state; refused with the reason",
-    reply=RecorderReply,
-)
 REPLAY_CONTROL = Topic(
     "replay/control",
     ReplayRequest,
@@ -365,7 +354,6 @@ TOPICS: dict[str, Topic] = {
     "record_batch": RECORD_BATCH,
     "record_batches": RECORD_BATCHES,
     "recorder_progress": RECORDER_PROGRESS,
-    "recorder_control": RECORDER_CONTROL,
     "replay_control": REPLAY_CONTROL,
     "alive": ALIVE,
 }

@@ -29,7 +29,6 @@ from touchline.commands import (
     parameters,
     player,
     record,
-    recorder,
     recover,
     replay,
     scene,
@@ -99,7 +98,6 @@ app.add_typer(coach.referee, name="referee", rich_help_panel=OPERATE)
 app.add_typer(scene.app, name="scene", rich_help_panel=OPERATE)
 app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
 app.command("drive", rich_help_panel=OPERATE)(drive.drive)
-app.add_typer(recorder.app, name="recorder", rich_help_panel=OPERATE)
 
 app.command("doctor", rich_help_panel=PROCESSES)(doctor.doctor)
 app.command("host", rich_help_panel=PROCESSES)(host.host)

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from recordings.container.key_selection import KeySelection
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import PresenceKind
 from schemas.bus.in_process_bus import SharedState
@@ -37,7 +37,7 @@ class MatchRecording:
         host, recorder = (medium.open_bus(config.name, clock) for clock in (self._clock, WallClock()))
         loss_counts = LossCounts()
         wanted = config.record
-        self._sink = open_sink(path, recorder.clock, config.name, loss_counts, viz=wanted.viz)
+        self._sink = FileSink(path, recorder.clock, config.name, loss_counts, viz=wanted.viz)
         host.declare_alive(PresenceKind.HOST, "host")
         setup = host.serve(SETUP)
         self._batches = BatchPublisher(host)

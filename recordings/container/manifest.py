@@ -56,7 +56,7 @@ class Manifest(Part):
     attached: dict[str, str] = {}
     """Attachment → blake2b of its content, hex."""
     made: str = "recorded"
-    """`recorded`, `snapshot: REASON`, or `filtered` for a copy of a part of a recording."""
+    """`recorded`, or `filtered` for a copy of a part of a recording."""
 
     @model_validator(mode="before")
     @classmethod
@@ -75,8 +75,6 @@ class EndReason(StrEnum):
     """The recorder was stopped before full time."""
     SPLIT = "split"
     """The recording continues in the next file."""
-    SNAPSHOT = "snapshot"
-    """The file holds the last seconds before a goal or a request."""
 
 
 class KeyCount(Part):
@@ -96,8 +94,6 @@ class KeyCount(Part):
     """How often a sender restarted its sequence numbers, or another sender began to count its own."""
     unstamped: int = 0
     """Messages without a sequence number, from a sender that does not use this library: their losses are unknown."""
-    left_out: int = 0
-    """Messages received while the recorder was paused."""
 
     def plus(self, other: "KeyCount") -> "KeyCount":
         """The counts of both."""

@@ -1,4 +1,4 @@
-"""The numbered files of one recording: their names, and which of them are kept."""
+"""The numbered files of one recording: their names."""
 
 import re
 from pathlib import Path
@@ -49,9 +49,3 @@ def check_free(path: Path) -> None:
     others = numbered_files(path)
     if others:
         raise TouchlineError(f"{others[0]}: already exists; give another name, or move the files away")
-
-
-def drop_oldest(files: list[Path], keep: int | None) -> None:
-    """Delete the oldest files until `keep` of them are left; with None, keep all."""
-    while keep is not None and len(files) > keep:
-        files.pop(0).unlink(missing_ok=True)

@@ -55,7 +55,7 @@ def record_faults(recording: Recording) -> list[str]:
     found: list[str] = []
     log_ns, before = -1, ""
     for recorded in islice(recording.messages(), recording.manifest.latched_count, None):
-        if recorded.log_ns < log_ns and not found and not _was_paused(recording.result):
+        if recorded.log_ns < log_ns and not found:
             found.append(
                 f"{recorded.key} {recorded.sequence} at {recorded.time:.9g} s follows {before} at {log_ns / 1e9:.9g} s"
             )
@@ -65,7 +65,7 @@ def record_faults(recording: Recording) -> list[str]:
             tracker = trackers[recorded.key] = SequenceTracker()
         tracker.add(recorded.stamp, len(recorded.payload))
     result = recording.result
-    if result is None or not result.keys or _was_paused(result):
+    if result is None or not result.keys:
         return found
     for key in sorted({*trackers, *result.keys}, key=natural_order):
         count = trackers[key].count() if key in trackers else KeyCount()
@@ -80,10 +80,6 @@ def record_faults(recording: Recording) -> list[str]:
             if getattr(count, name) != getattr(sealed, name)
         ]
     return found
-
-
-def _was_paused(result: Result | None) -> bool:
-    return result is not None and any(count.left_out for count in result.keys.values())
 
 
 def _of_match_file(recording: Recording) -> Iterator[str]:
@@ -137,8 +133,8 @@ def _of_setup(recording: Recording) -> Iterator[str]:
 
 def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
     """The counts in the result, and those of the file."""
-    if not result.keys or _was_paused(result) or recording.manifest.latched_count:
-        return  # of a repaired file, or with latched messages at its beginning or after a pause, which are in no count
+    if not result.keys or recording.manifest.latched_count:
+        return  # of a repaired file, or with latched messages at its beginning, which are in no count
     there = {channel.key: channel.messages for channel in recording.channels if channel.messages}
     for key in sorted({*there, *result.keys}, key=natural_order):
         sealed = result.keys.get(key, KeyCount()).messages
@@ -156,7 +152,7 @@ def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
 
 def _of_ending(result: Result, recording: Recording) -> Iterator[str]:
     """Score, phase and last tick in the result, and those of the last messages."""
-    if result.ended not in _ENDS or recording.manifest.made != "recorded" or _was_paused(result):
+    if result.ended not in _ENDS or recording.manifest.made != "recorded":
         return
     state: GameState | None = _last(recording, STATE.key)
     if state is not None:

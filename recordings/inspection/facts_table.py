@@ -32,7 +32,6 @@ def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "duration": f"{facts.duration:.2f} s simulated, from {facts.start:.2f} to {facts.end:.2f} s",
         "last tick": f"{facts.tick} at {facts.time:.2f} s" if facts.tick >= 0 else None,
         "messages": f"{facts.messages}, {facts.lost} lost, {facts.missed_before_start} sent before it began",
-        "paused": f"{facts.left_out} messages left out meanwhile" if facts.left_out else None,
         "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
         "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
         "made": facts.made if facts.made != "recorded" else None,

@@ -71,8 +71,6 @@ class RecordingFacts:
     messages: int
     lost: int
     missed_before_start: int
-    left_out: int
-    """Messages received while the recorder was paused."""
     part: int
     """Number of this file in a split recording, from 1."""
     latched_count: int
@@ -129,7 +127,6 @@ def facts_of(recording: Recording) -> RecordingFacts:
         messages=sum(count.messages for count in ending.keys.values()),
         lost=sum(count.lost for count in ending.keys.values()),
         missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
-        left_out=sum(count.left_out for count in ending.keys.values()),
         part=manifest.part,
         latched_count=manifest.latched_count,
         made=manifest.made,

@@ -1,1 +1,1 @@
-"""Records a running match from the bus: receives, reorders, counts losses, and writes files or snapshots."""
+"""Records a running match from the bus: receives, reorders, counts losses, and writes files."""

@@ -38,7 +38,6 @@ class LatchedMessages:
                     self._changes.append(before)
             newest[received.key] = logged
 
-    def messages(self, since_ns: int = 0) -> list[LoggedMessage]:
-        """The latched messages with their log times, oldest first, without those older than `since_ns`."""
-        every = [*self._changes, *self._newest.values()]
-        return sorted((logged for logged in every if logged[0] >= since_ns), key=lambda logged: logged[0])
+    def messages(self) -> list[LoggedMessage]:
+        """The latched messages with their log times, oldest first."""
+        return sorted([*self._changes, *self._newest.values()], key=lambda logged: logged[0])

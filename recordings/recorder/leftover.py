@@ -127,10 +127,6 @@ class Leftover:
         """Whether there are finished files, and none that is not."""
         return bool(self.files) and self.partial_file is None
 
-    def for_recorder(self, limits: FileLimits) -> "Leftover":
-        """What the successor begins with: nothing if it holds messages in memory, where they are lost."""
-        return self if limits.snapshot is None else Leftover()
-
     def release(self) -> None:
         """Leave the unfinished file as it is."""
         if self.partial_file is not None:

@@ -15,14 +15,14 @@ class LossCounts:
         self._trackers: dict[str, SequenceTracker] = {}
         self._before: dict[str, KeyCount] = {}
 
-    def add(self, batch: Iterable[LoggedMessage], *, left_out: bool = False) -> None:
-        """Add messages that are written, or, with `left_out`, skipped because the recorder is paused."""
+    def add(self, batch: Iterable[LoggedMessage]) -> None:
+        """Add messages that are written."""
         trackers = self._trackers
         for _, received in batch:
             tracker = trackers.get(received.key)
             if tracker is None:
                 tracker = trackers[received.key] = SequenceTracker()
-            tracker.add(received.stamp, len(received.payload), left_out)
+            tracker.add(received.stamp, len(received.payload))
 
     def for_this_file(self) -> dict[str, KeyCount]:
         """Key → its counts since the beginning of the current file, sorted."""

@@ -46,8 +46,6 @@ def _report(line: str) -> None:
 def closing_line(summary: RecordingSummary) -> str:
     """Files, counts and the reason of the end, for the terminal."""
     result = summary.result
-    if not summary.files:
-        return "no file was kept"
     files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
     return (
         f"{files}: {result.messages} messages, {result.tick + 1} ticks, {result.lost} lost, "

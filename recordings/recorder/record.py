@@ -7,21 +7,20 @@ from recordings.container.key_selection import KeySelection
 from recordings.container.manifest import RESULT, Result
 from recordings.container.mcap_file import open_mcap_file
 from recordings.container.sealed_metadata import from_metadata
-from recordings.recorder.file_limits import ONE_FILE, FileLimits
+from recordings.recorder.file_limits import FileLimits
 from recordings.recorder.leftover import Leftover, find_leftover
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.no_match_notice import NoMatchNotice
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
-from recordings.recorder.sink import FileSink, Sink
-from recordings.recorder.snapshot_sink import SnapshotSink
+from recordings.recorder.sink import FileSink
 from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.bus.zenoh.waiting_client import open_when_there
 from schemas.messages.record_batch import RecordBatchesRequest, read_reply
-from schemas.process.clock import Clock, WallClock
+from schemas.process.clock import WallClock
 from schemas.topics import RECORD_BATCHES
 from schemas.wire.message import BadMessageError
 
@@ -55,9 +54,8 @@ def record(
         leftover = _leftover(bus, settings.out, limits) if settings.resume else None
         if leftover is not None and leftover.is_finished and not limits.is_split:
             return _summary_of(leftover.files)
-        known = leftover.for_recorder(limits) if leftover is not None else None
-        loss_counts = known.loss_counts if known is not None else LossCounts()
-        sink = open_sink(settings.out, clock, bus.match, loss_counts, limits, viz=wanted.viz, leftover=leftover)
+        loss_counts = leftover.loss_counts if leftover is not None else LossCounts()
+        sink = FileSink(settings.out, clock, bus.match, loss_counts, limits, viz=wanted.viz, leftover=leftover)
         try:
             recorder = Recorder(
                 bus,
@@ -67,30 +65,11 @@ def record(
                 sights=wanted.sights,
                 selection=selection,
                 config=settings.config,
-                leftover=known,
+                leftover=leftover,
             )
             return recorder.run(NoMatchNotice(bus, report).around(should_stop))
         finally:
             sink.abandon()
-
-
-def open_sink(
-    path: Path,
-    clock: Clock,
-    match: str,
-    loss_counts: LossCounts,
-    limits: FileLimits = ONE_FILE,
-    *,
-    viz: bool = True,
-    leftover: Leftover | None = None,
-) -> Sink:
-    """The sink of a recording; with `viz`, the channels for viewers are written, too. A `leftover` is continued.
-
-    Raises:
-        TouchlineError: the file cannot be written.
-    """
-    kind = FileSink if limits.snapshot is None else SnapshotSink
-    return kind(path, clock, match, loss_counts, limits, viz=viz, leftover=leftover)
 
 
 def _leftover(bus: Bus, path: Path, limits: FileLimits) -> Leftover:

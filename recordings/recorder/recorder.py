@@ -9,7 +9,6 @@ from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
 from recordings.recorder.batch_reader import BatchReader
-from recordings.recorder.control_service import ControlService
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.leftover import Leftover, message_id
 from recordings.recorder.loss_counts import LossCounts
@@ -17,7 +16,7 @@ from recordings.recorder.poll_interval import PollInterval
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
-from recordings.recorder.sink import Sink
+from recordings.recorder.sink import FileSink
 from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.host_watch import RECONNECT_S, HostWatch
@@ -33,7 +32,7 @@ from schemas.wire.message import BadMessageError
 REPORT_S = 0.05
 """Wall time after which progress is reported in any case."""
 _CHECK_S = 0.05
-"""Wall time between two checks for requests and for the end of the match, while the recorder sleeps."""
+"""Wall time between two checks for the end of the match, while the recorder sleeps."""
 _RECOVERY_POLL_S = 0.01
 """Wall time between two polls while batches are missing."""
 _QUIET_S = 0.25
@@ -48,7 +47,7 @@ class Recorder:
     def __init__(
         self,
         bus: Bus,
-        sink: Sink,
+        sink: FileSink,
         loss_counts: LossCounts,
         *,
         name: str = "recorder",
@@ -86,7 +85,6 @@ class Recorder:
         self._poll_interval = PollInterval(self._clock.now())
         self._host = HostWatch(bus)
         self._setup_query = SetupQuery(bus, self._host)
-        self._control_service = ControlService(bus, name, sink)
 
     def run(self, should_stop: Callable[[], bool]) -> RecordingSummary:
         """Record until the host has left or `should_stop()` is true, read the last messages, and finish.
@@ -117,7 +115,6 @@ class Recorder:
         count = self._read(self._batches.read())
         self._match.catch_up()
         self._write()
-        self._control_service.answer_requests(self._messages, self._loss_counts, self._tick)
         self._report(idle=count == 0)
         return count
 
@@ -141,7 +138,7 @@ class Recorder:
         self.pump()
 
     def _sleep(self, should_stop: Callable[[], bool]) -> bool:
-        """Sleep until the next poll, a request or the end of the match; returns whether the recorder must stop."""
+        """Sleep until the next poll or the end of the match; returns whether the recorder must stop."""
         now = self._clock.now()
         until = self._poll_interval.next_poll(now, self._tick)
         if not self._batches.is_complete:
@@ -150,7 +147,7 @@ class Recorder:
             self._clock.sleep_until(min(until, now + _CHECK_S))
             now = self._clock.now()
             stopped = should_stop()
-            if stopped or now >= until or not self._begun or self._control_service.has_requests() or self._is_over():
+            if stopped or now >= until or not self._begun or self._is_over():
                 return stopped
 
     def _is_over(self) -> bool:
@@ -208,9 +205,7 @@ class Recorder:
     def _write(self) -> None:
         """Write the waiting messages; a goal is flushed to the disk."""
         batch, self._waiting = self._waiting, []
-        if batch and self._control_service.paused:
-            self._sink.skip(batch)
-        elif batch:
+        if batch:
             self._sink.write(batch)
         if self._match.goals > self._synced_goals and any(received.key == EVENT.key for _, received in batch):
             self._synced_goals = self._match.goals
@@ -240,7 +235,6 @@ class Recorder:
                 lost=sum(losses.values()),
                 losses=losses,
                 sights=self._sights,
-                paused=self._control_service.paused,
                 leaving=leaving,
             )
         )

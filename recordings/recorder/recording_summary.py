@@ -11,8 +11,8 @@ class RecordingSummary:
     """What was recorded."""
 
     files: list[Path]
-    """The files that were kept, the oldest first."""
+    """The files, the oldest first."""
     size: int
     """Bytes of all files."""
     result: Result
-    """The result of the last file, or, with snapshots, of the whole recording."""
+    """The result of the last file."""

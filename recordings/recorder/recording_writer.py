@@ -125,10 +125,6 @@ class RecordingWriter:
         """Set the roster, before `begin`."""
         self._roster = roster
 
-    def discard(self) -> None:
-        """Remove the file; only for a file that was neither begun nor closed."""
-        self._partial_file.discard()
-
     def abandon(self) -> None:
         """Close the file as it is, `*.part`, with all messages so far. Has no effect after `finish`."""
         if self._thread.is_alive():

@@ -39,7 +39,6 @@ class SequenceTracker:
         "bytes",
         "duplicates",
         "late",
-        "left_out",
         "lost",
         "messages",
         "missed_before_start",
@@ -48,20 +47,17 @@ class SequenceTracker:
     )
 
     def __init__(self) -> None:
-        self.messages = self.bytes = self.left_out = 0
+        self.messages = self.bytes = 0
         self.lost = self.missed_before_start = self.duplicates = self.late = self.restarts = self.unstamped = 0
         self._current: _Writer | None = None
         """The writer of the last message."""
         self._others: list[_Writer] = []
         """Further writers, the longest silent first."""
 
-    def add(self, stamp: Stamp | None, size: int, left_out: bool = False) -> None:
-        """Count a message of `size` bytes with this stamp; with `left_out`, it is not in the file."""
-        if left_out:
-            self.left_out += 1
-        else:
-            self.messages += 1
-            self.bytes += size
+    def add(self, stamp: Stamp | None, size: int) -> None:
+        """Count a message of `size` bytes with this stamp."""
+        self.messages += 1
+        self.bytes += size
         current = self._current
         if stamp is None:
             self.unstamped += 1

@@ -1,11 +1,10 @@
-"""Sinks for a recorder's messages: the protocol, and a sink that writes one file or several in sequence."""
+"""Where a recorder's messages go: one file, or several in sequence."""
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Protocol
 
 from recordings.container.manifest import EndReason, Manifest, Result
-from recordings.container.numbering import check_free, drop_oldest, numbered
+from recordings.container.numbering import check_free, numbered
 from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
 from recordings.recorder.leftover import Leftover
@@ -20,43 +19,11 @@ MakeResult = Callable[[EndReason], Result]
 """Makes the result of a file that ends now."""
 
 
-class Sink(Protocol):
-    """Writes messages in order. Any method may raise `TouchlineError` if the disk cannot be written."""
-
-    files: list[Path]
-    """Finished files that are kept, the oldest first."""
-
-    @property
-    def path(self) -> Path:
-        """The file that is being written, or the newest snapshot."""
-
-    def begin(self, make_header: MakeHeader, make_result: MakeResult, roster: RosterMetadata) -> None:
-        """Begin to write, when the setup of the match is known."""
-
-    def write(self, batch: list[LoggedMessage]) -> None:
-        """Write messages in the order of the file."""
-
-    def skip(self, batch: list[LoggedMessage]) -> None:
-        """Skip messages received during a pause; changed latched messages are written when recording resumes."""
-
-    def sync(self) -> None:
-        """Flush to the disk soon."""
-
-    def split(self) -> str:
-        """Continue in another file; returns why that is impossible, or an empty string."""
-
-    def snapshot(self, why: str) -> str:
-        """Write the messages in memory; returns why that is impossible, or an empty string."""
-
-    def finish(self, ended: EndReason) -> int:
-        """Finish; returns the size of all files that are kept, in bytes."""
-
-    def abandon(self) -> None:
-        """Close an unfinished file as it is."""
-
-
 class FileSink:
-    """Writes one file, or several in sequence, each readable by itself."""
+    """Writes one file, or several in sequence, each readable by itself.
+
+    Any method may raise `TouchlineError` if the disk cannot be written.
+    """
 
     def __init__(
         self,
@@ -94,7 +61,6 @@ class FileSink:
         self._continued = leftover
         self._roster = RosterMetadata()
         self._writer = self._open(leftover)
-        self._skipped_since_ns: int | None = None
 
     @property
     def path(self) -> Path:
@@ -113,9 +79,6 @@ class FileSink:
 
     def write(self, batch: list[LoggedMessage]) -> None:
         """Write messages, and begin new files at the limits."""
-        if self._skipped_since_ns is not None:
-            self._writer.write(self._latched.messages(since_ns=self._skipped_since_ns))
-            self._skipped_since_ns = None
         begin = 0
         if self._is_split:
             for index, (log_ns, _) in enumerate(batch):
@@ -128,30 +91,9 @@ class FileSink:
                 self._last_ns = log_ns
         self._write_batch(batch[begin:])
 
-    def skip(self, batch: list[LoggedMessage]) -> None:
-        """Follow the latched messages without writing."""
-        if batch and self._skipped_since_ns is None:
-            self._skipped_since_ns = batch[0][0]
-        self._loss_counts.add(batch, left_out=True)
-        self._latched.update(batch)
-
     def sync(self) -> None:
         """Flush to the disk soon."""
         self._writer.sync()
-
-    def split(self) -> str:
-        """Continue in another file."""
-        if not self._is_split:
-            return "it writes one file; start it with --split-size or --split-duration"
-        if self._first_ns is None:
-            return "its file is still empty"
-        self._next(EndReason.SPLIT)
-        return ""
-
-    def snapshot(self, why: str) -> str:
-        """Not supported: all messages are written in any case."""
-        del why
-        return "it records all the time; start it with --snapshot SECONDS"
 
     def finish(self, ended: EndReason) -> int:
         """Finish the last file."""
@@ -196,4 +138,3 @@ class FileSink:
         self._writer.finish(self._make_result(ended))
         self.files.append(self._writer.path)
         self._loss_counts.start_file()
-        drop_oldest(self.files, self._limits.keep)

@@ -20,7 +20,7 @@ KEYS = (WORLD.key, APPLIED.key, STATE.key, EVENT.key)
 """Keys of the messages that make up a tick."""
 
 GAP = 1.0
-"""s without a world after which the ticks are not consecutive: the recorder was paused, or messages lost."""
+"""s without a world after which the ticks are not consecutive: messages were lost."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ docstring as help.
 from dataclasses import dataclass
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from schemas.process.log_format import VARIABLE, LogFormat
 from schemas.wire.message import Part
@@ -51,22 +51,5 @@ class RecordOptions(Settings):
     """MB after which the recording continues in the next file."""
     split_duration: Annotated[float | None, Field(gt=0)] = None
     """Simulated s after which the recording continues in the next file."""
-    keep: Annotated[int | None, Field(ge=1)] = None
-    """Number of files that are kept, the newest; by default all."""
-    snapshot: Annotated[float | None, Field(gt=0)] = None
-    """Write only this many simulated s before each goal and on request, each time into a file of its own."""
     viz: bool = True
     """Add what Foxglove, Lichtblick and Rerun draw: /tf and /viz/*."""
-
-    @property
-    def in_several_files(self) -> bool:
-        """Whether the recording may consist of more than one file."""
-        return any(limit is not None for limit in (self.split_size, self.split_duration, self.snapshot))
-
-    @model_validator(mode="after")
-    def _limits_agree(self) -> "RecordOptions":
-        if self.keep is not None and not self.in_several_files:
-            raise ValueError(f"keep {self.keep} needs several files; add split_size, split_duration or snapshot")
-        if self.snapshot is not None and (self.split_size is not None or self.split_duration is not None):
-            raise ValueError("snapshot writes files of its own; leave split_size and split_duration out")
-        return self

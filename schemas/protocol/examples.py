@@ -15,7 +15,7 @@ from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
-from schemas.messages.recorder import RecorderOperation, RecorderProgress, RecorderReply, RecorderRequest
+from schemas.messages.recorder import RecorderProgress
 from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
@@ -178,10 +178,6 @@ def _host() -> tuple[WireMessage, ...]:
         ),
         *_batches(),
         RecorderProgress(tick=403, messages=6045, lost=0),
-        RecorderRequest(operation=RecorderOperation.SNAPSHOT),
-        RecorderReply(
-            accepted=True, recorder="recorder", paused=False, file="final.0003.mcap", messages=6045, lost=0, tick=403
-        ),
         ReplayRequest(operation=ReplayOperation.SEEK, to="goal:1-5"),
         ReplayReply(accepted=True, time=3.24, end=28.02, rate=1.0, messages=2290),
     )

@@ -36,7 +36,6 @@ RENAMINGS = (
     Renaming("2.0", "Parameter.why_not", "Parameter.fixed_reason"),
     Renaming("2.0", "SceneRequest.deed", "SceneRequest.operation"),
     Renaming("2.0", "Scene.says", "Scene.description"),
-    Renaming("2.0", "RecorderRequest.deed", "RecorderRequest.operation"),
     Renaming("2.0", "ReplayRequest.deed", "ReplayRequest.operation"),
 )
 """Everything that was renamed; no topic that is recorded, and no field of a message on one."""

@@ -37,7 +37,7 @@ class Admission:
         names = ", ".join(sorted(self._unnamed))
         self._changes.append(
             f"the host does not wait for {recorder} and later recorders: {names} have joined before; "
-            f"`touchline recorder admit {recorder}` makes it wait"
+            f"`touchline referee admit-recorder --name {recorder}` makes it wait"
         )
 
     def handle(self, request: AdmissionRequest) -> AdmissionReply:

@@ -63,8 +63,6 @@ def test_every_line_of_the_friendly_that_is_left_out_may_be_put_in(root: Path, t
         put_in = lines[number].removeprefix("# ")
         kept = [line for line in lines if not (put_in.startswith(("command", "stdio")) and line.startswith("brain"))]
         kept[kept.index(lines[number])] = put_in
-        if put_in.startswith("keep"):  # of several files
-            kept = [line.removeprefix("# ") if line.startswith("# split_duration") else line for line in kept]
         file = tmp_path / "friendly.toml"
         file.write_text("\n".join(kept))
         load_match(file)

@@ -11,8 +11,8 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.reading.recording import Recording
 from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
@@ -44,7 +44,7 @@ def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
         path = path or tmp_path / "match.mcap"
         path.parent.mkdir(exist_ok=True)
         loss_counts = LossCounts()
-        sink = open_sink(path, wall, "friendly", loss_counts, limits)
+        sink = FileSink(path, wall, "friendly", loss_counts, limits)
         host = FakeHost(host_bus, robot_bus, make_setup())
         recorder = Recorder(bus, sink, loss_counts, name="recorder", sights=sights, config=config, selection=selection)
         rigs.append(RecorderRig(host, recorder, bus, sink, path))

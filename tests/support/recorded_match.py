@@ -7,8 +7,8 @@ import pytest
 
 from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
@@ -49,7 +49,7 @@ def record_match(
     debug = DebugPublisher(batches, simulation.profile.time.tick)
     loss_counts = LossCounts()
     recorder = Recorder(
-        bus, open_sink(path, bus.clock, config.name, loss_counts, limits, viz=viz), loss_counts, config=config
+        bus, FileSink(path, bus.clock, config.name, loss_counts, limits, viz=viz), loss_counts, config=config
     )
     ear = host_bus.subscribe(COMMAND)
     commands = {name: host_bus.publisher(COMMAND, robot=name) for name in table.brains}

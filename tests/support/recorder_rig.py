@@ -7,7 +7,7 @@ from pathlib import Path
 from recordings.reading.recording import Recording, open_recording
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
-from recordings.recorder.sink import Sink
+from recordings.recorder.sink import FileSink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server
 from schemas.bus.in_process_bus import InProcessBus, SharedState
@@ -154,7 +154,7 @@ class RecorderRig:
     host: FakeHost
     recorder: Recorder
     recorder_bus: Bus
-    sink: Sink
+    sink: FileSink
     path: Path
     played: int = 0
     """The next tick, where a test counts them."""

@@ -1,4 +1,4 @@
-"""`touchline referee admit` and `touchline recorder admit`: whom the host admits while a match runs."""
+"""`touchline referee admit` and `touchline referee admit-recorder`: whom the host admits while a match runs."""
 
 from typing import Annotated, Any
 
@@ -40,7 +40,7 @@ def recorder(
 ) -> None:
     """Let a lockstep host wait for a recorder that falls behind; others lose what the host no longer keeps.
 
-    Example: touchline recorder admit --name tape
+    Example: touchline referee admit-recorder --name tape
     """
     _request(connection, recorder=name)
     typer.echo(f"the host waits for {name}")

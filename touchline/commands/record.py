@@ -11,9 +11,9 @@ from touchline.cli.option_groups import with_option_groups
 def record(settings: RecorderSettings) -> None:
     """Record a match until its host ends, or until Ctrl-C.
 
-    With --split-size, --split-duration or --snapshot the files are numbered: final.0001.mcap, final.0002.mcap.
-    Each file is a complete recording. `touchline recorder` controls the running recorder.
+    With --split-size or --split-duration the files are numbered: final.0001.mcap, final.0002.mcap.
+    Each file is a complete recording.
 
-    Example: touchline record --connect tcp/192.168.1.5:7447 --out final.mcap --split-duration 300 --keep 4
+    Example: touchline record --connect tcp/192.168.1.5:7447 --out final.mcap --split-duration 300
     """
     raise typer.Exit(run(settings))

@@ -17,7 +17,7 @@ def result_parts(plan: MatchPlan) -> Iterator[ResultUpdate]:
     known = ResultUpdate(replay=f"touchline replay {shlex.quote(str(plan.recording))} --web")
     yield known
     files = plan.recording_files
-    if len(files) != 1 or plan.config.record.snapshot is not None:
+    if len(files) != 1:
         return  # statistics are those of one whole recording
     from recordings.reading.recording import open_recording
     from recordings.stats.page import page_of, write_page

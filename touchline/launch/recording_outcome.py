@@ -43,11 +43,10 @@ def outcome_of(
     if path is None:
         return NO_RECORDING
     finished = plan.recording_files
-    is_there = bool(finished) or plan.config.record.snapshot is not None  # a match without a goal has none
     reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
     if status is not None and status < 0:
         reason = f"the recorder {ending(status)}"
-    if status == 0 and is_there:
+    if status == 0 and finished:
         try:
             return finished_recording(path, losses(plan))
         except TouchlineError as error:

@@ -96,9 +96,8 @@ def _missing_worlds(recording: Recording, missing: int) -> list[str]:
     result = recording.result
     if result is None or not is_recorded(recording, WORLD.key):
         return []
-    count = result.keys.get(WORLD.key, KeyCount())
-    explained = count.lost + count.left_out
-    return [f"{missing} ticks have no world, and {explained} were lost"] if missing > explained else []
+    lost = result.keys.get(WORLD.key, KeyCount()).lost
+    return [f"{missing} ticks have no world, and {lost} were lost"] if missing > lost else []
 
 
 def _why_no_referee(recording: Recording, segments: list[Segment]) -> str:

@@ -1,4 +1,4 @@
-"""Names of a recording's numbered files: which belong to it, in what order, and which are deleted."""
+"""Names of a recording's numbered files: which belong to it and in what order."""
 
 from pathlib import Path
 
@@ -6,7 +6,6 @@ import pytest
 
 from recordings.container.numbering import (
     check_free,
-    drop_oldest,
     files_at,
     numbered,
     numbered_files,
@@ -66,16 +65,3 @@ def test_files_of_other_names_are_not_this_recording_s(path):
 
 def test_a_recording_in_no_folder_has_no_files(path):
     assert numbered_files(path.parent / "none" / "final.mcap") == []
-
-
-@pytest.mark.parametrize(("keep", "left"), [(None, [1, 2, 3]), (2, [2, 3]), (3, [1, 2, 3]), (0, [])])
-def test_the_oldest_files_beyond_those_to_keep_are_deleted(path, keep, left):
-    files = made(*(numbered(path, number) for number in (1, 2, 3)))
-    drop_oldest(files, keep)
-    assert files == numbered_files(path) == [numbered(path, number) for number in left]
-
-
-def test_a_file_that_somebody_has_deleted_is_no_error(path):
-    files = [numbered(path, 1), *made(numbered(path, 2))]
-    drop_oldest(files, 1)
-    assert numbered_files(path) == files == [numbered(path, 2)]

@@ -40,8 +40,8 @@ def test_a_second_recorder_of_one_path_is_refused_and_the_first_loses_nothing(ma
     assert [file.name for file in first.path.parent.iterdir()] == ["match.mcap"]
 
 
-@pytest.mark.parametrize("limits", [FileLimits(duration=1.0), FileLimits(snapshot=2.0)], ids=["split", "snapshot"])
-def test_recorders_of_many_files_do_not_share_a_path_either(make_rig, limits):
+def test_recorders_of_many_files_do_not_share_a_path_either(make_rig):
+    limits = FileLimits(duration=1.0)
     first = make_rig(limits=limits)
     first.begin()
     with pytest.raises(TouchlineError, match=r"match\.0001\.mcap: is being written by another recorder"):
@@ -49,18 +49,7 @@ def test_recorders_of_many_files_do_not_share_a_path_either(make_rig, limits):
     first.play(range(10))
     first.leave()
     assert list(first.path.parent.glob("*.part*")) == []
-    assert len(files_at(first.path)) == (0 if limits.snapshot else 1)
-
-
-def test_between_two_snapshots_the_name_of_the_next_is_held(make_rig):
-    rig = make_rig(limits=FileLimits(snapshot=2.0))
-    rig.begin()
-    rig.play(range(60))
-    rig.sink.snapshot("wish")
-    with pytest.raises(TouchlineError, match=r"match\.0002\.mcap: is being written"):
-        PartialFile(rig.path.with_name("match.0002.mcap"))
-    rig.leave()
-    assert [file.name for file in rig.path.parent.iterdir()] == ["match.0001.mcap"]
+    assert len(files_at(first.path)) == 1
 
 
 def test_a_copy_does_not_take_the_file_of_a_recorder(recorded, tmp_path):

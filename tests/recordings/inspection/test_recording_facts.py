@@ -60,12 +60,11 @@ def test_the_facts_are_json_and_a_table(recorded):
     assert dict(summary_lines(facts))["score"] == "1 : 0"
 
 
-def test_a_filtered_and_paused_recording_is_summarised_with_its_keys_and_what_was_left_out(recorded):
-    facts = replace(facts_of(recorded), include=["world", "game/**"], exclude=["game/event"], left_out=12)
+def test_a_filtered_recording_is_summarised_with_its_keys(recorded):
+    facts = replace(facts_of(recorded), include=["world", "game/**"], exclude=["game/event"])
     lines = dict(summary_lines(facts))
     assert lines["keys"] == "world game/** not game/event"
-    assert lines["paused"] == "12 messages left out meanwhile"
-    assert not {"keys", "paused", "lost on", "part", "damaged", "made"} & set(dict(summary_lines(facts_of(recorded))))
+    assert not {"keys", "lost on", "part", "damaged", "made"} & set(dict(summary_lines(facts_of(recorded))))
 
 
 def test_the_summary_names_match_teams_numbers_and_losses(recorded):

@@ -17,7 +17,6 @@ COUNTS = "1203 messages, 200 ticks, 2 lost, 4096 bytes, ended by full_time"
     [
         (["match.mcap"], f"match.mcap: {COUNTS}"),
         (["match.0001.mcap", "match.0002.mcap", "match.0003.mcap"], f"match.0001.mcap and 2 more: {COUNTS}"),
-        ([], "no file was kept"),
     ],
 )
 def test_the_line_at_the_end_counts_files_messages_ticks_and_losses(files: list[str], line: str) -> None:

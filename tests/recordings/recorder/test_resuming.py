@@ -17,8 +17,8 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.reading.split_cursor import SplitCursor
 from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.leftover import find_leftover
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.recovery_window import KEPT_BATCHES
@@ -48,10 +48,9 @@ def resume(rig: RecorderRig, limits: FileLimits = ONE_FILE) -> None:
     """The successor takes the killed recorder's place in the rig."""
     bus = rig.host.bus.shared_state.open_bus("friendly", rig.recorder_bus.clock)
     leftover = find_leftover(rig.path, limits)
-    known = leftover.for_recorder(limits)
-    sink = open_sink(rig.path, bus.clock, "friendly", known.loss_counts, limits, leftover=leftover)
+    sink = FileSink(rig.path, bus.clock, "friendly", leftover.loss_counts, limits, leftover=leftover)
     rig.recorder_bus, rig.sink = bus, sink
-    rig.recorder = Recorder(bus, sink, known.loss_counts, leftover=known)
+    rig.recorder = Recorder(bus, sink, leftover.loss_counts, leftover=leftover)
     rig.begin()
     catch_up(rig)
 
@@ -213,28 +212,6 @@ def test_a_split_recording_is_continued_in_its_last_file(
     assert sum(result.keys["world"].messages for result in results) == 90
     assert all(result.lost == 0 for result in results)
     assert all(result.missed_before_start == 0 for result in results)
-
-
-def test_snapshots_go_on_and_no_goal_is_written_twice(
-    begun: Callable[..., RecorderRig], wait_until_written: Wait
-) -> None:
-    limits = FileLimits(snapshot=0.4)
-    rig = begun(limits=limits)
-    play(rig, 30)
-    rig.host.goal(30)
-    play(rig, 5)
-    rig.recorder.pump()
-    rig.recorder_bus.close()
-    rig.sink.abandon()
-    resume(rig, limits)
-    play(rig, 8)
-    rig.host.goal(rig.played)
-    play_to_the_end(rig)
-    files = [open_recording(file) for file in numbered_files(rig.path)]
-    assert [[event.tick for _, event in file.decoded("game/event")][-1] for file in files] == [30, 43]
-    ticks = [world.tick for _, world in files[1].decoded("world")][-20:]
-    assert ticks == list(range(ticks[-1] - 19, ticks[-1] + 1))
-    assert ticks[0] < 30  # from the host's batches: the memory of the first recorder is gone
 
 
 def test_a_file_that_another_recorder_writes_is_not_continued(begun: Callable[..., RecorderRig]) -> None:

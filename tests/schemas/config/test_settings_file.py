@@ -25,7 +25,7 @@ EXAMPLES: dict[str, Settings] = {
     "sim_host": HostSettings(config=MatchConfig(seed=7), listen="tcp/0.0.0.0:7447", insecure=True),
     "robot_agent": AgentSettings(robot="cyan1", brain="my_team:Brain", patience=2.5),
     "recordings": RecorderSettings(
-        out=Path("final.mcap"), record=RecordOptions(include=["world"], split_size=5, keep=3), config=MatchConfig()
+        out=Path("final.mcap"), record=RecordOptions(include=["world"], split_size=5), config=MatchConfig()
     ),
     "coach_gateway": GatewaySettings(
         tokens=Path("tokens.json"),
@@ -90,13 +90,8 @@ WRONG: dict[str, tuple[type[Settings], object, str]] = {
     "a number beyond its limits": (WebSettings, {"port": 70000}, "port is 70000; at most 65535"),
     "a field of a part": (
         RecorderSettings,
-        {"out": "a", "record": {"kep": 1}},
-        "record.kep is not known; did you mean",
-    ),
-    "fields that do not agree": (
-        RecorderSettings,
-        {"out": "a", "record": {"keep": 1}},
-        "record: keep 1 needs several",
+        {"out": "a", "record": {"sight": True}},
+        "record.sight is not known; did you mean",
     ),
     "a key of the match": (HostSettings, {"config": {"seed": -1}}, "config.seed is -1; at least 0"),
     "a list": (ListenSettings, [], "not settings; write a JSON object with the fields listen, credentials, insecure"),

@@ -106,6 +106,7 @@ def test_the_referees_commands_can_be_given_to_the_referee(host: Host) -> None:
         *coach.REFEREE_COMMANDS,
         *coach.SEAT_COMMANDS,
         "admit",
+        "admit-recorder",
     ]
 
 

@@ -122,7 +122,7 @@ def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
 
 
 def test_the_settings_of_a_recorder_have_the_record_options_of_the_match_file() -> None:
-    wanted = {"include": ["world"], "split_duration": 60.0, "keep": 3, "sights": True, "viz": False}
+    wanted = {"include": ["world"], "split_duration": 60.0, "sights": True, "viz": False}
     planned = plan(**{f"record.{key}": value for key, value in wanted.items()})
     written = by_name(planned)["recorder"].settings
     assert isinstance(written, RecorderSettings)
