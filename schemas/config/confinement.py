@@ -19,8 +19,6 @@ class Isolation(StrEnum):
 
     NONE = "none"
     """Nothing: they run as the user who launches the match."""
-    USER = "user"
-    """A system user for each team; only root can launch such a match."""
     BUBBLEWRAP = "bubblewrap"
     """A read-only view of the system and process ids of its own for each robot, by the program `bwrap`."""
 
@@ -72,15 +70,3 @@ class TeamLimits(Part):
     def over(self, limits: Limits) -> Limits:
         """The limits of the match with those of this team in their place."""
         return limits.model_copy(update=self.model_dump(exclude_none=True))
-
-
-UserName = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_.-]{0,31}$")]
-
-
-class IsolateUsers(Part):
-    """The system users that the teams' programs run as with `isolate = "user"`."""
-
-    cyan: UserName | None = None
-    """User of the team in cyan; None for that of TOUCHLINE_USER_CYAN, or touchline-cyan."""
-    magenta: UserName | None = None
-    """User of the team in magenta; None for that of TOUCHLINE_USER_MAGENTA, or touchline-magenta."""

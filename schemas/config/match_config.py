@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
-from schemas.config.confinement import IsolateUsers, Isolation, Limits
+from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_parts import (
     PROGRAM_KINDS,
     NoiseConfig,
@@ -132,9 +132,7 @@ class MatchConfig(Part):
     patience: Patience = Patience()
     """How long the host waits, in s of wall time."""
     isolate: Isolation = Isolation.NONE
-    """What separates the robots that this machine launches: `none`, a system `user` for each team, or `bubblewrap`."""
-    isolate_users: IsolateUsers = IsolateUsers()
-    """System users of the teams."""
+    """What separates the robots that this machine launches: `none` or `bubblewrap`."""
     limits: Limits = Limits()
     """What each robot may use of the machine that launches it."""
     forgiving: bool = False

@@ -17,9 +17,7 @@ import sys
 from typing import TypedDict
 
 _PR_SET_PDEATHSIG = 1
-"""linux/prctl.h; the setting survives exec, but not a change of user."""
-_PR_SET_NO_NEW_PRIVS = 38
-"""No program that it executes gains rights, as `sudo` would."""
+"""linux/prctl.h; the setting survives exec."""
 
 
 class OwnConfinement(TypedDict, total=False):
@@ -29,8 +27,6 @@ class OwnConfinement(TypedDict, total=False):
     """Name in the module `resource` → soft and hard limit."""
     folder: str
     """Its working folder."""
-    user: tuple[int, int]
-    """Ids of user and group that it runs as, without further groups."""
 
 
 def confine(wanted: OwnConfinement) -> None:
@@ -47,12 +43,6 @@ def confine(wanted: OwnConfinement) -> None:
         resource.setrlimit(number, (soft, hard))
     if "folder" in wanted:
         os.chdir(wanted["folder"])
-    if "user" in wanted:
-        user, group = wanted["user"]
-        os.setgroups([])
-        os.setgid(group)
-        os.setuid(user)
-        _prctl(_PR_SET_NO_NEW_PRIVS, 1)
 
 
 def main(arguments: list[str]) -> int:

@@ -15,12 +15,11 @@ from coach_gateway.access.tokens import read_or_make
 from schemas.access.accounts import Account
 from schemas.access.credentials import account_file, credential_files, new_credentials, write_credentials
 from schemas.bus.announcement import Announcement, announced
-from schemas.config.confinement import Isolation
 from schemas.config.match_config import load_match
 from schemas.process.clock import WallClock
 from touchline.launch.child_process import write_settings_of
 from touchline.launch.processes import client_processes, host_process
-from touchline.launch.run_folder import new_run_folder, prepare_credentials, prepare_run
+from touchline.launch.run_folder import prepare_credentials, prepare_run
 
 NOBODY = 65534
 """User and group without rights."""
@@ -81,15 +80,6 @@ def test_another_user_reads_neither_credentials_nor_tokens_nor_settings(folder: 
         assert path.exists() and not can_be_read_by_others(path), path
     (plan.folder / "host.log").touch()
     assert can_be_read_by_others(plan.folder / "host.log")  # so the check can fail
-
-
-@as_root
-def test_a_run_with_users_of_its_own_is_closed_to_all_others(folder: Path) -> None:
-    """Robots enter their own folders in it, and list neither it nor that of all runs."""
-    run = new_run_folder("cup", WallClock(), Isolation.USER)
-    (run / "host.log").touch()
-    assert (mode(run), mode(run.parent)) == (0o711, 0o711)
-    assert not can_be_read_by_others(run / "host.log")
 
 
 def test_credentials_that_replace_readable_ones_are_for_their_owner_alone(tmp_path: Path) -> None:

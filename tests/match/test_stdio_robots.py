@@ -76,9 +76,9 @@ def test_a_slow_program_in_a_match_that_does_not_wait_gets_the_newest_sight_each
 
 
 @needs_bubblewrap()
-def test_a_program_is_confined_as_its_agent_is(tmp_path: Path) -> None:
+def test_a_program_is_confined_as_its_agent_is(open_folder: Path) -> None:
     body = "if tick == 0: print(os.getcwd(), os.getpid() < 20, os.path.exists('/root'), file=sys.stderr, flush=True)"
-    played = StdioMatch(tmp_path, body, top='isolate = "bubblewrap"').play()
+    played = StdioMatch(open_folder, body, top='isolate = "bubblewrap"').play()
     assert played.is_whole()
     assert f"{played.run / 'cyan1'} True False" in played.log("cyan1")
 

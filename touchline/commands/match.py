@@ -100,7 +100,7 @@ def match(
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
     plan = replace(plan, reload=reload)
-    plan = replace(plan, isolation_note=isolation_note(config, brain_folder, confinements))
+    plan = replace(plan, isolation_note=isolation_note(config, brain_folder))
     if played.listening.credentials is not None:
         plan = with_credentials(plan, played.listening.credentials.resolve().parent)
     elif not played.listening.insecure:

@@ -90,7 +90,7 @@ def team(
             robots=robot or [],
             agent=settings.model_copy(update={"connect": bus.endpoint, "credentials": credentials}),
             team=own,
-            folder=new_run_folder(f"{bus.match}-{side}", clock, isolate),
+            folder=new_run_folder(f"{bus.match}-{side}", clock),
             isolate=isolate,
             limits=limited,
         )

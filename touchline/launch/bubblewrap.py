@@ -7,14 +7,21 @@ on loopback.
 
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
 from schemas.errors import TouchlineError
 
 _PROBE_S = 20.0
 """Wall time in which bwrap starts a program that does nothing."""
+NOBODY = 65534
+"""Id of the user and the group that robots have in place of root. Root in bubblewrap could leave it, and what belongs
+to root could be read there even without capabilities."""
 _NAMESPACES = (
+    "--cap-drop",
+    "ALL",
     "--unshare-pid",
     "--unshare-ipc",
     "--unshare-uts",
@@ -24,8 +31,8 @@ _NAMESPACES = (
 )
 
 
-def check_bubblewrap() -> None:
-    """Check that bwrap is installed, and that the kernel lets it work.
+def check_bubblewrap(visible: Iterable[Path], hidden: Iterable[Path], user: int | None) -> None:
+    """Check that bwrap is installed, that the kernel lets it work, and that its user can read what is to be visible.
 
     Raises:
         TouchlineError: it is not, or does not.
@@ -34,16 +41,26 @@ def check_bubblewrap() -> None:
         raise TouchlineError(
             "--isolate bubblewrap needs the program bwrap; install it with: apt-get install bubblewrap"
         )
-    probe = ["bwrap", "--ro-bind", "/", "/", *_NAMESPACES, "--proc", "/proc", "--dev", "/dev", "true"]
-    try:
-        tried = subprocess.run(probe, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=_PROBE_S)
-    except subprocess.TimeoutExpired:
-        raise TouchlineError(f"--isolate bubblewrap: bwrap does not start a program within {_PROBE_S:g} s") from None
+    with tempfile.TemporaryDirectory(prefix="touchline-") as folder:
+        Path(folder).chmod(0o755)
+        probe = [*bubblewrap(Path(folder), visible, hidden), "true"]
+        try:
+            tried = subprocess.run(
+                probe, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=_PROBE_S, **run_as(user)
+            )
+        except subprocess.TimeoutExpired:
+            raise TouchlineError(f"--isolate bubblewrap: bwrap does not start a program in {_PROBE_S:g} s") from None
     if tried.returncode != 0:
         reason = (tried.stderr.strip().splitlines() or ["no reason given"])[-1]
-        raise TouchlineError(
-            f"--isolate bubblewrap: the kernel refuses it ({reason}); allow user namespaces, or use none"
-        )
+        remedy = "allow user namespaces, or use none"
+        if user is not None:
+            remedy += "; robots that root launches run as nobody, who has to read Python, this library and the teams"
+        raise TouchlineError(f"--isolate bubblewrap does not work here ({reason}); {remedy}")
+
+
+def run_as(user: int | None) -> dict[str, Any]:
+    """The arguments of `subprocess.Popen` with which a program runs as this user, in the group of the same id."""
+    return {"user": user, "group": user, "extra_groups": []} if user is not None else {}
 
 
 def bubblewrap(folder: Path, visible: Iterable[Path], hidden: Iterable[Path]) -> list[str]:

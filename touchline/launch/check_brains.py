@@ -22,6 +22,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process import leash
 from schemas.side import Side
+from touchline.launch.bubblewrap import run_as
 from touchline.launch.confinement import Confinement, team_confinements
 from touchline.launch.fork_server import PATIENCE_S, ForkServer
 from touchline.launch.python_process import PYTHON, module_path_environment
@@ -187,6 +188,7 @@ class _LaunchedBuild:
             file.seek(0)
             self._popen = subprocess.Popen(
                 [*launcher, *check],
+                **run_as(confinement.user),
                 env=environment,
                 stdin=file,
                 stdout=log,

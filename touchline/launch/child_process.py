@@ -15,6 +15,7 @@ from schemas.errors import TouchlineError
 from schemas.process import leash
 from schemas.process.leash import OwnConfinement
 from schemas.process.process_log import message_of
+from touchline.launch.bubblewrap import run_as
 from touchline.launch.process_table import Process
 
 _TAIL_BYTES = 8192
@@ -159,6 +160,7 @@ class ChildProcess(ProcessHandle):
             super().__init__(process, log, out.tell())
             self._popen = subprocess.Popen(
                 [*launcher, *command_of(process)],
+                **run_as(process.confinement.user if process.confinement is not None else None),
                 stdin=given,
                 stdout=out,
                 stderr=subprocess.STDOUT,

@@ -1,7 +1,6 @@
 """The confinement of a robot's process: environment, working folder, limits, and what isolates it from others."""
 
 import os
-import sys
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -9,13 +8,11 @@ from pathlib import Path
 
 from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
 from schemas.process.leash import OwnConfinement
 from schemas.side import Side
-from touchline.launch.bubblewrap import bubblewrap, check_bubblewrap
+from touchline.launch.bubblewrap import NOBODY, bubblewrap, check_bubblewrap
 from touchline.launch.robot_environment import robot_environment
 from touchline.launch.team_code import are_rivals, interpreter_folders, share_a_folder, system_folders, team_code
-from touchline.launch.team_user import TeamUser, team_users
 from touchline.launch.user_tasks import tasks_of_user
 
 _GRACE_S = 5
@@ -37,8 +34,8 @@ class Confinement:
     """Most processes and threads of the user that it runs as, in all."""
     passed: tuple[str, ...] = ()
     """Names of further variables of the launcher's environment that it gets."""
-    user: TeamUser | None = None
-    """The user that it runs as; None for that of the launcher."""
+    user: int | None = None
+    """Id of the user and the group that it runs as; None for those of the launcher."""
     visible: tuple[Path, ...] | None = None
     """What it can read in bubblewrap; None without bubblewrap."""
     hidden: tuple[Path, ...] = ()
@@ -53,8 +50,8 @@ class Confinement:
 
     @property
     def is_isolated(self) -> bool:
-        """Whether it differs from the launcher by user or view of the machine."""
-        return self.user is not None or self.visible is not None
+        """Whether it has a view of the machine of its own."""
+        return self.visible is not None
 
     def environment(self, own: Mapping[str, str]) -> dict[str, str]:
         """Its whole environment, with its own variables."""
@@ -80,8 +77,6 @@ class Confinement:
             },
             "folder": str(self.folder),
         }
-        if self.user is not None:
-            wanted["user"] = (self.user.user, self.user.group)
         return wanted
 
     def in_folder(self, folder: Path) -> "Confinement":
@@ -96,7 +91,8 @@ class Confinement:
         """
         self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if self.user is not None:
-            os.chown(self.folder, self.user.user, self.user.group)
+            os.chown(self.folder, self.user, self.user)
+            self.folder.parent.chmod(self.folder.parent.stat().st_mode | 0o011)
         if self.is_isolated and self.credentials is not None:
             self._copy_credentials(self.credentials.read_bytes())
 
@@ -106,7 +102,7 @@ class Confinement:
         copy.unlink(missing_ok=True)
         with os.fdopen(os.open(copy, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
             if self.user is not None:
-                os.fchown(file.fileno(), self.user.user, self.user.group)
+                os.fchown(file.fileno(), self.user, self.user)
             file.write(content)
 
     def remove_empty_folder(self) -> None:
@@ -125,27 +121,26 @@ def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path
     Raises:
         TouchlineError: this machine cannot isolate them as the match file asks.
     """
-    users: dict[Side, TeamUser] = team_users(config) if config.isolate is Isolation.USER else {}
-    _check_readable(config, users, beside_match)
-    if config.isolate is Isolation.BUBBLEWRAP:
-        check_bubblewrap()
-    launcher_tasks = 0 if users or os.geteuid() == 0 else tasks_of_user(os.geteuid())  # the kernel does not limit root
-    robots = {side: len(config.robots(side)) for side in config.local_sides}
+    is_isolated = config.isolate is Isolation.BUBBLEWRAP
+    user = NOBODY if is_isolated and os.geteuid() == 0 else os.geteuid()
+    others = tasks_of_user(user) if user else 0  # the kernel does not limit root
+    robots = sum(len(config.robots(side)) for side in config.local_sides)
     confinements = {}
     for side in config.local_sides:
         limits = config.limits_of(side)
-        sharers = robots[side] if users else sum(robots.values())
-        pattern = Confinement(
+        confinement = Confinement(
             limits,
             Path("/"),
-            tasks=launcher_tasks + limits.processes * max(1, sharers),
+            tasks=others + limits.processes * max(1, robots),
             passed=tuple(config.team(side).pass_environment),
-            user=users.get(side),
         )
-        if config.isolate is Isolation.BUBBLEWRAP:
+        if is_isolated:
             visible, hidden = _view(config, side, beside_match, runs)
-            pattern = replace(pattern, visible=visible, hidden=hidden)
-        confinements[side] = pattern
+            confinement = replace(
+                confinement, user=user if user != os.geteuid() else None, visible=visible, hidden=hidden
+            )
+            check_bubblewrap(confinement.visible or (), hidden, confinement.user)
+        confinements[side] = confinement
     return confinements
 
 
@@ -162,7 +157,7 @@ def _view(
     return tuple(visible), (*hidden, runs.absolute())
 
 
-def isolation_note(config: MatchConfig, beside_match: Path | None, confinements: Mapping[Side, Confinement]) -> str:
+def isolation_note(config: MatchConfig, beside_match: Path | None) -> str:
     """What the teams of a match are not isolated from, in one sentence; empty where there is nothing to tell a user.
 
     Two teams with code of their own from different folders are probably different people's.
@@ -178,11 +173,6 @@ def isolation_note(config: MatchConfig, beside_match: Path | None, confinements:
             f"both teams' code is in {codes[Side.CYAN].folder}: each is kept from the other's module, but not from "
             "other files there; put each team into a folder of its own"
         )
-    for side, confinement in confinements.items():
-        user = confinement.user
-        for path in codes[side.opponent].own:
-            if user is not None and user.can_read(path):
-                return f"{side.value}'s user {user.name} can read {path} of {side.opponent.value}; withdraw that right"
     return ""
 
 
@@ -193,23 +183,3 @@ def team_isolation_note(config: MatchConfig, side: Side, beside: Path | None) ->
     return (
         "robots run as your user: they can read your files and signal your processes; --isolate bubblewrap prevents it"
     )
-
-
-def _check_readable(config: MatchConfig, users: Mapping[Side, TeamUser], beside_match: Path | None) -> None:
-    """Check that the teams' users can read what their robots need, and enter the folder of all runs.
-
-    Raises:
-        TouchlineError: one cannot.
-    """
-    for side, user in users.items():
-        code = team_code(config, side, beside_match)
-        for path in (Path(sys.executable), *system_folders(), *code.own):
-            if not user.can_read(path):
-                raise TouchlineError(
-                    f"--isolate user: {user.name} cannot read {path}, which robots of {side.value} need; allow it"
-                )
-        if not user.can_enter(Path.cwd()):
-            raise TouchlineError(
-                f"--isolate user: {user.name} cannot enter {Path.cwd()}, where robots have their folders; "
-                "start the match in a folder that every user may enter"
-            )

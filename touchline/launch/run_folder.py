@@ -1,13 +1,11 @@
 """The folder of a match's files under `runs/`, named after match, time and seed."""
 
-import os
 import secrets
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
 from schemas.bus.endpoint import is_loopback
-from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
@@ -33,7 +31,7 @@ def prepare_run(
     """
     stem = f"{config.name}-{_moment(clock)}-seed{config.seed}"
     try:
-        folder = _new_folder(stem, config.isolate)
+        folder = _new_folder(stem)
         out = (recording or folder / RECORDING) if recorded else None
         refusal = _why_not_writable(out) if out is not None else ""
         if refusal:
@@ -45,14 +43,14 @@ def prepare_run(
     return plan
 
 
-def new_run_folder(name: str, clock: Clock, isolate: Isolation = Isolation.NONE) -> Path:
-    """A new folder of this name and the present moment, for robots with this isolation.
+def new_run_folder(name: str, clock: Clock) -> Path:
+    """A new folder of this name and the present moment.
 
     Raises:
         TouchlineError: the folder cannot be made.
     """
     try:
-        return _new_folder(f"{name}-{_moment(clock)}", isolate)
+        return _new_folder(f"{name}-{_moment(clock)}")
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; logs are written under ./{RUNS}") from None
 
@@ -97,27 +95,8 @@ def _why_not_writable(out: Path) -> str:
     return ""
 
 
-def _new_folder(stem: str, isolate: Isolation) -> Path:
+def _new_folder(stem: str) -> Path:
     """A new folder: two matches of the same second get different folders."""
-    with_private_files(isolate)
-    folder = _free_folder(stem)
-    let_robots_enter(folder, isolate)
-    return folder
-
-
-def with_private_files(isolate: Isolation) -> None:
-    """Let files that this process makes from now on, as logs and recordings, be for none of the teams' users."""
-    if isolate is Isolation.USER:
-        os.umask(0o077)
-
-
-def let_robots_enter(folder: Path, isolate: Isolation) -> None:
-    """Let the teams' users enter their own folders in the folder of a run."""
-    for one in (folder, folder.parent) if isolate is Isolation.USER else ():
-        one.chmod(one.stat().st_mode | 0o011)
-
-
-def _free_folder(stem: str) -> Path:
     number = 1
     while True:
         folder = RUNS / (stem if number == 1 else f"{stem}-{number}")

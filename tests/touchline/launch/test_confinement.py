@@ -10,11 +10,9 @@ from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.launch import team_user
 from touchline.launch.bubblewrap import bubblewrap
 from touchline.launch.confinement import Confinement, isolation_note, team_confinements, team_isolation_note
 from touchline.launch.robot_environment import robot_environment, server_environment
-from touchline.launch.team_user import TeamUser, team_users
 
 
 @pytest.fixture
@@ -34,7 +32,7 @@ def match_of(cyan: str, magenta: str, **more: object) -> MatchConfig:
 
 
 def note_of(config: MatchConfig) -> str:
-    return isolation_note(config, None, team_confinements(config, None, Path("runs")))
+    return isolation_note(config, None)
 
 
 def test_only_listed_variables_of_the_launcher_reach_a_robot() -> None:
@@ -128,43 +126,14 @@ def test_a_file_that_is_named_is_visible_in_bubblewrap_among_hidden_ones(here: P
     assert [words[number + 1] for number, word in enumerate(words) if word == "--ro-bind"] == [str(recording)]
 
 
-def test_users_of_teams_have_to_exist_to_differ_and_not_to_be_root(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(team_user.os, "geteuid", lambda: 0)
-    for users, fault in (
-        ({"cyan": "no-such-user"}, "no-such-user, which is no user of this machine; create it with: useradd"),
-        ({"cyan": "root"}, "isolate_users.cyan is root, who is root; name a user without rights"),
-        ({"cyan": "nobody", "magenta": "nobody"}, "isolate_users are both nobody; give each team a user of its own"),
-    ):
-        with pytest.raises(TouchlineError, match=fault):
-            team_confinements(load_match(None, {"isolate": "user", "isolate_users": users}), None, Path("runs"))
-
-
-def test_other_users_are_for_root_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(team_user.os, "geteuid", lambda: 1000)
-    with pytest.raises(TouchlineError, match="which only root may; run the match as root, or use --isolate bubblewrap"):
-        team_confinements(load_match(None, {"isolate": "user"}), None, Path("runs"))
-
-
-def test_what_a_user_may_read_depends_on_the_rights_of_every_folder_above(tmp_path: Path) -> None:
-    file = tmp_path / "closed" / "file"
-    file.parent.mkdir(mode=0o700)
-    file.touch(mode=0o644)
-    owner, stranger = TeamUser("owner", os.getuid(), os.getgid()), TeamUser("stranger", 54321, 54321)
-    assert (owner.can_read(file), stranger.can_read(file)) == (True, False)
-
-
 def test_a_missing_bubblewrap_is_named_with_the_command_that_installs_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(TouchlineError, match="needs the program bwrap; install it with: apt-get install bubblewrap"):
         team_confinements(load_match(None, {"isolate": "bubblewrap"}), None, Path("runs"))
 
 
-def test_a_side_that_another_machine_launches_needs_no_user_and_gets_no_confinement_here(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(team_user.os, "geteuid", lambda: 0)
-    config = load_match(None, {"teams.magenta.remote": True, "isolate_users": {"cyan": "nobody"}})
-    assert list(team_users(config)) == [Side.CYAN]
+def test_a_side_that_another_machine_launches_gets_no_confinement_here() -> None:
+    config = load_match(None, {"teams.magenta.remote": True})
     assert list(team_confinements(config, None, Path("runs"))) == [Side.CYAN]
 
 

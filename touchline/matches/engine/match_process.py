@@ -28,7 +28,7 @@ from touchline.launch.confinement import team_confinements
 from touchline.launch.match_files import losses_of, published_by
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
 from touchline.launch.processes import CREDENTIALS, MatchPlan, check_robot_names
-from touchline.launch.run_folder import RECORDING, let_robots_enter, prepare_credentials, with_private_files
+from touchline.launch.run_folder import RECORDING, prepare_credentials
 from touchline.launch.team_error import TeamError, TeamLeftError
 from touchline.matches.engine.inputs_only import KEYS, has_inputs_only
 from touchline.matches.engine.measurement import measured
@@ -73,8 +73,6 @@ def _outcome(settings: MatchProcessSettings, clock: Clock) -> Outcome:
         brain_folder=settings.brain_folder,
         launch_token=secrets.token_hex(16),
     )
-    with_private_files(config.isolate)
-    let_robots_enter(settings.folder, config.isolate)
     try:
         check_robot_names(config)
         confinements = team_confinements(config, settings.brain_folder, settings.folder.parent)
