@@ -5,7 +5,7 @@
 
 A match of 600 s is 2 × 5 minutes, by the rules `msl` with default noise. Each seed is played twice, with sides
 swapped, unless a team plays against itself.
-The engine is that of `touchline series`. It prints tables for docs/play.md.
+The engine is that of `touchline series`. It prints tables for benchmarks/results/play.md.
 """
 
 import argparse

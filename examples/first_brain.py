@@ -1,4 +1,4 @@
-"""A first brain: get the ball, carry it toward the goal, shoot beside the keeper."""
+"""A first brain: get the ball, carry it toward the goal, shoot past the keeper."""
 
 import math
 
@@ -14,7 +14,8 @@ class FirstBrain:
         ball = sight.ball or sight.game.spot  # before it is seen: where the referee has placed it
         drive, kick = Drive(), None
         if sight.holding and me.x > goal - 5.0:
-            aim, _ = skills.best_place((me.x, me.y), [(other.x, other.y) for other in sight.obstacles], self.pitch)
+            others = [(other.x, other.y) for other in sight.obstacles]
+            aim, _ = skills.best_place((me.x, me.y), others, self.pitch)
             drive, kick = skills.kick_at(me, (goal, aim), 8.0, 0.2, self.limits)
         elif sight.holding:
             drive = skills.dribble_to(me, goal, 0.0, 0.0, [], self.limits)

@@ -1,4 +1,4 @@
-"""Messages between coach programs and the gateway: one JSON object a datagram, described in `docs/coach.md`.
+"""Messages between coach programs and the gateway: one JSON object a datagram, described in `docs/coach_programs.md`.
 
 Each datagram of a coach has a number larger than those before it, and gets an `ack` with that number. A datagram
 without an `ack` may be sent again with its number: it is carried out once, and acknowledged again.

@@ -1,4 +1,4 @@
-"""Writes measured figures into docs/simplified.md and docs/sim_to_real.md: `python docs/generate/figures.py`.
+"""Writes measured figures into docs/simplified.md: `python docs/generate/figures.py`.
 
 A figure stands in a page between `<!--=NAME-->` and `<!--/-->`. Each is measured in a run of profile `msl`, or of the
 profile that its function names; none is computed from a formula.
@@ -23,7 +23,7 @@ from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
 
-PAGES = [Path(__file__).parents[1] / name for name in ("simplified.md", "sim_to_real.md")]
+PAGE = Path(__file__).parents[1] / "simplified.md"
 _FIGURE = re.compile(r"<!--=(\w+)-->.*?<!--/-->", re.DOTALL)
 _ROBOTS = tuple(f"{side.value}{number}" for side in Side for number in range(1, 6))
 _SELF = Motion(x=-3.512, y=2.218, heading=0.713, vx=1.204, vy=-0.385, omega=0.52)
@@ -266,5 +266,4 @@ def filled(text: str) -> str:
 
 
 if __name__ == "__main__":
-    for page in PAGES:
-        page.write_text(filled(page.read_text("utf-8")), "utf-8")
+    PAGE.write_text(filled(PAGE.read_text("utf-8")), "utf-8")

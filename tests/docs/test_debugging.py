@@ -1,15 +1,13 @@
-"""docs/debugging.md: its brain plays, and its command lines can be typed."""
+"""docs/debugging.md: its brain plays."""
 
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-import typer
 
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from support.messages import make_setup, make_sight
-from touchline.command_line import app
 
 Fenced = Callable[[str, str], list[str]]
 
@@ -31,13 +29,3 @@ def test_its_brain_is_slower_while_it_holds_the_ball(
     )
     sight = make_sight(robot="cyan3", holding=True)
     assert careful.act(sight).drive.vx == 0.5 * simple.act(sight).drive.vx != 0.0
-
-
-def test_its_command_lines_can_be_typed(page: str, fenced: Fenced) -> None:
-    root = typer.main.get_command(app)
-    typed = [line.split() for piece in fenced(page, "sh") for line in piece.splitlines()]
-    assert len(typed) >= 5
-    for words in typed:
-        command = root.commands[words[1]]  # type: ignore[attr-defined]
-        known = {option for parameter in command.params for option in parameter.opts}
-        assert [word for word in words if word.startswith("--") and word not in known] == [], words

@@ -9,7 +9,9 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("schemas", "sim_host", "robot_agent", "touchline")
-TABLE = (ROOT / "docs" / "networking.md").read_text().partition("## When a robot does not join")[2]
+TABLE = (
+    (ROOT / "docs" / "networking.md").read_text().partition("## When a robot does not join")[2].partition("\n## ")[0]
+)
 MESSAGES = re.findall(r"^\| `([^`]+)` \|", TABLE, re.MULTILINE)
 FIELD = "\0"
 """Stands for what is filled in, `…` in the document."""

@@ -40,7 +40,7 @@ def health(
 ) -> None:
     """Show for each robot: answers on time, late, double and missing, losses each way, latency, radio.
 
-    Counts are those since the match began, of a recording those from --from to --to. docs/health.md explains each
+    Counts are those since the match began, of a recording those from --from to --to. docs/networking.md explains each
     column.
 
     Example: touchline health --watch

@@ -27,7 +27,7 @@ EXAMPLE = Path(__file__).parents[3] / "examples" / "udp_coach.py"
 
 
 class Program(asyncio.DatagramProtocol):
-    """A coach program, written from docs/coach.md."""
+    """A coach program, written from docs/coach_programs.md."""
 
     def __init__(self) -> None:
         self.heard: list[dict[str, Any]] = []

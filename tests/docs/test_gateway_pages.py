@@ -1,11 +1,9 @@
-"""The page on the coach gateway: its tables are complete, its command lines are valid."""
+"""The pages on the page, coach programs and the referee box: their tables and messages are complete and valid."""
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-import typer
 
 from coach_gateway.access.rights import RIGHTS
 from coach_gateway.access.roles import Role
@@ -15,19 +13,23 @@ from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
 from coach_gateway.web.protocol import PAGE_REQUEST
 from schemas.messages.coach import REQUIRED_FIELDS
 from schemas.wire.message import Part
-from touchline.command_line import app
 
 
 @pytest.fixture(scope="module")
 def page(root: Path) -> str:
-    return (root / "docs" / "coach.md").read_text("utf-8")
+    return (root / "docs" / "page.md").read_text("utf-8")
+
+
+@pytest.fixture(scope="module")
+def programs(root: Path) -> str:
+    return (root / "docs" / "coach_programs.md").read_text("utf-8")
 
 
 def kinds(*models: type[Part]) -> set[str]:
     return {model.model_fields["kind"].annotation.__args__[0] for model in models}  # type: ignore[union-attr]
 
 
-def test_every_datagram_both_ways_has_its_row(page: str) -> None:
+def test_every_datagram_both_ways_has_its_row(programs: str) -> None:
     asked = (
         protocol.Hello,
         protocol.ProgramOrder,
@@ -36,47 +38,34 @@ def test_every_datagram_both_ways_has_its_row(page: str) -> None:
         protocol.ProgramEvents,
     )
     said = (protocol.Ack, protocol.Frame, protocol.BeliefUpdate, protocol.EventUpdate, protocol.SessionEnd)
-    named = set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
+    named = set(re.findall(r"^\| `(\w+)` \|", programs, re.MULTILINE))
     assert kinds(*asked, protocol.KeepAlive, protocol.Bye, *said) <= named
 
 
-def test_every_match_mode_and_test_mode_has_the_documented_number(page: str) -> None:
-    rows = re.findall(r"^\| (\d+)(?:, (\d+))? \| `(\w+)`(?:, `(\w+)`)? \|", page, re.MULTILINE)
+def test_every_match_mode_and_test_mode_has_the_documented_number(programs: str) -> None:
+    rows = re.findall(r"^\| (\d+)(?:, (\d+))? \| `(\w+)`(?:, `(\w+)`)? \|", programs, re.MULTILINE)
     said = {int(number): word for row in rows for number, word in zip(row[:2], row[2:], strict=True) if number}
     assert said == {mode.number: mode.value for mode in MatchMode}
-    tests = re.search(r"Test modes: (.*?)\.\n", page, re.DOTALL)
+    tests = re.search(r"Test modes: (.*?)\.\n", programs, re.DOTALL)
     assert tests is not None
     assert [int(number) for number in re.findall(r"\d+", tests[1])] == list(TEST_MODES)
 
 
-def test_every_test_stands_in_its_table_with_what_it_needs(page: str) -> None:
-    rows = re.findall(r"^\| `(\w+)` \| (.*?) \|", page.split("| test | needs |")[1].split("\n\n")[0], re.MULTILINE)
+def test_every_test_stands_in_its_table_with_what_it_needs(programs: str) -> None:
+    rows = re.findall(r"^\| `(\w+)` \| (.*?) \|", programs.split("| test | needs |")[1].split("\n\n")[0], re.MULTILINE)
     assert {test: tuple(re.findall(r"`(\w+)`", needs)) for test, needs in rows} == {
         test.value: needs for test, needs in REQUIRED_FIELDS.items()
     }
 
 
-def test_every_command_of_the_box_is_in_the_table_of_what_becomes_of_it(page: str) -> None:
+def test_every_command_of_the_box_is_in_the_table_of_what_becomes_of_it(root: Path) -> None:
+    page = (root / "docs" / "referee_box.md").read_text("utf-8")
     table = page.split("| command | becomes |")[1].split("\n\n")[0]
     assert [name for name in FORWARD if re.search(rf"\b{name}\b", table) is None] == []
 
 
-def test_its_command_lines_can_be_typed(page: str, fenced: Callable[[str, str], list[str]]) -> None:
-    root = typer.main.get_command(app)
-    lines = [line for piece in fenced(page, "sh") for line in piece.splitlines() if line.startswith("touchline ")]
-    assert len(lines) > 5
-    for line in lines:
-        words = line.split("#")[0].split()[1:]
-        command = root
-        while hasattr(command, "commands"):
-            command = command.commands[words.pop(0)]
-        known = {option for parameter in command.params for option in parameter.opts}
-        assert [word for word in words if word.startswith("--") and word not in known] == [], line
-
-
 def test_the_documented_messages_of_programs_to_the_server_of_the_page_are_valid(page: str) -> None:
-    part = page.partition("## The page")[2].partition("## Coach programs")[0]
-    asks = [PAGE_REQUEST.validate_json(line[2:]) for line in part.splitlines() if line.startswith("→ {")]
+    asks = [PAGE_REQUEST.validate_json(line[2:]) for line in page.splitlines() if line.startswith("→ {")]
     assert [ask.deed for ask in asks] == ["action", "action"]
 
 
