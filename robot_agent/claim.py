@@ -77,7 +77,7 @@ class Membership:
             )
 
     def _declare(self, setup: Setup) -> None:
-        """Declare the liveliness token; a host that is older than claims knows those of robots only."""
+        """Declare the liveliness token; a replay, which has no claims, knows those of robots only."""
         if setup.claims:
             self._bus.declare_alive(PresenceKind.SESSION, self._claim.session)
         else:

@@ -59,25 +59,18 @@ class RuleLimits(NamedTuple):
     def of(cls, setup: Setup) -> "RuleLimits":
         """The limits of a match."""
         fouls, handling, scoring, areas = setup.fouls, setup.handling, setup.scoring, setup.areas
-        if fouls is None or handling is None or scoring is None:
-            return cls(math.inf, math.inf, False, math.inf, False, math.inf, False, 0.0)
         return cls(
             circle=handling.circle if fouls.dribble_circle != "off" else math.inf,
             backward=handling.backward_once if fouls.backward != "off" else math.inf,
             keeps_out=fouls.goal_area != "off",
-            area_robots=_area_robots(setup) if fouls.penalty_area != "off" else math.inf,
-            at_once=areas is not None and areas.penalty_area_duration < SHORT_STAY,
-            stay=areas.penalty_area_stay if areas is not None and areas.penalty_area_stay else math.inf,
+            area_robots=areas.penalty_area_robots if fouls.penalty_area != "off" else math.inf,
+            at_once=areas.penalty_area_duration < SHORT_STAY,
+            stay=areas.penalty_area_stay if areas.penalty_area_stay else math.inf,
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
             spares_opponents=fouls.charging != "off",
             released=setup.robot.radius + setup.ball.radius + handling.release_gap,
         )
-
-
-def _area_robots(setup: Setup) -> int:
-    """Field robots that the rule book allows in a penalty area; 1, as the league does, where a setup has no number."""
-    return setup.areas.penalty_area_robots if setup.areas is not None else 1
 
 
 class Carry(NamedTuple):

@@ -48,8 +48,7 @@ def push_after(before: OwnPush, me: Body, opponents: Iterable[Point], dt: float,
 
 def push_limit(setup: Setup) -> float:
     """How far a robot may push an opponent, m; infinite where the rules do not say."""
-    is_called = setup.fouls is not None and setup.fouls.pushing != "off"
-    return setup.contact.push_distance if is_called and setup.contact is not None else math.inf
+    return setup.contact.push_distance if setup.fouls.pushing != "off" else math.inf
 
 
 def let_go_of_opponent(push: OwnPush, me: Body, wanted: Drive, setup: Setup, limits: DriveLimits) -> Drive:

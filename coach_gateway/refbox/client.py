@@ -196,7 +196,7 @@ class RefBoxClient:
         """Forward the signals one after the other, once there is a match that can be officiated."""
         while self._live.state is None or self._live.setup is None:
             await asyncio.sleep(UPLOAD_S)
-        if self._live.setup.officiating not in (OfficiatingMode.MANUAL, None):
+        if self._live.setup.officiating is not OfficiatingMode.MANUAL:
             self._log("our own referee still decides beside the box; start the match with --referee manual")
         while True:
             signal, side, number = await self._signals.next()

@@ -16,8 +16,6 @@ PROFILE = "profile.json"
 """The attachment with the profile and the profiles that it extends, for `schemas.config.profile.profile_of`."""
 RULE_BOOK = "rules.json"
 """The attachment with the rule book and those that it extends, for `schemas.config.rule_book.rule_book_of`."""
-UNVERSIONED_RULE_BOOK = "rules.toml"
-"""The same attachment before rule books had versions: the text of the rule book, without the one that it extends."""
 
 
 def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:

@@ -42,11 +42,6 @@ class ChannelRecord:
     first_ns: int = 0
     last_ns: int = 0
 
-    @property
-    def version(self) -> str:
-        """Version of the protocol that its messages were recorded with."""
-        return channel_version(self.metadata)
-
     def extend(self, log_ns: int) -> None:
         """Count a message."""
         self.first_ns = min(self.first_ns, log_ns) if self.messages else log_ns
@@ -169,11 +164,6 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
 def is_derived(metadata: Mapping[str, str]) -> bool:
     """Whether a channel with this metadata exists only for viewers."""
     return DERIVED in metadata
-
-
-def channel_version(metadata: Mapping[str, str]) -> str:
-    """Version of the protocol that a channel of this metadata was recorded with; the first recorders wrote none."""
-    return metadata.get("version", "1.0")
 
 
 def summary_is_whole(file: IO[bytes] | mmap.mmap, size: int) -> bool:

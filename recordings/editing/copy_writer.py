@@ -18,7 +18,6 @@ from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.topics import TOPICS
-from schemas.wire.older_versions import converted
 
 
 class MessageCopy(NamedTuple):
@@ -70,8 +69,7 @@ class CopyWriter:
             self._mcap.add_message(number, copy.log_ns, copy.payload, copy.sent_ns, copy.sequence)
             topic = TOPICS.get(channel.metadata.get("topic", ""))
             if self._viz_channels is not None and topic is not None:
-                current = converted(copy.payload, channel.version)
-                self._viz_channels.draw(ReceivedMessage(topic, channel.key, current, stamp), copy.log_ns)
+                self._viz_channels.draw(ReceivedMessage(topic, channel.key, copy.payload, stamp), copy.log_ns)
         self._messages += 1
         if counted:
             self._trackers.setdefault(channel.key, SequenceTracker()).add(stamp, len(copy.payload))

@@ -79,11 +79,11 @@ def export(recording: Recording, out: Path) -> ExportSummary:
                     case Command():
                         bag.command(recorded.log_ns, recorded.key.split("/")[1], message)
                     case Belief():
-                        bag.belief(recorded.log_ns, message, recorded.current_payload())
+                        bag.belief(recorded.log_ns, message, recorded.payload)
                     case GameState():
-                        bag.state(recorded.log_ns, message, recorded.current_payload())
+                        bag.state(recorded.log_ns, message, recorded.payload)
                     case GameEvent():
-                        bag.text("/game/event", recorded.log_ns, recorded.current_payload())
+                        bag.text("/game/event", recorded.log_ns, recorded.payload)
     return ExportSummary(out, bag.written, dict(recording.unreadable), omitted_messages(recording, *_TOPICS))
 
 

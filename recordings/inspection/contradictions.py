@@ -11,7 +11,6 @@ from recordings.container.manifest import MANIFEST, EndReason, KeyCount, Result
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import ChannelFacts, Recording
 from recordings.recorder.sequence_tracker import SequenceTracker
-from schemas.config.number_files import UNVERSIONED
 from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
@@ -113,17 +112,12 @@ def _of_setup(recording: Recording) -> Iterator[str]:
     except TouchlineError as error:
         yield f"the numbers of the match cannot be read: {error}"
         return
-    different = [
-        name
-        for name in _FROM_MATCH_FILE
-        if getattr(setup, name) is not None and getattr(setup, name) != getattr(expected, name)
-    ]
+    different = [name for name in _FROM_MATCH_FILE if getattr(setup, name) != getattr(expected, name)]
     if not setup.parameters:
         different += [
             name for name, section in _FROM_PROFILE.items() if getattr(setup, name) != getattr(profile, section)
         ]
-    if setup.rules_version != UNVERSIONED:
-        different += [name for name in _FROM_RULE_BOOK if getattr(setup, name) != getattr(book, name)]
+    different += [name for name in _FROM_RULE_BOOK if getattr(setup, name) != getattr(book, name)]
     names = {side: team.name for side, team in setup.teams.items()}
     if names != {side: team.name for side, team in expected.teams.items()}:
         different.append("teams")

@@ -45,10 +45,10 @@ class RecordingFacts:
     pace: str | None
     profile: str | None
     profile_version: int
-    """0 for a file without a version, and in recordings that are older than versions."""
+    """0 for a file without a version."""
     rules: str | None
     rules_version: int
-    """0 for a file without a version, and in recordings that are older than versions."""
+    """0 for a file without a version."""
     seed: int | None
     teams: dict[str, str]
     """Side → name of its team."""

@@ -18,7 +18,7 @@ from mcap.records import Channel
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, is_known, read_chunk, records_in
-from recordings.container.mcap_file import DAMAGED, channel_version
+from recordings.container.mcap_file import DAMAGED
 from recordings.reading.recording import RecordedMessage
 from schemas.errors import TouchlineError
 from schemas.topic import Topic
@@ -60,7 +60,7 @@ class Cursor:
         self._scanned_to = len(MCAP0_MAGIC)
         self._chunks: list[_IndexedChunk] = []
         self._ends: list[int] = []
-        self._channels: dict[int, tuple[str, Topic, str] | None] = {}
+        self._channels: dict[int, tuple[str, Topic] | None] = {}
         """Number → key, topic and version of the protocol; None for one that is left out."""
         self._indexed: set[int] = set()
         self._introducing: list[int] = []
@@ -233,9 +233,8 @@ class Cursor:
                 channel, sequence, log_ns, sent_ns = MESSAGE.unpack_from(data, begin)
                 known = channels[channel]
                 if known is not None:
-                    key, topic, version = known
                     payload = data[begin + MESSAGE.size : end]
-                    recorded = RecordedMessage(key, topic, payload, log_ns, sent_ns, sequence, version)
+                    recorded = RecordedMessage(*known, payload, log_ns, sent_ns, sequence)
                     messages.append((channel, recorded))
             elif opcode == Opcode.CHANNEL:
                 self._add_channel(Channel.read(ReadDataStream(BytesIO(data[begin:end]))))
@@ -244,5 +243,4 @@ class Cursor:
     def _add_channel(self, channel: Channel) -> None:
         topic = TOPICS.get(channel.metadata.get("topic", ""))
         is_kept = topic is not None and topic.message is not None and self._keep(channel.topic)
-        version = channel_version(channel.metadata)
-        self._channels[channel.id] = (channel.topic, topic, version) if topic is not None and is_kept else None
+        self._channels[channel.id] = (channel.topic, topic) if topic is not None and is_kept else None

@@ -17,7 +17,6 @@ from schemas.natural_order import natural_order
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 from schemas.wire.message import VERSION, BadMessageError
-from schemas.wire.older_versions import READABLE, converted, is_readable
 
 
 class ChannelFacts(NamedTuple):
@@ -49,8 +48,6 @@ class RecordedMessage(NamedTuple):
     """Wall time at which it was sent, ns since 1970."""
     sequence: int
     """Sequence number of the sender on this key, modulo 2³²."""
-    version: str = VERSION
-    """Version of the protocol in which its channel was recorded."""
 
     @property
     def stamp(self) -> Stamp:
@@ -62,13 +59,9 @@ class RecordedMessage(NamedTuple):
         """Simulated time in s."""
         return self.log_ns / 1e9
 
-    def current_payload(self) -> bytes:
-        """The payload as a message of this version of the protocol; the recorded bytes where that is theirs."""
-        return converted(self.payload, self.version)
-
     def received(self) -> ReceivedMessage:
-        """The message as a sender of the current version publishes it on the bus."""
-        return ReceivedMessage(self.topic, self.key, self.current_payload(), self.stamp)
+        """The message as it came from the bus."""
+        return ReceivedMessage(self.topic, self.key, self.payload, self.stamp)
 
     def message(self) -> Any:
         """The validated message.
@@ -77,7 +70,7 @@ class RecordedMessage(NamedTuple):
             BadMessageError: the payload is not a message of its topic.
         """
         assert self.topic.message is not None
-        return self.topic.message.decode(self.current_payload())
+        return self.topic.message.decode(self.payload)
 
 
 class Recording:
@@ -104,7 +97,6 @@ class Recording:
         self.unreadable: Counter[str] = Counter()
         """Key → payloads that `decoded` skipped because they are not valid messages."""
         self._topics = {channel.key: _topic(channel) for channel in mcap_file.channels.values()}
-        self._versions = {channel.key: channel.version for channel in mcap_file.channels.values()}
 
     @property
     def damaged_records(self) -> int:
@@ -149,13 +141,7 @@ class Recording:
             topic = self._topics[key]
             if topic is not None:
                 yield RecordedMessage(
-                    key,
-                    topic,
-                    message.data,
-                    message.log_time,
-                    message.publish_time,
-                    message.sequence,
-                    self._versions[key],
+                    key, topic, message.data, message.log_time, message.publish_time, message.sequence
                 )
 
     def decoded(
@@ -203,10 +189,9 @@ def open_recording(path: Path, *, whole: bool = False) -> Recording:
 
 
 def _check_version(path: Path, theirs: str) -> None:
-    if not is_readable(theirs):
-        readable = " and ".join(f"{major}.x" for major in READABLE)
+    if theirs.partition(".")[0] != VERSION.partition(".")[0]:
         raise TouchlineError(
-            f"{path}: recorded with messages of version {theirs}, this program reads {readable}; "
+            f"{path}: recorded with messages of version {theirs}, this program reads {VERSION}; "
             "open it with the program that recorded it"
         )
 

@@ -28,8 +28,6 @@ class StartTick(NamedTuple):
     """Number of the kick-off, from 1; None if the tick is not a kick-off."""
     changes: tuple[Applied, ...]
     """Earlier changes of parameters, robots and obstacles."""
-    has_referee: bool = False
-    """The state of the referee was recorded."""
 
 
 class SkipReason(StrEnum):
@@ -131,7 +129,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
             is_kick_off = tick - 1 in began
             kick_offs += is_kick_off
             kick_off = kick_offs if is_kick_off else None
-            index.starts.append(StartTick(tick, kick_off, tuple(changes), summary.has_referee))
+            index.starts.append(StartTick(tick, kick_off, tuple(changes)))
         if summary.changes is not None:
             changes.append(summary.changes)
         index.times[tick] = summary.time
@@ -151,7 +149,6 @@ class _AppliedSummary(NamedTuple):
     time: float
     log_ns: int
     checkpoint: bool
-    has_referee: bool
     changes: Applied | None
 
 
@@ -165,9 +162,7 @@ def _summary_of(recorded: RecordedMessage) -> _AppliedSummary | None:
         changes = recorded.message() if any(name in fields for name in _CHANGES) else None
     except (BadMessageError, ValueError, KeyError, TypeError):
         return None
-    return _AppliedSummary(
-        tick, time, recorded.log_ns, bool(fields.get("checkpoint")), bool(fields.get("referee")), changes
-    )
+    return _AppliedSummary(tick, time, recorded.log_ns, bool(fields.get("checkpoint")), changes)
 
 
 def _kick_offs(recording: Recording) -> set[int]:

@@ -22,9 +22,6 @@ _AFTER_S = 2.0
 _SETTLED_NS = 200_000_000
 """Simulated time, in ns, after which the world of a tick has been recorded, if at all."""
 
-_MANUAL_CONTROL = ("manual_control", "hand")
-"""Rule of the events on manual control, now and in older recordings."""
-
 
 class TickRecord(NamedTuple):
     """The messages recorded of one tick."""
@@ -61,7 +58,7 @@ def manually_driven(recording: Recording) -> set[str]:
 
 
 def _is_manual_control(event: GameEvent) -> bool:
-    return event.kind is EventKind.AGENT and event.rule in _MANUAL_CONTROL
+    return event.kind is EventKind.AGENT and event.rule == "manual_control"
 
 
 def _none_missing(count: KeyCount | None) -> bool:
@@ -99,7 +96,7 @@ def tick_records(
                 order.add(recorded, record.tick)
                 held.append(record)
         else:
-            fields = _fields(recorded.current_payload())
+            fields = _fields(recorded.payload)
             tick = fields.get("tick")
             if not isinstance(tick, int):
                 order.add_unreadable(recorded)

@@ -114,11 +114,10 @@ class ReplayHost:
         if publisher is None:
             self.unknown_keys += 1
         else:
-            payload = recorded.current_payload()
-            stamp = publisher.put_payload(payload)
+            stamp = publisher.put_payload(recorded.payload)
             if recorded.topic.writer is not Party.HOST:
                 stamp = Stamp(stamp.sequence, recorded.sent_ns, recorded.log_ns)
-                self._batches.add_received(ReceivedMessage(recorded.topic, recorded.key, payload, stamp))
+                self._batches.add_received(ReceivedMessage(recorded.topic, recorded.key, recorded.payload, stamp))
             self._listeners.note_published(recorded)
 
     def _tick(self) -> int:

@@ -84,7 +84,7 @@ def _disc(z: float, radius: float) -> CylinderPrimitive:
 
 
 def _body(robot: RobotAppearance, setup: Setup) -> RobotBody:
-    model = setup.models.get(robot.type)
+    model = setup.models.get(robot.type)  # a type that is not the match's is a standard robot
     return model.body if model is not None else setup.robot
 
 

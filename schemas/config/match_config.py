@@ -208,7 +208,7 @@ class MatchConfig(Part):
         """
         if self.profile_tables is None:
             return load_profile(self.profile)
-        return profile_of(self.profile, self.profile_tables, recorded=True)
+        return profile_of(self.profile, self.profile_tables)
 
     def load_rule_book(self) -> RuleBook:
         """The rule book that the match is played by.
@@ -218,7 +218,7 @@ class MatchConfig(Part):
         """
         if self.rule_book_tables is None:
             return load_rule_book(self.rules)
-        return rule_book_of(self.rules, self.rule_book_tables, recorded=True)
+        return rule_book_of(self.rules, self.rule_book_tables)
 
     @property
     def speed(self) -> float | None:

@@ -20,7 +20,7 @@ PROFILE_KEY = "profile"
 HEADER = (VERSION_KEY, PROFILE_KEY)
 """Keys of a file that those which extend it do not get."""
 UNVERSIONED = 0
-"""The version of a file without one: a user's own, or one that is older than versions."""
+"""The version of a file without one, a user's own."""
 
 
 @dataclass(frozen=True, slots=True)

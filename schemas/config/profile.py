@@ -79,7 +79,7 @@ class Profile(Described):
     origins: Mapping[str, str] = dataclasses.field(repr=False, compare=False)
     """`section.key` → origin of the number."""
     version: int = UNVERSIONED
-    """Version of the numbers; 0 for a file without one, and in recordings that are older than versions."""
+    """Version of the numbers; 0 for a file without one."""
 
     def robot_of_type(self, name: str) -> dict[str, Any]:
         """Section of `TYPE_SECTIONS` → its numbers for a type of robot."""
@@ -112,18 +112,15 @@ def load_profile(name: str) -> Profile:
     return profile_of(name, profile_tables(name))
 
 
-def profile_of(name: str, tables: Mapping[str, Any], *, recorded: bool = False) -> Profile:
+def profile_of(name: str, tables: Mapping[str, Any]) -> Profile:
     """The profile of these tables, as `profile_tables` returns them.
-
-    In `recorded` tables, numbers that have a default may be missing: the recording is older than they are.
 
     Raises:
         TouchlineError: they are invalid.
     """
     origins: dict[str, str] = {}
     sections: dict[str, Any] = {
-        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins, recorded=recorded)
-        for key, cls in SECTIONS.items()
+        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
     }
     types = read_types(tables.get("types", {}), name, origins)
     version, known = version_of(tables, name), (*SECTIONS, "types")

@@ -7,7 +7,7 @@ receives it declares the unit and the sensible range of each field.
 import math
 import typing
 from collections.abc import Callable
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import dataclass, fields
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 from schemas.errors import TouchlineError, did_you_mean
@@ -57,19 +57,14 @@ def meanings(section: type) -> dict[str, Quantity | Choice]:
     return {field.name: get_args(hints[field.name])[1] for field in fields(section)}
 
 
-def read_section(
-    section: type[T], table: dict[str, Any], where: str, origins: dict[str, str], *, recorded: bool = False
-) -> T:
+def read_section(section: type[T], table: dict[str, Any], where: str, origins: dict[str, str]) -> T:
     """The dataclass of a TOML table; the origin of each number is added to `origins` under `where.key`.
-
-    In a `recorded` table, numbers that have a default may be missing: the recording is older than they are.
 
     Raises:
         TouchlineError: an unknown or missing key, or an invalid unit, type or range; names place, value and remedy.
     """
-    has_default = {field.name: field.default is not MISSING for field in fields(section)}  # type: ignore[arg-type]
     for key in meanings(section):
-        if key not in table and not (recorded and has_default[key]):
+        if key not in table:
             raise TouchlineError(f"{where}.{key} is missing; add it, or extend a profile that has it")
     return section(**read_changes(section, table, where, origins))
 

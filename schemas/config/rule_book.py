@@ -19,8 +19,6 @@ SHIPPED = ("china-sim-2020", "eleven", "friendly", "msl", "msl-2016", "msl-2019"
 """The rule books that the package ships."""
 FILES = NumberFiles("rules", "rule_books", SHIPPED)
 """Where rule books are read from."""
-UNVERSIONED_FILES = NumberFiles("rules", "rule_books/unversioned", ("china-sim-2020", "friendly", "msl", "paper"))
-"""The rule books as they were before they had versions: never changed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,7 +199,7 @@ class RuleBook(Described):
     origins: Mapping[str, str] = field(repr=False, compare=False)
     """`section.key` → origin of the number."""
     version: int = UNVERSIONED
-    """Version of the numbers; 0 for a file without one, and in recordings that are older than versions."""
+    """Version of the numbers; 0 for a file without one."""
     profile: str | None = None
     """Name of the profile whose pitch the rule book describes; None for a rule book that describes none."""
 
@@ -215,18 +213,15 @@ def load_rule_book(name: str) -> RuleBook:
     return rule_book_of(name, rule_book_tables(name))
 
 
-def rule_book_of(name: str, tables: Mapping[str, Any], *, recorded: bool = False) -> RuleBook:
+def rule_book_of(name: str, tables: Mapping[str, Any]) -> RuleBook:
     """The rule book of these tables, as `rule_book_tables` returns them.
-
-    In `recorded` tables, numbers that have a default may be missing: the recording is older than they are.
 
     Raises:
         TouchlineError: they are invalid.
     """
     origins: dict[str, str] = {}
     sections: dict[str, Any] = {
-        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins, recorded=recorded)
-        for key, cls in SECTIONS.items()
+        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
     }
     version, profile = version_of(tables, name), tables.get(PROFILE_KEY)
     if profile is not None and not isinstance(profile, str):
@@ -244,14 +239,3 @@ def rule_book_tables(name: str) -> dict[str, Any]:
         TouchlineError: there is no such rule book, it is not TOML, or it extends itself.
     """
     return FILES.tables(name)
-
-
-def unversioned_tables(name: str) -> dict[str, Any]:
-    """The tables of a shipped rule book as they were before rule books had versions.
-
-    Recordings of that time embed the text of their rule book alone, without the one that it extends.
-
-    Raises:
-        TouchlineError: there was no such rule book.
-    """
-    return UNVERSIONED_FILES.tables(name)

@@ -166,7 +166,7 @@ class RefereeAction(Message):
     source: Source = "coach"
     """Name of the sender, for display."""
     referee: Name | None = None
-    """Name of the referee that sends it, which no other referee has; None for clients that are older than this field.
+    """Name of the referee that sends it, which no other referee has; None for a sender without a name.
     One referee officiates at a time."""
 
 

@@ -38,23 +38,19 @@ class RobotHealth(Part):
     """Parts of commands that were refused."""
     latency_ms: float | None = None
     """Median wall time from sight to command over the last second, in ms; None without an answer."""
-    sights: int | None = None
-    """Sights sent to its agent while it was present, without repetitions; None in recordings that are older than this
-    field."""
-    unanswered: int | None = None
+    sights: int = 0
+    """Sights sent to its agent while it was present, without repetitions."""
+    unanswered: int = 0
     """Sights without an answer before the newest one that was answered: the sight was lost, the agent skipped it for a
-    newer one, or its answer was lost or invalid. None in recordings that are older than this field."""
-    late: int | None = None
-    """Those of `answers` to a sight that was no longer the newest; the others were on time. None in recordings that are
-    older than this field."""
-    lost_commands: int | None = None
-    """Commands that did not reach the host, by the gaps in the agent's sequence numbers; None in recordings that are
-    older than this field."""
-    radio_bytes: int | None = None
-    """Bytes of its radio messages that were sent; None in recordings that are older than this field."""
-    radio_refused: int | None = None
-    """Its radio messages that were refused, by the team's budget or by a channel in use; None in recordings that are
-    older than this field."""
+    newer one, or its answer was lost or invalid."""
+    late: int = 0
+    """Those of `answers` to a sight that was no longer the newest; the others were on time."""
+    lost_commands: int = 0
+    """Commands that did not reach the host, by the gaps in the agent's sequence numbers."""
+    radio_bytes: int = 0
+    """Bytes of its radio messages that were sent."""
+    radio_refused: int = 0
+    """Its radio messages that were refused, by the team's budget or by a channel in use."""
     latencies: Annotated[list[int], Field(max_length=CLASSES)] = Field(default_factory=list)
     """Answers by wall time from sight to command: the first number counts those below 0.125 ms, and each class reaches
     to 2^¼ times the end of the one before. Trailing zeros are left out."""
@@ -115,7 +111,7 @@ class Health(Message):
     recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
     """Recorder → ticks that it is behind."""
     radio: dict[Side, TeamRadio] = Field(default_factory=dict)
-    """Side → use of its radio; empty in recordings that are older than this field."""
+    """Side → use of its radio."""
     accounts: dict[str, AccountHealth] = Field(default_factory=dict)
     """Account → what it has sent; without credentials, each key counts as an account of its own."""
     connections: dict[str, ConnectionHealth] = Field(default_factory=dict)

@@ -12,16 +12,7 @@ from schemas.config.number_files import UNVERSIONED
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
 from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
-from schemas.config.rule_book import (
-    Discipline,
-    People,
-    Periods,
-    Restarts,
-    RuleBook,
-    Stall,
-    rule_book_of,
-    unversioned_tables,
-)
+from schemas.config.rule_book import Discipline, People, Periods, Restarts, RuleBook, Stall
 from schemas.config.sections import Ball, CameraView, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
 from schemas.game import OfficiatingMode
 from schemas.messages.parameters import ParameterName, Setting
@@ -60,11 +51,11 @@ class Setup(Message):
     profile: str
     """Name of the profile: the physical numbers of the match."""
     profile_version: int = UNVERSIONED
-    """Version of these numbers; 0 for a file without one, and in recordings that are older than versions."""
+    """Version of these numbers; 0 for a file without one."""
     rules: str
     """Name of the rule book: the numbers that the referee applies."""
     rules_version: int = UNVERSIONED
-    """Version of these numbers; 0 for a file without one, and in recordings that are older than versions."""
+    """Version of these numbers; 0 for a file without one."""
     time: TimeSteps
     """Lengths of the physics step and the control tick."""
     pitch: Pitch
@@ -79,47 +70,46 @@ class Setup(Message):
     """Dribbler of the standard robot."""
     kicker: Kicker
     """Kicker of the standard robot."""
-    camera: CameraView = Field(default_factory=CameraView)
-    """Camera of the standard robot; one that sees all round in recordings that are older than this field."""
+    camera: CameraView
+    """Camera of the standard robot."""
     periods: Periods
     """Halves, breaks, extra time and penalty shoot-out."""
     restarts: Restarts
     """Distances and times of restarts."""
-    handling: Handling | None = None
-    """How robots may handle the ball; None in recordings that are older than this field."""
-    scoring: Scoring | None = None
-    """Which goals count; None in recordings that are older than this field."""
-    fouls: Fouls | None = None
-    """Which fouls are called; None in recordings that are older than this field."""
-    officiating: OfficiatingMode | None = None
-    """Who decides: the referee, people, or both; None in recordings that are older than this field."""
+    handling: Handling
+    """How robots may handle the ball."""
+    scoring: Scoring
+    """Which goals count."""
+    fouls: Fouls
+    """Which fouls are called."""
+    officiating: OfficiatingMode
+    """Who decides: the referee, people, or both."""
     duration: float | None = None
     """Playing time of all halves in s, where the match file gives one; None for the rule book's."""
-    referee: OfficiatingConfig | None = None
-    """How the match is refereed; None in recordings that are older than this field."""
-    areas: Areas | None = None
-    """Which robots may be in goal areas and penalty areas, and for how long; None in recordings that are older than
-    this field."""
-    discipline: Discipline | None = None
-    """Cards and their consequences; None in recordings that are older than this field."""
-    people: People | None = None
-    """Repairs, substitutions and forfeits; None in recordings that are older than this field."""
-    stall: Stall | None = None
-    """When a ball that no robot moves is dropped; None in recordings that are older than this field."""
-    scrum: Scrum | None = None
-    """When a ball that both sides contest is dropped; None in recordings that are older than this field."""
-    contact: Contact | None = None
-    """How robots may touch each other; None in recordings that are older than this field."""
+    referee: OfficiatingConfig
+    """How the match is refereed."""
+    areas: Areas
+    """Which robots may be in goal areas and penalty areas, and for how long."""
+    discipline: Discipline
+    """Cards and their consequences."""
+    people: People
+    """Repairs, substitutions and forfeits."""
+    stall: Stall
+    """When a ball that no robot moves is dropped."""
+    scrum: Scrum
+    """When a ball that both sides contest is dropped."""
+    contact: Contact
+    """How robots may touch each other."""
     teams: dict[Side, TeamSetup]
     """Side → its team."""
-    models: dict[Name, RobotModel] = Field(default_factory=dict)
+    models: dict[Name, RobotModel]
     """Type → model; `standard` is that of robots without a type."""
     engine: dict[str, str] = Field(default_factory=dict)
     """Fingerprint of what computes the world: version of the engine, results of the maths library."""
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
     """Live parameters that were changed since the match began → value; the numbers above include them."""
     claims: bool = False
-    """Whether agents claim their robot on `host/claim`; False for hosts that are older than claims."""
+    """Whether agents claim their robot on `host/claim`; False in a replay, which admits all."""
     orders: dict[Side, int] = Field(default_factory=dict)
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
 
@@ -159,29 +149,14 @@ class Setup(Message):
         )
 
     def rule_book(self) -> RuleBook:
-        """The rule book of the match; sections that an older recording lacks are those of then.
-
-        Raises:
-            TouchlineError: there was no such rule book.
-        """
+        """The rule book of the match."""
         sections: dict[str, Any] = {name: getattr(self, name) for name in RULE_SECTIONS}
-        missing = [name for name, section in sections.items() if section is None]
-        if missing and self.rules_version == UNVERSIONED:
-            then = rule_book_of(self.rules, unversioned_tables(self.rules), recorded=True)
-            sections |= {name: getattr(then, name) for name in missing}
-        elif missing:  # the sections are newer than the recording, and all their numbers have defaults
-            sections |= {name: RULE_SECTIONS[name]() for name in missing}
         return RuleBook(name=self.rules, origins={}, version=self.rules_version, **sections)
 
     def for_robot(self, robot: str) -> Self:
-        """The same setup with this robot's own parts in place of the standard robot's.
-
-        Recordings that are older than types of robots have no models: all robots are standard ones.
-        """
+        """The same setup with this robot's own parts in place of the standard robot's."""
         types = {name: chosen for team in self.teams.values() for name, chosen in team.types.items()}
-        model = self.models.get(types.get(robot, STANDARD))
-        if model is None:
-            return self
+        model = self.models[types.get(robot, STANDARD)]
         own = {
             "robot": model.body,
             "drive": model.drive,

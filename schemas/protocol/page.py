@@ -19,7 +19,6 @@ from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 from schemas.wire.message import VERSION, Message, WireMessage
-from schemas.wire.older_versions import RENAMINGS
 
 _NOTE = "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; to change this page, change schemas/. -->"
 _WIDE = 110
@@ -27,7 +26,6 @@ _WIDE = 110
 _TOPIC_HEADINGS = ("key", "message", "from", "to", "rate", "delivery", "recorded", "description")
 _ACCOUNT_HEADINGS = ("account", "who", "publishes", "subscribes", "queries", "answers queries", "tokens")
 _FIELD_HEADINGS = ("field", "type", "default", "meaning")
-_RENAMING_HEADINGS = ("since", "old name", "new name")
 
 
 def page() -> str:
@@ -40,7 +38,6 @@ def page() -> str:
         f"# The protocol, version {VERSION}",
         _NOTE,
         joining.strip(),
-        _table(_RENAMING_HEADINGS, [(one.since, f"`{one.before}`", f"`{one.after}`") for one in RENAMINGS]),
         "## Topics",
         "All keys are below `touchline/{match}/`; words in braces are placeholders. On a topic whose delivery is "
         "`query`, the message before the arrow is the request and the one behind it the reply.",

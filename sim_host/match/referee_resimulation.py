@@ -23,7 +23,7 @@ from sim_host.match.state_schedule import StateSchedule
 from sim_host.match.world_fields import Fields
 from sim_host.referee.core import Referee
 from sim_host.referee.game.referee_state import RefereeState
-from sim_host.referee.game.state_json import state_from_json, without_newer_fields
+from sim_host.referee.game.state_json import state_from_json
 from sim_host.snapshot import Roster, Snapshot
 
 CHANGED_BY_LAYOUT = ("participation", "evidence", "set_piece", "proposal", "advantage")
@@ -47,7 +47,7 @@ class OfficiatingSettings(NamedTuple):
         """
         if config is not None:
             return cls(config.load_rule_book(), config.duration, config.referee)
-        if setup is not None and setup.referee is not None:
+        if setup is not None:
             return cls(setup.rule_book(), setup.duration, setup.referee)
         return None
 
@@ -113,11 +113,11 @@ class RefereeResimulation:
         conflicts = [] if by_scene else self._unlike_the_ruling(applied)
         if recorded is not None:
             if not by_scene:
-                conflicts += _conflicts(recorded, self._state, applied.referee)
+                conflicts += _conflicts(recorded, self._state)
             elif applied.episode == self._episode:
                 # an operator who moves bodies or robots changes what has been seen, and who takes part; nothing else
                 expected = self._state._replace(**{name: getattr(recorded, name) for name in CHANGED_BY_LAYOUT})
-                conflicts += _conflicts(recorded, expected, applied.referee)
+                conflicts += _conflicts(recorded, expected)
             self._state = recorded
         if applied.episode != self._episode and (not by_scene or applied.episode < self._episode):
             conflicts.append(StateConflict("episode", applied.episode, self._episode))
@@ -195,11 +195,8 @@ def _recorded_state(applied: Applied) -> RefereeState | None:
         ) from None
 
 
-def _conflicts(recorded: RefereeState, simulated: RefereeState, text: str) -> list[StateConflict]:
-    """The fields that differ, among those in the recorded text: the text of an older version has fewer."""
-    if recorded == simulated:
-        return []
-    simulated = without_newer_fields(simulated, recorded, text)
+def _conflicts(recorded: RefereeState, simulated: RefereeState) -> list[StateConflict]:
+    """The fields that differ."""
     pairs = zip(RefereeState._fields, recorded, simulated, strict=True)
     return [StateConflict(name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
 

@@ -98,7 +98,6 @@ def parameters_of(setup: Setup) -> LiveParameters:
     standard robot's is taken to follow it.
     """
     shipped = load_profile("msl")
-    standard = setup.models.get(STANDARD)
     profile = replace(
         shipped,
         name=setup.profile,
@@ -107,7 +106,7 @@ def parameters_of(setup: Setup) -> LiveParameters:
         robot=setup.robot,
         ball=setup.ball,
         drive=setup.drive,
-        wheels=standard.wheels if standard is not None else shipped.wheels,
+        wheels=setup.models[STANDARD].wheels,
         dribble=setup.dribble,
         kicker=setup.kicker,
         camera=setup.camera,

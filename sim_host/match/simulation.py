@@ -26,7 +26,6 @@ from schemas.wire.struct import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
-from sim_host.match.program_versions import program_versions
 from sim_host.match.radio_use import RadioUse
 from sim_host.match.sights import Send
 from sim_host.match.start_scene import opening_layout
@@ -74,7 +73,7 @@ class Simulation:
         self.config = config
         live_parameters = LiveParameters.of(config)
         self.book: RuleBook = config.load_rule_book()
-        self._engine = {**fingerprint(), "referee": referee_fingerprint(), **program_versions()}
+        self._engine = {**fingerprint(), "referee": referee_fingerprint()}
         start, began = opening_layout(config, live_parameters, self.book)
         self._subsystems = Subsystems(config, self.book, live_parameters, began.layout.robots)
         self._operator = OperatorRequests(live_parameters, self._subsystems, self.book, start, began)

@@ -15,16 +15,16 @@ _NO_CONNECTIONS = ConnectionHealth()
 
 @dataclass(frozen=True, slots=True)
 class RobotLedger:
-    """The counts of one robot; None where the recording is older than the count."""
+    """The counts of one robot."""
 
     robot: str
     state: str
     """What its agent does at the end of the stretch: `answers`, `silent`, `absent`, `off` or `still`."""
-    sights: int | None
+    sights: int
     """Sights sent to its agent."""
-    on_time: int | None
+    on_time: int
     """Answers to the newest sight."""
-    late: int | None
+    late: int
     """Answers to an earlier sight."""
     missing: int
     """Ticks without an answer."""
@@ -32,19 +32,19 @@ class RobotLedger:
     """Answers to a sight that was already answered."""
     invalid: int
     """Payloads that were no commands."""
-    lost_sights: int | None
+    lost_sights: int
     """Sights that did not reach the agent, or that it skipped for a newer one."""
-    lost_commands: int | None
+    lost_commands: int
     """Commands that did not reach the host."""
     p50_ms: float | None
     """Median wall time from sight to command in ms."""
     p99_ms: float | None
     """99th percentile of the wall time from sight to command in ms."""
-    radio_bytes: int | None
+    radio_bytes: int
     """Bytes of its radio messages."""
     radio_share: float | None
-    """Average share of its team's radio budget, 0 to 1."""
-    radio_refused: int | None
+    """Average share of its team's radio budget, 0 to 1; None for a robot that has left the roster."""
+    radio_refused: int
     """Radio messages that were refused."""
     fault: str
     """Why its messages are no answers; empty if they are."""
@@ -146,28 +146,26 @@ def ledger_of(last: Health, sides: Mapping[str, Side], first: Health | None = No
 def _robot_ledger(
     name: str, last: RobotHealth, first: RobotHealth, seconds: float, budget: float | None
 ) -> RobotLedger:
-    late, lost_commands = _since(last.late, first.late), _since(last.lost_commands, first.lost_commands)
-    invalid, unanswered = last.invalid - first.invalid, _since(last.unanswered, first.unanswered)
+    late, lost_commands = last.late - first.late, last.lost_commands - first.lost_commands
+    invalid, unanswered = last.invalid - first.invalid, last.unanswered - first.unanswered
     latencies = [now - then for now, then in zip(last.latencies, _padded(first.latencies, last.latencies), strict=True)]
-    radio_bytes = _since(last.radio_bytes, first.radio_bytes)
+    radio_bytes = last.radio_bytes - first.radio_bytes
     return RobotLedger(
         robot=name,
         state=_state(last),
-        sights=_since(last.sights, first.sights),
-        on_time=last.answers - first.answers - late if late is not None else None,
+        sights=last.sights - first.sights,
+        on_time=last.answers - first.answers - late,
         late=late,
         missing=last.missed - first.missed,
         double=last.duplicates - first.duplicates,
         invalid=invalid,
-        lost_sights=max(0, unanswered - (lost_commands or 0) - invalid) if unanswered is not None else None,
+        lost_sights=max(0, unanswered - lost_commands - invalid),
         lost_commands=lost_commands,
         p50_ms=quantile_ms(latencies, 0.5),
         p99_ms=quantile_ms(latencies, 0.99),
         radio_bytes=radio_bytes,
-        radio_share=_share(8 * radio_bytes / seconds, budget)
-        if radio_bytes is not None and budget is not None and seconds > 0.0
-        else None,
-        radio_refused=_since(last.radio_refused, first.radio_refused),
+        radio_share=_share(8 * radio_bytes / seconds, budget) if budget is not None and seconds > 0.0 else None,
+        radio_refused=last.radio_refused - first.radio_refused,
         fault=last.fault,
     )
 
@@ -198,11 +196,6 @@ def _state(robot: RobotHealth) -> str:
     if not robot.alive:
         return "absent"
     return "answers" if robot.answering else "silent"
-
-
-def _since(last: int | None, first: int | None) -> int | None:
-    """The increase of a count; None where it was not counted at the end."""
-    return last - (first or 0) if last is not None else None
 
 
 def _padded(counts: list[int], like: list[int]) -> list[int]:

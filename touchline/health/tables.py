@@ -13,19 +13,19 @@ _TROUBLE = Style(color="yellow", bold=True)
 _UNKNOWN = "–"
 
 _COLUMNS: tuple[tuple[str, Callable[[RobotLedger], str]], ...] = (
-    ("sights", lambda row: _count(row.sights)),
-    ("on time", lambda row: _count(row.on_time)),
-    ("late", lambda row: _count(row.late)),
-    ("missing", lambda row: _count(row.missing)),
-    ("double", lambda row: _count(row.double)),
-    ("invalid", lambda row: _count(row.invalid)),
-    ("sights lost", lambda row: _count(row.lost_sights)),
-    ("commands lost", lambda row: _count(row.lost_commands)),
+    ("sights", lambda row: str(row.sights)),
+    ("on time", lambda row: str(row.on_time)),
+    ("late", lambda row: str(row.late)),
+    ("missing", lambda row: str(row.missing)),
+    ("double", lambda row: str(row.double)),
+    ("invalid", lambda row: str(row.invalid)),
+    ("sights lost", lambda row: str(row.lost_sights)),
+    ("commands lost", lambda row: str(row.lost_commands)),
     ("p50 ms", lambda row: _ms(row.p50_ms)),
     ("p99 ms", lambda row: _ms(row.p99_ms)),
-    ("radio kB", lambda row: _UNKNOWN if row.radio_bytes is None else f"{row.radio_bytes / 1e3:.1f}"),
+    ("radio kB", lambda row: f"{row.radio_bytes / 1e3:.1f}"),
     ("of budget", lambda row: _UNKNOWN if row.radio_share is None else f"{100 * row.radio_share:.2g} %"),
-    ("refused", lambda row: _count(row.radio_refused)),
+    ("refused", lambda row: str(row.radio_refused)),
 )
 """Heading and value of each column after the robot and its state."""
 HEADINGS = ("robot", "agent", *(heading for heading, _ in _COLUMNS))
@@ -82,10 +82,6 @@ def _remarks(ledger: Ledger) -> Iterator[str]:
         yield f"{one.address}: {one.closed} connections closed that flooded the host, {one.refused} refused after that"
     for name, behind in ledger.recorders.items():
         yield f"recorder {name}: {behind} ticks behind"
-
-
-def _count(count: int | None) -> str:
-    return _UNKNOWN if count is None else str(count)
 
 
 def _ms(ms: float | None) -> str:

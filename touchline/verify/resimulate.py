@@ -19,7 +19,6 @@ from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.topics import WORLD
-from sim_host.match.program_versions import program_versions
 from sim_host.match.referee_resimulation import OfficiatingSettings
 from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.fingerprint import referee_fingerprint
@@ -38,7 +37,7 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, ref
 
     Raises:
         TouchlineError: not a recording, too few kick-offs, no tick can be simulated again, or `referee` is demanded of
-            a recording without its settings or states.
+            a recording without its settings.
     """
     clock = WallClock()
     began = clock.now()
@@ -53,14 +52,14 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, ref
             f"{path}: no tick can be simulated again; that requires host/applied at tick 0, or at a kick-off, "
             "and host/applied and world of the tick before"
         )
-    why_no_referee = _why_no_referee(recording, segments) if referee is not False else "--no-referee"
+    why_no_referee = _why_no_referee(recording) if referee is not False else "--no-referee"
     if referee and why_no_referee:
         raise TouchlineError(f"{path}: the referee cannot be simulated: {why_no_referee}; verify with --no-referee")
     verdict = Verdict(
         kick_offs=len(index.kick_offs),
         processes=min(processes, len(segments)),
         other_machine=_other_machine(recording),
-        other_program=_other_program(recording, referee=not why_no_referee),
+        other_program="" if why_no_referee else _other_program(recording),
         left_out=list(index.skipped(since)),
         referee=not why_no_referee,
         contradictions=[*contradictions(recording), *record_faults(recording)],
@@ -100,12 +99,10 @@ def _missing_worlds(recording: Recording, missing: int) -> list[str]:
     return [f"{missing} ticks have no world, and {lost} were lost"] if missing > lost else []
 
 
-def _why_no_referee(recording: Recording, segments: list[Segment]) -> str:
+def _why_no_referee(recording: Recording) -> str:
     """Why the referee cannot be simulated; empty if it can."""
     if OfficiatingSettings.of(config_of(recording), recording.manifest.setup) is None:
         return "the recording has neither its match file nor a setup with the referee's settings"
-    if not all(segment.start.has_referee for segment in segments):
-        return "the recording does not hold the states of its referee, as it is from an older version"
     return ""
 
 
@@ -116,23 +113,13 @@ def _other_machine(recording: Recording) -> dict[str, tuple[str, str]]:
     return {part: (value, ours[part]) for part, value in theirs.items() if part in ours and value != ours[part]}
 
 
-def _other_program(recording: Recording, *, referee: bool) -> str:
-    """What differs between the program that recorded the match and this one; empty if nothing does."""
+def _other_program(recording: Recording) -> str:
+    """The program that recorded the match, if its referee is not this one's; else empty."""
     manifest = recording.manifest
-    theirs, ours = manifest.setup.engine if manifest.setup is not None else {}, program_versions()
-    found = [
-        f"its {part} has version {theirs[key]}, this program's has version {ours[key]}"
-        if key in theirs
-        else f"it is older than versions of the {part}"
-        for part, key in (("world", "world_version"), ("referee", "referee_version"))
-        if (referee or part == "world") and theirs.get(key) != ours[key]
-    ]
-    if not found and referee and theirs.get("referee") != referee_fingerprint():
-        found = ["its referee's program is another one, of the same version"]
-    if not found:
+    if manifest.setup is None or manifest.setup.engine.get("referee") == referee_fingerprint():
         return ""
     program = f"touchline {manifest.versions.get('touchline', 'of then')}"
-    return f"recorded by another program: {' and '.join(found)}; {program} of {manifest.started[:10]} verifies it"
+    return f"recorded by a program with another referee: {program} of {manifest.started[:10]} verifies it"
 
 
 def _all(path: Path, segments: list[Segment], verdict: Verdict) -> Iterable[SegmentResult]:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from pytest import approx
 
-from schemas.config.profile import SHIPPED, load_profile, profile_of, profile_tables
+from schemas.config.profile import SHIPPED, load_profile
 from schemas.config.quantity import Quantity, meanings
 from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.config.rule_book import SHIPPED as RULE_BOOKS
@@ -164,11 +164,3 @@ def test_the_profile_of_a_rule_book_is_a_name(tmp_path: Path, text: str) -> None
     path.write_text(f'extends = "msl"\n{text}\n')
     with pytest.raises(TouchlineError, match=r"mine\.toml: profile is .*; write the name of a profile"):
         load_rule_book(str(path))
-
-
-def test_a_recorded_profile_without_an_order_of_touches_has_that_of_the_roster() -> None:
-    tables = profile_tables("msl")
-    ball = {key: number for key, number in tables["ball"].items() if not key.startswith("touch_")}
-    older = profile_of("msl", tables | {"ball": ball}, recorded=True)
-    assert (older.ball.touch_order, older.ball.touch_tie) == ("roster", 0.0)
-    assert load_profile("msl").ball.touch_order == load_profile("paper").ball.touch_order == "force"

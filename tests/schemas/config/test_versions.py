@@ -13,7 +13,7 @@ import pytest
 from schemas.config import profile, rule_book
 from schemas.config.number_files import UNVERSIONED, versioned_name
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book, unversioned_tables
+from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 
 DIGESTS = {
@@ -32,13 +32,6 @@ DIGESTS = {
     "rule_books/paper": (1, "0dbbb4ed4e5f"),
 }
 """File → its version, and a digest of its numbers."""
-UNVERSIONED_DIGESTS = {
-    "china-sim-2020": "1d61d61902b4",
-    "friendly": "ef3415066355",
-    "msl": "20c03bc34c0b",
-    "paper": "20e0df7b02d1",
-}
-"""The rule books from before versions, which never change: recordings of then are judged by them."""
 
 
 def values_of(tables: dict[str, Any]) -> dict[str, Any]:
@@ -78,11 +71,6 @@ def test_numbers_do_not_change_without_their_version(file: str) -> None:
 
 def test_no_row_is_left_of_a_file_that_is_gone() -> None:
     assert set(DIGESTS) == set(shipped())
-
-
-@pytest.mark.parametrize("name", UNVERSIONED_DIGESTS)
-def test_rule_books_from_before_versions_stay_as_they_were(name: str) -> None:
-    assert digest(unversioned_tables(name)) == UNVERSIONED_DIGESTS[name]
 
 
 def test_every_number_counts_and_no_origin_does() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from schemas.config.match_config import load_match
 from schemas.config.noise import PERFECT
-from schemas.config.profile import load_profile, profile_of, profile_tables
+from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import CameraView
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
@@ -85,10 +85,7 @@ def test_what_is_in_view_has_the_noise_that_it_has_without_edges():
         assert other.obstacles == [row for row in one.obstacles if row[0] > 0]
 
 
-def test_old_profiles_see_all_round_and_a_type_of_robot_may_not(tmp_path):
-    tables = profile_tables("msl")
-    del tables["camera"]
-    assert profile_of("old", tables, recorded=True).camera.field_of_view == math.tau
+def test_robots_of_a_type_may_see_less(tmp_path):
     path = tmp_path / "ahead.toml"
     path.write_text(
         'extends = "msl"\n[types.ahead.camera]\nfield_of_view = { value = 1.5, unit = "rad", origin = "a webcam" }\n'

@@ -26,8 +26,6 @@ from support.host_rig import TEAMS, HostRig
 from touchline.command_line import app
 from touchline.commands import health
 
-_VERSION_1 = Path(__file__).parents[2] / "recordings" / "data" / "version_1.mcap"
-
 
 class PlayingClock(SteppedClock):
     """The host publishes the next report whenever a client waits, and leaves after the last."""
@@ -173,10 +171,3 @@ def test_a_stretch_without_a_report_is_refused(recording: Path) -> None:
     assert result.exit_code == 2
     assert "no report of the host's health after 500 s; reports come four times a second" in result.stderr
     assert "is not after" in touchline(str(recording), "--from", "2", "--to", "1").stderr
-
-
-def test_a_recording_from_before_shows_what_it_does_not_have_as_unknown() -> None:
-    result = touchline(str(_VERSION_1))
-    assert result.exit_code == 0, result.stderr
-    cyan1 = next(line for line in result.stdout.splitlines() if line.startswith("cyan1"))
-    assert cyan1.split()[2] == "–"

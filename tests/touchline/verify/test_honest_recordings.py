@@ -14,7 +14,6 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import tick_index_of
 from recordings.recorder.sink import FileLimits
 from schemas.config.match_config import load_match
-from schemas.errors import TouchlineError
 from schemas.game import REFBOX, ActionName, OffField
 from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
@@ -24,7 +23,6 @@ from sim_host.match.simulation import Simulation
 from touchline.verify.resimulate import verify
 from touchline.verify.segment_check import resimulate_segment
 
-VERSION_1 = Path(__file__).parents[2] / "recordings" / "data" / "version_1.mcap"
 TWO_A_SIDE = {"teams.cyan.size": 2, "teams.magenta.size": 2}
 
 
@@ -148,16 +146,6 @@ def test_the_recordings_have_what_they_are_made_for(tmp_path: Path, match_record
     assert sum(len(applied.actions) for _, applied in recording.decoded("host/applied")) == 11
     states = [state for _, state in recording.decoded("game/state")]
     assert states[-1].robots["cyan2"].off_field is OffField.RED_CARD
-
-
-def test_a_recording_of_version_1_is_identical_without_its_referee() -> None:
-    verdict = verify(VERSION_1)
-    assert verdict.identical and not verdict.referee
-    assert verdict.not_checked[0].endswith(
-        "(the recording does not hold the states of its referee, as it is from an older version)"
-    )
-    with pytest.raises(TouchlineError, match="the referee cannot be simulated: the recording does not hold the states"):
-        verify(VERSION_1, referee=True)
 
 
 def test_without_the_match_file_the_setup_has_the_referees_settings(honest: Path, rewritten) -> None:
