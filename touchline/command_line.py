@@ -16,7 +16,6 @@ from touchline.commands import (
     diff,
     doctor,
     drill,
-    drive,
     experiment,
     export,
     filter,
@@ -27,7 +26,6 @@ from touchline.commands import (
     match,
     new,
     parameters,
-    player,
     record,
     recover,
     replay,
@@ -91,13 +89,11 @@ app.add_typer(experiment.app, name="experiment", rich_help_panel=TEAMS)
 app.command("watch", rich_help_panel=WATCH)(watch.watch)
 app.command("health", rich_help_panel=WATCH)(health.health)
 app.command("replay", rich_help_panel=WATCH)(replay.replay)
-app.command("player", rich_help_panel=WATCH)(player.player)
 
 app.add_typer(coach.app, name="coach", rich_help_panel=OPERATE)
 app.add_typer(coach.referee, name="referee", rich_help_panel=OPERATE)
 app.add_typer(scene.app, name="scene", rich_help_panel=OPERATE)
 app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
-app.command("drive", rich_help_panel=OPERATE)(drive.drive)
 
 app.command("doctor", rich_help_panel=PROCESSES)(doctor.doctor)
 app.command("host", rich_help_panel=PROCESSES)(host.host)

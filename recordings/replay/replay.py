@@ -9,7 +9,7 @@ from recordings.reading.recording import Recording
 from recordings.reading.split_cursor import SplitCursor
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
 from recordings.replay.player import PlaybackRange, Player
-from recordings.replay.seek_targets import SeekTarget, seek_targets_of, time_in
+from recordings.replay.seek_targets import time_in
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.game import GameEvent
 from schemas.process.clock import Clock
@@ -62,14 +62,6 @@ class Replay:
             TouchlineError: the recording does not have this target.
         """
         return time_in(target, *self.cursor.recordings)
-
-    def seek_targets(self) -> list[SeekTarget]:
-        """All events and phases to seek to, as far as they have been written.
-
-        Raises:
-            TouchlineError: a file is damaged inside.
-        """
-        return seek_targets_of(*self.cursor.recordings)
 
     def events(self) -> list[GameEvent]:
         """All events of the recording, as far as they have been written.

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
@@ -35,8 +34,6 @@ from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
-from touchline.watch.drawing import draw_match
-from touchline.watch.scale import MARGIN
 
 CYAN = ("cyan1", "cyan2", "cyan3")
 RIVALS = ("magenta1", "magenta2", "magenta3")
@@ -140,11 +137,6 @@ def static(made: Callable[..., Experiment]) -> Experiment:
     return made("paper_static")
 
 
-def cell(rows: list[Text], words: str) -> tuple[int, int]:
-    """Row and column of a mark on the drawn pitch."""
-    return next((row, text.plain.index(words)) for row, text in enumerate(rows) if words in text.plain)
-
-
 def test_one_the_coach_sees_every_model_where_it_was_spawned(static: Experiment) -> None:
     static.order(mode=CoachMode.HOLD)
     static.seen.update()
@@ -155,21 +147,6 @@ def test_one_the_coach_sees_every_model_where_it_was_spawned(static: Experiment)
         assert (shown.x, shown.y) == pytest.approx((robot.x, robot.y), abs=0.02)
         assert math.cos(shown.heading - robot.heading) > 0.999
     assert (world.ball.x, world.ball.y) == pytest.approx((0.0, 0.0), abs=0.02)
-
-
-def test_one_the_coachs_window_shows_every_model_at_its_place(static: Experiment) -> None:
-    """Drawn in a terminal: 18 × 12 m and the ground around, a cell as wide as half of it is high."""
-    static.order(mode=CoachMode.HOLD)
-    static.seen.update()
-    width = 96
-    rows = draw_match(static.seen, static.setup, width, 60)[1:]
-    cell_m = (static.setup.pitch.length + 2.0 * MARGIN) / width
-    ball = cell(rows, "●")
-    for robot in static.scene.robots:
-        mark = f"{robot.name[-1]}{'→' if robot.name in CYAN else '←'}"
-        row, column = cell(rows, mark)
-        assert (column + 0.5 - ball[1]) * cell_m == pytest.approx(robot.x, abs=1.5 * cell_m)
-        assert (ball[0] - row) * 2.0 * cell_m == pytest.approx(robot.y, abs=2.5 * cell_m)
 
 
 def test_one_the_coach_sees_the_rivals_where_its_robots_believe_them(static: Experiment) -> None:

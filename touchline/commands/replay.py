@@ -3,7 +3,7 @@
 import json as json_text
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -92,9 +92,7 @@ def replay(
 ) -> None:
     """Replay a recording on the bus, with the keys, order and timing of the match.
 
-    Keys: space pauses, "." steps, left and right seek, up and down change the rate, n and b go to the next and previous
-    event, q exits. `touchline player` controls the replay from another terminal, --web from a browser, --foxglove from
-    these viewers. With --web or --foxglove the replay stays at its end.
+    The page of --web, and viewers of --foxglove, pause it, seek and change its rate; with either it stays at its end.
 
     With --agent, the sights of a robot are given to a brain in this process, where print and breakpoint() work. A table
     shows each command that differs from the recorded one, up to the first: docs/debugging.md.
@@ -243,16 +241,11 @@ def _play(
     *,
     quiet: bool,
 ) -> "Player":
-    """Play until the end or a signal, on a screen for the output, with keys if stdin is a terminal."""
+    """Play until the end or a signal, with its progress on the output."""
     from recordings.replay.host import ReplayHost
     from schemas.messages.replay import ReplayOperation, ReplayRequest
-    from touchline.cli.terminal import terminal
-    from touchline.replay.keys import key_requests, legend
     from touchline.replay.progress import progress_on
 
-    by_keys = sys.stdin.isatty() and not quiet
-    seek_targets = opened.seek_targets() if by_keys else []
-    keyboard = terminal("replay") if by_keys else nullcontext(_no_keys)
     stream = sys.stderr if quiet else sys.stdout
 
     def make_player(publish: "Callable[[RecordedMessage], None]", can_publish: Callable[[], bool]) -> "Player":
@@ -264,13 +257,9 @@ def _play(
         return opened.player(clock, publish=publish_and_show, can_publish=can_publish)
 
     host = ReplayHost(bus, opened.recording.manifest.setup, make_player)
-    with keyboard as keys, progress_on(stream, clock) as show:
-        if by_keys:
-            typer.echo(legend())
+    with progress_on(stream, clock) as show:
 
         def meanwhile(player: "Player") -> None:
-            for request in key_requests(keys(0.0)):
-                player.control(request(player.status(), seek_targets))
             if stop.received is not None:
                 player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
             show(player.status())
@@ -285,9 +274,3 @@ def _play(
     if stop.received is not None:
         raise typer.Exit(128 + stop.received)
     return host.player
-
-
-def _no_keys(timeout: float) -> str:
-    """A key reader without a terminal: always empty."""
-    del timeout
-    return ""

@@ -1,4 +1,4 @@
-"""`touchline watch`: a running match, or a replay, drawn in the terminal."""
+"""`touchline watch`: a running match, or a replay, as a panel in the terminal."""
 
 import sys
 from typing import TYPE_CHECKING, Annotated
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from schemas.messages.setup import Setup
 
 _EVERY = 0.1
-"""Wall time between two pictures, s."""
+"""Wall time between two states of the panel, s."""
 
 
 @with_option_groups
@@ -30,9 +30,10 @@ def watch(
         str | None, typer.Option(help="List the values that this robot's brain shows in `Command.debug`.")
     ] = None,
 ) -> None:
-    """Watch a match in the terminal until its host ends, or until Ctrl-C: pitch, score, robots, events, drawings.
+    """Watch a match in the terminal until its host ends, or until Ctrl-C: score, phase, robots, health, events.
 
-    If the output is not a terminal, the match is printed as plain lines. Replays can be watched, too.
+    If the output is not a terminal, the match is printed as plain lines. Replays can be watched, too. The pitch is on
+    the page: touchline match --web.
 
     Example: touchline watch --match friendly --robot cyan2
     """
@@ -51,7 +52,7 @@ def watch(
 
 
 def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
-    """Draw until the host ends; the last picture stays on the terminal. The values of `robot` are listed.
+    """Show the panel until the host ends; its last state stays on the terminal. The values of `robot` are listed.
 
     Raises:
         TouchlineError: no host plays this match, or no such robot takes part.
@@ -63,7 +64,7 @@ def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
     from coach_gateway.match.follower import MatchFollower
     from coach_gateway.match.host_client import HostClient
     from schemas.bus.contract import PresenceKind
-    from touchline.watch.drawing import draw_match
+    from touchline.watch.panel import panel
 
     client, seen = HostClient(bus, PATIENCE), MatchFollower(bus, details=True)
     drawings, host_changes = DebugFollower(bus), 0
@@ -71,25 +72,23 @@ def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
     _check_robot(robot, setup)
     seen.host.wait(PATIENCE)
     bus.declare_alive(PresenceKind.COACH, "watch")
-    last = Group()
-    try:
-        with Live(console=console, auto_refresh=False, screen=True) as live:
-            going = True
-            while going:
-                seen.update()
-                drawings.update()
-                if seen.host_changes != host_changes:
-                    host_changes = seen.host_changes
-                    drawings.clear()
-                going = not seen.gone
-                if going and seen.world is not None and seen.world.episode != episode:
-                    setup, episode = client.setup(), seen.world.episode  # others may take part
-                drawn = drawings.shown(seen.world.time) if seen.world is not None else {}
-                last = Group(*draw_match(seen, setup, console.width, console.height - 1, drawn, robot))
-                live.update(last, refresh=True)
-                bus.clock.sleep_until(bus.clock.now() + _EVERY)
-    finally:
-        console.print(last)
+    with Live(console=console, auto_refresh=False) as live:
+        going = True
+        while going:
+            seen.update()
+            drawings.update()
+            if seen.host_changes != host_changes:
+                host_changes = seen.host_changes
+                drawings.clear()
+            going = not seen.gone
+            if going and seen.world is not None and seen.world.episode != episode:
+                setup, episode = client.setup(), seen.world.episode  # others may take part
+            drawn = drawings.shown(seen.world.time) if seen.world is not None else {}
+            rows = panel(seen, setup, console.height - 1, drawn, robot)
+            for row in rows:
+                row.truncate(console.width, overflow="ellipsis")
+            live.update(Group(*rows), refresh=True)
+            bus.clock.sleep_until(bus.clock.now() + _EVERY)
 
 
 def _check_robot(robot: str | None, setup: "Setup") -> None:

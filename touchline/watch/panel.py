@@ -1,4 +1,4 @@
-"""The panel beside the pitch: score, robots, orders, latest events, and the host's health."""
+"""The panel of a match: score, phase, the host's health, robots, orders, latest events."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -11,16 +11,25 @@ from coach_gateway.match.lines import clock_text, event_line, half_text, phase_t
 from coach_gateway.match.orders import OrderBook
 from coach_gateway.match.team_names import TeamNames, printable
 from schemas.game import EventKind
+from schemas.league.robot_numbers import numbers_of
 from schemas.messages.coach import CoachOrder
+from schemas.messages.debug import RobotDebug
 from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.messages.health import Health
 from schemas.messages.radio import Radio
 from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
-from touchline.watch.pitch import SIDES, arrow, numbered
+from touchline.watch.debug_values import values
 from touchline.watch.status_line import losses_text, robots_text
 
+ARROWS = "→↗↑↖←↙↓↘"
+"""Arrows of the headings, counter-clockwise from +x."""
+SIDES = {
+    Side.CYAN: Style(color="color(16)", bgcolor="color(51)"),
+    Side.MAGENTA: Style(color="color(231)", bgcolor="color(163)", bold=True),
+}
+"""Side → style of its robots: dark on light and light on dark, to be distinct without colour vision."""
 QUIET = Style(dim=True)
 TROUBLE = Style(color="yellow", bold=True)
 LOUD = {
@@ -30,11 +39,36 @@ LOUD = {
     EventKind.ADVANTAGE: Style(color="yellow"),
 }
 """Highlighted events."""
-WIDTH = 65
-"""Width of a robot's row, cells."""
-
+LEAST_EVENTS = 3
+"""Rows reserved for events."""
 _ACTIVITY = 26
 """Width of the robot's role and intention in its row, cells."""
+
+
+def panel(
+    follower: MatchFollower,
+    setup: Setup,
+    height: int,
+    drawings: Mapping[str, RobotDebug] | None = None,
+    robot: str | None = None,
+) -> list[Text]:
+    """The panel, at most `height` rows.
+
+    `drawings` maps robots to what they draw now; the values of `robot` are listed.
+    """
+    shown = [*orders(follower.orders), *(values(robot, drawings or {}) if robot is not None else [])]
+    listed = robots(setup, follower.world, follower.radios, follower.state, follower.health)
+    rows = [head(setup, follower.state), health_line(follower)]
+    rows += [*_fitting(listed, height - len(rows) - len(shown) - LEAST_EVENTS), *shown]
+    return [*rows, *events(setup, follower, height - len(rows))][:height]
+
+
+def _fitting(rows: list[Text], room: int) -> list[Text]:
+    """The rows of the robots; where there is no room for all, the last row has the number of those left out."""
+    if len(rows) <= room:
+        return rows
+    shown = max(0, room - 1)
+    return [*rows[:shown], Text(f"{len(rows) - shown} more robots: make the terminal higher", style=QUIET)]
 
 
 def head(setup: Setup, state: GameState | None) -> Text:
@@ -81,6 +115,17 @@ def robots(
         row.append(", ".join(_troubles(name, robot, discipline, health, setup.time.tick)), TROUBLE)
         rows.append(row)
     return rows
+
+
+def numbered(setup: Setup) -> list[tuple[Side, str, int]]:
+    """Side, name and number of all robots; the number is that of the name, as on the page."""
+    sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+    return [(sides[name], name, number) for name, number in numbers_of(sides).items()]
+
+
+def arrow(robot: RobotTruth) -> str:
+    """An arrow for a robot's heading, one of eight directions."""
+    return ARROWS[round(robot.heading / (math.pi / 4.0)) % len(ARROWS)]
 
 
 def _activity(radio: Radio | None) -> str:
@@ -143,7 +188,7 @@ def events(setup: Setup, follower: MatchFollower, count: int) -> list[Text]:
     return [Text(event_line(event, names), style=LOUD.get(event.kind, QUIET)) for event in last]
 
 
-def foot(follower: MatchFollower) -> Text:
+def health_line(follower: MatchFollower) -> Text:
     """Speed, late ticks, number of robots that answer, messages that recorders miss."""
     health = follower.health
     if health is None:

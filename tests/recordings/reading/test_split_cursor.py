@@ -11,7 +11,6 @@ from recordings.reading.split_cursor import SplitCursor
 from recordings.recorder.file_limits import FileLimits
 from recordings.replay.player import is_latched
 from recordings.replay.replay import Replay, ReplaySettings
-from recordings.replay.seek_targets import SeekTarget
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.process.clock import SteppedClock
@@ -165,12 +164,6 @@ def test_a_replay_that_follows_a_split_recording_publishes_all_messages_in_order
 
 def test_seek_targets_are_counted_through_all_files(split):
     replay = Replay(ReplaySettings(split))
-    assert replay.seek_targets() == [
-        SeekTarget(0.0, "play"),
-        SeekTarget(1.38, "goal"),
-        SeekTarget(3.38, "goal"),
-        SeekTarget(3.38, "kick_off"),
-    ]
     assert replay.time_of("goal:2-1") == pytest.approx(2.38)
     assert [event.tick for event in replay.events()] == [70, 170]
 

@@ -1,4 +1,4 @@
-"""The real thing: a replay process, a recorder process and `touchline player` on a real Zenoh network on loopback."""
+"""The real thing: a replay process, a recorder process and its control on a real Zenoh network on loopback."""
 
 import json
 import signal
@@ -12,7 +12,9 @@ from websockets.sync.client import connect
 from recordings.reading.recording import open_recording
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_client
+from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.process.clock import WallClock
+from schemas.topics import REPLAY_CONTROL
 
 LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
@@ -47,9 +49,8 @@ def test_record_replay_record_gives_equal_payloads_in_equal_order(recorded, star
         while (presence := watch.receive(LIMIT)) is not None and presence.kind != "recorder":
             continue
         assert presence is not None
-    player = start("touchline", "player", "play", "--json", *at)
-    said, error = player.communicate(timeout=LIMIT)
-    assert (player.returncode, error) == (0, "") and json.loads(said)["paused"] is False
+        request = ReplayRequest(operation=ReplayOperation.PLAY)
+        assert bus.query(REPLAY_CONTROL, request, LIMIT).result(LIMIT).paused is False
     played, error = replay.communicate(timeout=LIMIT)
     assert replay.returncode == 0, error
     every = list(recorded.messages())

@@ -2,13 +2,10 @@
 
 import pytest
 
-from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.manual import ManualDrive
 from schemas.messages.radio import Radio
 from schemas.topics import BELIEF, INVALID, MANUAL
-from touchline.commands.drive import drive_by_keys
-from touchline.drive.keys import Speeds
 
 
 class Talker:
@@ -73,49 +70,3 @@ def test_manual_control_of_a_robot_that_is_not_there_is_counted(rig):
     rig.ticks(1)
     (invalid,) = told.all()
     assert (invalid.key, invalid.reason) == ("robot/cyan9/manual", "no robot of this match has that name")
-
-
-def typed(rig, *texts):
-    """Keys that are typed one after the other while the host goes on; then Ctrl-C."""
-    left = list(texts)
-
-    def keys(timeout):
-        rig.ticks(1)
-        if not left:
-            raise KeyboardInterrupt
-        return left.pop(0)
-
-    return keys
-
-
-def attended(rig):
-    """A bus whose queries are answered while it waits."""
-    bus = rig.seat()
-    query = bus.query
-
-    def query_and_tick(*words, **more):
-        reply = query(*words, **more)
-        rig.ticks(1)
-        return reply
-
-    bus.query = query_and_tick
-    return bus
-
-
-def test_keys_drive_the_robot_and_ctrl_c_gives_it_back(rig):
-    said = []
-    drive_by_keys(attended(rig), "cyan2", typed(rig, "\x1b[B", "z", ""), Speeds(), said.append)
-    rig.ticks(1)
-    given = rig.inputs("cyan2")
-    assert [(one.drive.vx, one.dribble) for one in given[-4:]] == [
-        (-1.0, False),
-        (-1.0, True),
-        (-1.0, True),
-        (1.0, False),
-    ]
-    assert said == ["dribbler off, kick ground", "dribbler on, kick ground", "cyan2 is returned to its brain"]
-
-
-def test_driving_a_robot_that_does_not_play_is_wrong_input(rig):
-    with pytest.raises(TouchlineError, match='robot is "cyan9", which does not play; did you mean "cyan2"'):
-        drive_by_keys(attended(rig), "cyan9", typed(rig), Speeds(), print)

@@ -1,17 +1,12 @@
-"""The match drawn in a terminal: what stands where, at any size."""
-
-import io
+"""The panel of a match in a terminal: its rows, at any height."""
 
 import pytest
-from rich.console import Console
-from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
-from schemas.errors import TouchlineError
-from schemas.game import EventKind, OffField, Phase, Point, Score
+from schemas.game import EventKind, OffField, Phase, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion
 from schemas.messages.health import Health, RobotHealth
@@ -22,13 +17,7 @@ from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
 from support.messages import make_setup
-from touchline.commands.watch import watch_on
-from touchline.watch.drawing import draw_match
-from touchline.watch.panel import head, orders, robots
-from touchline.watch.pitch import ARROWS, SIDES, field
-from touchline.watch.scale import Scale
-
-WIDTH, HEIGHT = 90, 30
+from touchline.watch.panel import ARROWS, head, orders, panel, robots
 
 
 @pytest.fixture(scope="module")
@@ -51,55 +40,43 @@ def state(phase: Phase = Phase.PLAY, **more: object) -> GameState:
     return GameState.model_validate({"tick": 5, "time": 0.1, "clock": 61.0, "phase": phase, **more})
 
 
-def where(rows: list[Text], words: str) -> tuple[int, int]:
-    """ProcessRow and column of some characters."""
-    ((row, text),) = [(row, text.plain) for row, text in enumerate(rows) if words in text.plain]
-    return row, text.index(words)
-
-
-def test_robots_and_ball_stand_where_they_are(setup: Setup) -> None:
-    """x to the right, y up, the centre mark in the middle."""
-    rows = field(setup, world((-5.0, 3.0), cyan2=robot(0.0, 0.0), magenta3=robot(6.0, -4.0)), None, WIDTH, HEIGHT)
-    middle, right = where(rows, "2→"), where(rows, "3→")
-    ball = where(rows, "●")
-    assert abs(middle[0] - HEIGHT / 2) <= 1 and abs(middle[1] + 1 - WIDTH / 2) <= 1
-    scale = Scale.of(setup.pitch, WIDTH, HEIGHT)
-    assert right[1] - middle[1] == pytest.approx(6.0 * scale.dots / 2, abs=1)
-    assert right[0] - middle[0] == pytest.approx(4.0 * scale.dots / 4, abs=1)
-    assert ball[0] < middle[0] and ball[1] < middle[1]
-
-
 @pytest.mark.parametrize(("heading", "arrow"), [(0.0, "→"), (1.57, "↑"), (3.14, "←"), (-3.14, "←"), (-0.8, "↘")])
 def test_a_robot_shows_where_it_faces(setup: Setup, heading: float, arrow: str) -> None:
     assert len(ARROWS) == 8
-    assert where(field(setup, world(cyan4=robot(3.0, 1.0, heading)), None, WIDTH, HEIGHT), f"4{arrow}")
+    assert robots(setup, world(cyan4=robot(3.0, 1.0, heading)), {}, None, None)[3].plain.startswith(f"4{arrow}")
 
 
-def test_sides_differ_in_colour_and_in_brightness(setup: Setup) -> None:
-    rows = field(setup, world((3.0, 3.0), cyan2=robot(-3.0, 0.0), magenta2=robot(3.0, 0.0)), None, WIDTH, HEIGHT)
-    row = rows[next(place for place, text in enumerate(rows) if "2→" in text.plain)]
-    styles = [row.plain[span.start : span.end] for span in row.spans if span.style in SIDES.values()]
-    assert styles == ["2→", "2→"]
-    assert SIDES[Side.CYAN].color != SIDES[Side.MAGENTA].color
+def test_a_robot_has_its_place_and_speed_in_its_row(setup: Setup) -> None:
+    moving = robot(-3.25, 1.5, vx=3.0, vy=4.0)
+    assert "-3.2   1.5  5.0 m/s" in robots(setup, world(cyan1=moving), {}, None, None)[0].plain
 
 
-def test_a_restart_shows_how_far_opponents_stay(setup: Setup) -> None:
-    spot = Point(x=-4.0, y=2.0)
-    playing = field(setup, None, state(), WIDTH, HEIGHT)
-    waiting = field(setup, None, state(Phase.FREE_KICK, side=Side.CYAN, spot=spot), WIDTH, HEIGHT)
-    assert [row.plain for row in playing] != [row.plain for row in waiting]
+def test_rows_are_in_the_order_of_the_numbers_of_the_names(setup: Setup) -> None:
+    """As on the page: a robot that is added to a running match, or left of a larger team, keeps its own."""
+    teams = {
+        side: team.model_copy(update={"robots": [f"{side.value}{n}" for n in (1, 7, 10)]})
+        for side, team in setup.teams.items()
+    }
+    few = setup.model_copy(update={"teams": teams})
+    there = world(**{name: robot(1.0, 2.0) for team in teams.values() for name in team.robots})
+    rows = [row.plain for row in robots(few, there, {}, None, None)]
+    assert [row.split("→")[0].strip() for row in rows] == ["1", "7", "10"] * 2
+    assert len({row.index(" m/s") for row in rows}) == 1
 
 
-@pytest.mark.parametrize("size", [(1, 1), (20, 5), (80, 24), (120, 40), (200, 60), (300, 20), (40, 100)])
-def test_a_picture_fits_its_terminal(setup: Setup, size: tuple[int, int]) -> None:
+@pytest.mark.parametrize("height", [1, 5, 12, 24, 40])
+def test_a_panel_fits_its_height_and_says_how_many_robots_are_left_out(setup: Setup, height: int) -> None:
     medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
-    say(host, world(cyan1=robot(-30.0, 2.0), magenta5=robot(3.0, 99.0)), state())
+    say(host, world(**{name: robot(1.0, 2.0) for team in setup.teams.values() for name in team.robots}), state())
     seen.update()
-    rows = draw_match(seen, setup, *size)
-    assert 0 < len(rows) <= size[1]
-    assert max(row.cell_len for row in rows) <= size[0]
+    rows = [row.plain for row in panel(seen, setup, height)]
+    shown = sum(" m/s" in row for row in rows)
+    assert 0 < len(rows) <= height
+    if height == 12:
+        assert f"{10 - shown} more robots: make the terminal higher" in rows
+    assert (shown == 10) == (height >= 24)
 
 
 def say(host: Bus, world: World, state: GameState) -> None:
@@ -107,7 +84,7 @@ def say(host: Bus, world: World, state: GameState) -> None:
     host.publisher(STATE).put(state)
 
 
-def test_a_picture_has_score_phase_events_and_the_health_of_the_host(setup: Setup) -> None:
+def test_a_panel_has_score_phase_events_and_the_health_of_the_host(setup: Setup) -> None:
     medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
@@ -118,7 +95,7 @@ def test_a_picture_has_score_phase_events_and_the_health_of_the_host(setup: Setu
     word = Radio(role="striker", intention="shoot")
     host.publisher(BELIEF, side="cyan", robot="cyan2").put(Belief(tick=5, time=0.1, robot="cyan2", radio=word))
     seen.update()
-    text = "\n".join(row.plain for row in draw_match(seen, setup, 140, 40))
+    text = "\n".join(row.plain for row in panel(seen, setup, 40))
     for words in ("Simple  2 : 1  NuBot", "1:01.0", "throw in, NuBot", "goal for Simple by cyan3", "×1.98 x2  late 3"):
         assert words in text
     assert "striker: shoot" in text
@@ -130,7 +107,7 @@ def test_control_characters_of_a_robot_do_not_reach_the_terminal(setup: Setup) -
     assert any("\N{REPLACEMENT CHARACTER}[2J: to\N{REPLACEMENT CHARACTER}night" in row for row in rows)
 
 
-def test_what_keeps_a_robot_from_playing_stands_beside_it(setup: Setup) -> None:
+def test_what_keeps_a_robot_from_playing_is_in_its_row(setup: Setup) -> None:
     standing = {"cyan3": DisciplinaryRecord(yellow=1, off_field=OffField.REPAIR, left=12.0)}
     health = Health(
         tick=5,
@@ -174,39 +151,7 @@ def test_an_order_that_robots_refuse_is_shown_with_them_and_the_reason() -> None
     assert row.plain == " cyan  test machine, cyan2  refused by cyan1, cyan2: unknown test: machine"
 
 
-def test_a_robot_that_a_side_has_to_name_is_asked_for_above_the_pitch(setup: Setup) -> None:
+def test_a_robot_that_a_side_has_to_name_is_asked_for_in_the_first_row(setup: Setup) -> None:
     asked = RobotQuestion(action="yellow_card", side=Side.CYAN, left=8.0, robots=["cyan1", "cyan2"], default="cyan2")
     line = head(setup, GameState(tick=1, time=0.0, phase=Phase.STOPPED, questions=[asked])).plain
     assert line.endswith("  Simple names the robot for: yellow card, else cyan2")
-
-
-class HostOfTicks(SteppedClock):
-    """Goes on by a tick whenever the watcher waits; after three ticks the host leaves."""
-
-    __slots__ = ("host", "tick")
-
-    def sleep_until(self, moment: float) -> None:
-        super().sleep_until(moment)
-        self.tick += 1
-        if self.tick > 3:
-            self.host.close()
-        else:
-            say(self.host, world(tick=self.tick, cyan2=robot(float(self.tick), 0.0)), state())
-
-
-def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
-    setup: Setup, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    medium, clock = SharedState(), HostOfTicks()
-    clock.host, clock.tick = medium.open_bus("friendly", SteppedClock()), 0
-    clock.host.declare_alive("host", "host")
-    monkeypatch.setattr("coach_gateway.match.host_client.HostClient.setup", lambda self: setup)
-    out = io.StringIO()
-    watch_on(medium.open_bus("friendly", clock), Console(file=out, force_terminal=True, width=120, height=30))
-    last = out.getvalue().split("\x1b[?1049l")[-1]
-    assert "1:01.0" in last and "2→" in last
-
-
-def test_a_match_without_a_host_is_wrong_input() -> None:
-    with pytest.raises(TouchlineError, match='match "cup": no process answers host/setup'):
-        watch_on(SharedState().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))

@@ -1,1 +1,0 @@
-"""Drives one robot by keys instead of its brain."""
