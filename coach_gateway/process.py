@@ -4,7 +4,7 @@ import signal
 import socket
 import sys
 import threading
-from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from coach_gateway.access.tokens import Tokens, tokens_of
 from coach_gateway.bridges import bridges_of, services_of
@@ -14,6 +14,7 @@ from coach_gateway.ports import InheritedSockets
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.settings import GatewaySettings
+from coach_gateway.timing import REPLY_S
 from coach_gateway.web.settings import WebSettings, need_web
 from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
@@ -21,8 +22,8 @@ from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import WallClock
 from schemas.process.process_log import configure_log, log_line
 
-_PATIENCE = 3.0
-"""s of wall time to find a host whose match is to be shown; services wait for theirs however long it takes."""
+if TYPE_CHECKING:
+    from coach_gateway.web.server import WebServer
 
 
 def run(settings: GatewaySettings) -> int:
@@ -45,7 +46,7 @@ def _show(settings: GatewaySettings) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     with open_client(
-        settings.match, WallClock(), settings.connect, _PATIENCE, settings.credentials, Account.VIEWER
+        settings.match, WallClock(), settings.connect, REPLY_S, settings.credentials, Account.VIEWER
     ) as bus:
         log_changes(bus, say, stop)
 
@@ -55,32 +56,27 @@ def _serve(settings: GatewaySettings) -> None:
     bridges, inherited = bridges_of(settings.bridges), InheritedSockets()
     ports = bridges.open_ports(inherited)
     known = tokens_of(settings.tokens)
-    page, waiting_page = (
-        _page(settings, settings.web, known, inherited.next()) if settings.web is not None else (None, None)
-    )
+    page = _page(settings, settings.web, known, inherited.next()) if settings.web is not None else None
     if page is None and bridges.udp is not None:
         for line in [f"tokens: {settings.tokens}"] if settings.tokens is not None else known.lines():
             say(line)
 
     def services(bus: Bus) -> list[Service]:
-        return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, ports, known, say)]
+        return [*([page.show(bus)] if page is not None else []), *services_of(bus, bridges, ports, known, say)]
 
-    run_services(settings, services, say, waiting_page)
+    run_services(settings, services, say, page)
 
 
-def _page(
-    settings: GatewaySettings, web: WebSettings, tokens: Tokens, listener: socket.socket | None
-) -> tuple[Callable[[Bus], Service], Service]:
-    """What serves the page once there is a match, and what does before; prints at once where the page is."""
+def _page(settings: GatewaySettings, web: WebSettings, tokens: Tokens, listener: socket.socket | None) -> "WebServer":
+    """The server of the page; prints where the page is before there is a match."""
     need_web()
     from coach_gateway.web.binding import bind_page
     from coach_gateway.web.server import WebServer
-    from coach_gateway.web.waiting_page import WaitingPage
 
     binding = bind_page(web, tokens, settings.tokens, listener)
     for line in binding.lines():
         say(line)
-    return (lambda bus: WebServer(bus, binding, say, settings.result)), WaitingPage(binding, settings.match, log=say)
+    return WebServer(binding, settings.match, say, settings.result)
 
 
 def say(line: str) -> None:

@@ -9,14 +9,12 @@ import signal
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
+from coach_gateway.timing import HOST_SEARCH_S
 from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, BusError
 from schemas.bus.settings import ClientSettings
 from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import WallClock
-
-_POLL_S = 1.0
-"""s of wall time that one attempt to find a host lasts."""
 
 
 class Service(Protocol):
@@ -34,66 +32,59 @@ def run(
     client: ClientSettings,
     make: Callable[[Bus], Sequence[Service]],
     log: Callable[[str], None],
-    waiting_page: Service | None = None,
+    page: Service | None = None,
 ) -> None:
-    """Connect to the host and run the services until SIGINT or SIGTERM; `waiting_page` is served until there is a host.
+    """Run `page` and, once there is a host, the services that `make` returns, until SIGINT or SIGTERM.
 
     Raises:
         TouchlineError: a service cannot start, or it is not clear which match is meant.
     """
-    asyncio.run(_run(client, make, log, waiting_page))
+    asyncio.run(_run([_Connected(client, make, log), *([page] if page is not None else [])]))
 
 
-async def _run(
-    client: ClientSettings,
-    make: Callable[[Bus], Sequence[Service]],
-    log: Callable[[str], None],
-    waiting_page: Service | None,
-) -> None:
+async def _run(services: Sequence[Service]) -> None:
     stop = asyncio.Event()
-    loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, stop.set)
-    bus = await _connect(client, stop)
-    if bus is None and not stop.is_set():
-        where = f"at {client.connect}" if client.connect is not None else "on this machine"
-        log(f"no host {where} yet; waiting for it")
-        bus = await _wait(client, stop, waiting_page)
-    if bus is not None:
-        with bus:
-            await together(make(bus), stop)
+        asyncio.get_running_loop().add_signal_handler(number, stop.set)
+    await together(services, stop)
 
 
-async def _wait(client: ClientSettings, stop: asyncio.Event, waiting_page: Service | None) -> Bus | None:
-    """A connection to the match, after any length of time; None once `stop` is set."""
-    met = asyncio.Event()
-    waiting = asyncio.create_task(waiting_page.serve(met)) if waiting_page is not None else None
-    bus = None
-    try:
+class _Connected:
+    """The services that need a connection to the bus."""
+
+    def __init__(
+        self, client: ClientSettings, make: Callable[[Bus], Sequence[Service]], log: Callable[[str], None]
+    ) -> None:
+        self._client, self._make, self._log = client, make, log
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Wait for a host for any length of time, then run the services."""
+        bus = await self._connect(stop)
+        if bus is None and not stop.is_set():
+            where = f"at {self._client.connect}" if self._client.connect is not None else "on this machine"
+            self._log(f"no host {where} yet; waiting for it")
         while bus is None and not stop.is_set():
-            bus = await _connect(client, stop)
-    finally:
-        met.set()
-        if waiting is not None:
-            await waiting
-    return bus
+            bus = await self._connect(stop)
+        if bus is not None:
+            with bus:
+                await together(self._make(bus), stop)
 
+    async def _connect(self, stop: asyncio.Event) -> Bus | None:
+        """A connection to the match; None if no host answers within one attempt."""
+        client = self._client
 
-async def _connect(client: ClientSettings, stop: asyncio.Event) -> Bus | None:
-    """A connection to the match; None if no host answers within one attempt."""
+        def join() -> Bus:
+            account = Account.OPERATOR  # it officiates, and gives the orders of both coaches
+            return open_client(client.match, WallClock(), client.connect, HOST_SEARCH_S, client.credentials, account)
 
-    def join() -> Bus:
-        account = Account.OPERATOR  # it officiates, and gives the orders of both coaches
-        return open_client(client.match, WallClock(), client.connect, _POLL_S, client.credentials, account)
-
-    try:
-        bus = await asyncio.to_thread(join)
-    except BusError:
-        return None
-    if stop.is_set():
-        bus.close()
-        return None
-    return bus
+        try:
+            bus = await asyncio.to_thread(join)
+        except BusError:
+            return None
+        if stop.is_set():
+            bus.close()
+            return None
+        return bus
 
 
 async def together(services: Sequence[Service], stop: asyncio.Event) -> None:

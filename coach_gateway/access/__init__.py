@@ -1,1 +1,1 @@
-"""Access control: roles, rights, tokens, origins, rate limits. Knows no protocol and no bus."""
+"""Access control: roles, rights, tokens, origins, counts of refusals. Knows no protocol and no bus."""

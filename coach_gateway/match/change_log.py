@@ -7,16 +7,14 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.lines import event_line, state_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
+from coach_gateway.timing import POLL_S, REPLY_S
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
 
-_POLL_S = 0.05
-"""Wall time between two polls of the bus, in s."""
 
-
-def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, patience: float = 5.0) -> None:
+def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, patience: float = REPLY_S) -> None:
     """Log a line for each change until the host leaves or `stop` is set.
 
     Raises:
@@ -38,7 +36,7 @@ def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, pat
                 log(line)
         going = going and not follower.gone
         if going:
-            bus.clock.sleep_until(bus.clock.now() + _POLL_S)
+            bus.clock.sleep_until(bus.clock.now() + POLL_S)
 
 
 def change_line(

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from coach_gateway.match.host_change import HostChangeDetector
 from coach_gateway.match.orders import OrderBook, OrderFollower
+from coach_gateway.timing import POLL_S, STATE_SETTLES_S
 from schemas.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
 from schemas.bus.host_watch import HostWatch
 from schemas.game import Phase
@@ -22,9 +23,6 @@ from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, RECORDER_PROGRESS, STATE, WORLD
 from schemas.wire.message import BadMessageError
 
-_SETTLES_S = 0.2
-"""Wall time without another state after which the last one is the newest: a host's cache may deliver the oldest
-first."""
 _LATE_TICKS = 50
 """Ticks that a state may be older than one before it. An even older one means that a replay has jumped back."""
 
@@ -184,8 +182,8 @@ class MatchFollower:
             before = self.state
             self.update()
             if self.state is not before:
-                settled = clock.now() + _SETTLES_S
-            clock.sleep_until(clock.now() + 0.02)
+                settled = clock.now() + STATE_SETTLES_S
+            clock.sleep_until(clock.now() + POLL_S)
         return self.state
 
     @property

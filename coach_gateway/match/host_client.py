@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 from coach_gateway.access.referee_name import gateway_name
 from coach_gateway.match.orders import OrderFollower, Receipt
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
+from coach_gateway.timing import POLL_S, REPLY_S
 from schemas.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
@@ -23,14 +24,11 @@ from schemas.wire.struct_faults import validated
 
 M = TypeVar("M", RefereeAction, SeatRequest)
 
-_POLL_S = 0.02
-"""s of wall time between two looks for acknowledgements."""
-
 
 class HostClient:
     """One client of a match's host."""
 
-    def __init__(self, bus: Bus, patience: float = 3.0, referee: str | None = None) -> None:
+    def __init__(self, bus: Bus, patience: float = REPLY_S, referee: str | None = None) -> None:
         """`referee` is the name under which it officiates; by default that of its connection, which is present with it.
 
         A client that closes its connection after each request needs a name of its own, to keep the referee's seat.
@@ -153,7 +151,7 @@ class HostClient:
             receipt = self.orders.book.receipt(side, order.sequence)
             if receipt.is_final or clock.now() >= deadline:
                 return receipt
-            clock.sleep_until(clock.now() + _POLL_S)
+            clock.sleep_until(clock.now() + POLL_S)
 
     def _next_number(self, side: Side, setup: Setup) -> int:
         """The number of the next order: wall time in ms, or one more than a larger number that is active.

@@ -13,6 +13,7 @@ from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderBook
 from coach_gateway.match.team_obstacles import TeamObstacle, team_obstacles
 from coach_gateway.service import pause
+from coach_gateway.timing import CATCH_UP_S, HOST_RETRY_S, POLL_S
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
 from schemas.game import REFBOX, ActionName
@@ -24,12 +25,6 @@ from schemas.messages.world import World
 from schemas.natural_order import natural_order
 from schemas.side import Side
 
-_POLL_S = 0.01
-"""Wall time between two polls of the bus, in s."""
-_ASK_S = 1.0
-"""Wall time after which the setup is queried again from a host that did not reply, in s."""
-_CATCH_UP_S = 1.0
-"""Wall time by which a state published before a reply may arrive after it, in s."""
 _REQUESTS = 4
 """Requests at the same time; further ones wait. A stop, and what a league's box commands, wait for no others."""
 _T = TypeVar("_T")
@@ -47,7 +42,7 @@ class LiveMatch:
         self._urgent = ThreadPoolExecutor(_REQUESTS, thread_name_prefix="urgent")
         self._ordering = {side: asyncio.Lock() for side in Side}
         self._ended = False
-        self._asked_at = -_ASK_S
+        self._asked_at = -HOST_RETRY_S
         self._asking: asyncio.Task[None] | None = None
         self._stale = True
         self.setup: Setup | None = None
@@ -61,7 +56,7 @@ class LiveMatch:
         try:
             while not stop.is_set():
                 self.update()
-                await pause(stop, _POLL_S)
+                await pause(stop, POLL_S)
         finally:
             self._ended = True
             if self._asking is not None:
@@ -169,9 +164,9 @@ class LiveMatch:
 
     async def _catch_up(self, tick: int) -> None:
         """Wait for the state of a tick that the host has published, for a limited time in case it was lost."""
-        until = self.now + _CATCH_UP_S
+        until = self.now + CATCH_UP_S
         while (self.state is None or self.state.tick < tick) and self.now < until:
-            await asyncio.sleep(_POLL_S)
+            await asyncio.sleep(POLL_S)
             self.update()
 
     async def order(self, side: Side, **content: Any) -> CoachOrder:
@@ -191,7 +186,7 @@ class LiveMatch:
     def _refresh_setup(self) -> None:
         """Query the setup, one query at a time."""
         asking = self._asking is not None and not self._asking.done()
-        if self._stale and not asking and self.now >= self._asked_at + _ASK_S:
+        if self._stale and not asking and self.now >= self._asked_at + HOST_RETRY_S:
             self._asked_at = self.now
             self._asking = asyncio.get_running_loop().create_task(self._ask_setup())
 

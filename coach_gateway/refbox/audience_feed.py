@@ -12,15 +12,11 @@ from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.own_world_state import own_world_state
 from coach_gateway.refbox.team_world_state import TeamWorldState
 from coach_gateway.service import pause
+from coach_gateway.timing import BOX_PERIOD_S, WORLD_STATE_S
 from schemas.errors import TouchlineError
 from schemas.league.robot_numbers import numbers_of
 from schemas.messages.game import GameState
 from schemas.side import Side
-
-EVERY_S = 0.05
-"""s of wall time between two datagrams, as of the league's box."""
-_OLD_S = 1.0
-"""s of wall time after which a base station's world state is replaced by ours."""
 
 
 class AudienceFeed:
@@ -64,7 +60,7 @@ class AudienceFeed:
         try:
             while not stop.is_set():
                 self._send_state()
-                due = max(due + EVERY_S, self._live.now)
+                due = max(due + BOX_PERIOD_S, self._live.now)
                 await pause(stop, due - self._live.now)
         finally:
             self._transport.close()
@@ -84,7 +80,7 @@ class AudienceFeed:
 
     def _world(self, side: Side) -> Mapping[str, Any]:
         live, view = self._live, self._team_states.get(side)
-        if view is not None and view.newest is not None and live.now - view.newest_at < _OLD_S:
+        if view is not None and view.newest is not None and live.now - view.newest_at < WORLD_STATE_S:
             return view.newest
         return self._own(side)
 

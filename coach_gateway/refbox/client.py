@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from coach_gateway.access.rate_limit import TokenBucket
 from coach_gateway.access.referee_name import box_name
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
@@ -20,6 +19,14 @@ from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.own_world_state import own_world_state
 from coach_gateway.refbox.signal_queue import BoxSignal, SignalQueue
 from coach_gateway.service import pause
+from coach_gateway.timing import (
+    BOX_CONNECT_S,
+    BOX_FIRST_PAUSE_S,
+    BOX_LONGEST_PAUSE_S,
+    BOX_PERIOD_S,
+    START_AGAIN_S,
+    UNREAD_S,
+)
 from schemas.errors import TouchlineError
 from schemas.game import OfficiatingMode
 from schemas.league.robot_numbers import numbers_of
@@ -28,21 +35,10 @@ from schemas.messages.coach import CoachMode
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
 
-UPLOAD_S = 0.05
-"""s of wall time between two world states. Chosen here: the league requires at least ten per second."""
-_FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.25, 5.0
-"""s of wall time before the next attempt to connect, doubled each time up to the longest. After a link on which the box
-has sent something, the first pause applies again."""
-_CONNECT_S = 5.0
-"""s of wall time that one attempt to connect lasts at most."""
 UNREAD_BYTES = 262_144
 """Bytes of world states that wait for a box that does not read; beyond them, newer ones are left out."""
-UNREAD_S = 10.0
-"""s of wall time without reading after which the link to a box is closed."""
 _START_S = 10.0
 """s of simulated time during which START is repeated: the rules' pauses are in simulated time, too."""
-_START_AGAIN_S = 0.1
-"""s of wall time between two repetitions of START."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +62,8 @@ class RefBoxClient:
         self._target: str | None = None
         """The address that the box uses for this team, from its WELCOME."""
         self._parked = False
-        self._notices = TokenBucket(1.0, 20.0, live.now)  # lines about commands of the box
+        self._noted = ""
+        """The newest reason in the log."""
         self._signals = SignalQueue()
         self.connected = False
         self.counts: Counter[str] = Counter()
@@ -74,7 +71,7 @@ class RefBoxClient:
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Stay connected whenever the box is there, until `stop` is set."""
-        wait = _FIRST_PAUSE_S
+        wait = BOX_FIRST_PAUSE_S
         reported = False
         while not stop.is_set():
             try:
@@ -84,14 +81,14 @@ class RefBoxClient:
                     reported = True
                     self._log(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying again")
                 await pause(stop, wait)
-                wait = min(2 * wait, _LONGEST_PAUSE_S)
+                wait = min(2 * wait, BOX_LONGEST_PAUSE_S)
                 continue
             reported, received = False, self.counts["received"]
             await self._run_connection(reader, writer, stop)
             if self.counts["received"] > received:
-                wait = _FIRST_PAUSE_S
+                wait = BOX_FIRST_PAUSE_S
             await pause(stop, wait)
-            wait = min(2 * wait, _LONGEST_PAUSE_S)
+            wait = min(2 * wait, BOX_LONGEST_PAUSE_S)
 
     async def _connect(self, stop: asyncio.Event) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         """Connect to the box, unless `stop` is set first.
@@ -101,12 +98,12 @@ class RefBoxClient:
         """
         reached = asyncio.create_task(asyncio.open_connection(self._box.host, self._box.port))
         stopped = asyncio.create_task(stop.wait())
-        await asyncio.wait((reached, stopped), timeout=_CONNECT_S, return_when=asyncio.FIRST_COMPLETED)
+        await asyncio.wait((reached, stopped), timeout=BOX_CONNECT_S, return_when=asyncio.FIRST_COMPLETED)
         stopped.cancel()
         if not reached.done():
             reached.cancel()
             await asyncio.wait((reached,))
-            raise TimeoutError(f"no answer within {_CONNECT_S:g} s")
+            raise TimeoutError(f"no answer within {BOX_CONNECT_S:g} s")
         return reached.result()
 
     async def _run_connection(
@@ -142,8 +139,9 @@ class RefBoxClient:
         return ", ".join(f"{count} {what}" for what, count in sorted(self.counts.items()))
 
     def _note_refusal(self, why: str) -> None:
-        """Log why a command is unreadable or not forwarded, unless there are very many; all are counted."""
-        if self._notices.allow(self._live.now):
+        """Log why a command is unreadable or not forwarded; once, if one after the other is for the same reason."""
+        if why != self._noted:
+            self._noted = why
             self._log(f"referee box: {why}")
 
     def _set_connected(self, connected: bool) -> None:
@@ -195,7 +193,7 @@ class RefBoxClient:
     async def _forward(self) -> None:
         """Forward the signals one after the other, once there is a match that can be officiated."""
         while self._live.state is None or self._live.setup is None:
-            await asyncio.sleep(UPLOAD_S)
+            await asyncio.sleep(BOX_PERIOD_S)
         if self._live.setup.officiating is not OfficiatingMode.MANUAL:
             self._log("our own referee still decides beside the box; start the match with --referee manual")
         while True:
@@ -250,7 +248,7 @@ class RefBoxClient:
         ):
             reply = await self._live.act(self._named(action))
             reason = reply.reason
-            await asyncio.sleep(_START_AGAIN_S)
+            await asyncio.sleep(START_AGAIN_S)
         lost = bool(reason) and self._waits_for_start()
         self.counts["refused" if lost else "forwarded"] += 1
         if lost:
@@ -287,7 +285,7 @@ class RefBoxClient:
                 return
             else:
                 self.counts["left out"] += 1
-            due = max(due + UPLOAD_S, self._live.now)
+            due = max(due + BOX_PERIOD_S, self._live.now)
             await asyncio.sleep(due - self._live.now)
 
     def _upload(self, writer: asyncio.StreamWriter) -> None:

@@ -52,7 +52,7 @@ def read(content: dict[str, Any]) -> BoxCommand:
         raise NoCommandError(f"no command in {json.dumps(content)[:60]}")
     signal = _BY_WORD.get(_plain(word))
     if signal is None:
-        raise NoCommandError(f'"{word[:40]}" is not a command of the referee box')
+        raise NoCommandError(f"{json.dumps(word[:40])} is not a command of the referee box")
     target = fields.get("TARGETTEAM")
     return BoxCommand(signal, target.strip() if isinstance(target, str) else "", _robot(fields.get("ROBOTID")))
 

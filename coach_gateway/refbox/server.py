@@ -13,10 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from coach_gateway.access.client_network import client_network
-from coach_gateway.access.network_limits import NetworkLimits
 from coach_gateway.access.refusals import Refusals
-from coach_gateway.access.token_checks import GuessLimit
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
@@ -26,6 +23,7 @@ from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.identity import HELLO, Identity, UnknownTeamError, identify, targets
 from coach_gateway.refbox.peers import MOST, Peer, Peers, Proof
 from coach_gateway.refbox.team_world_state import TeamWorldState
+from coach_gateway.timing import HELLO_S
 from schemas.league.calls import Call
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.signals import BY_NAME, START, STOP
@@ -34,11 +32,6 @@ from schemas.side import Side
 
 UNREAD = 65_536
 """Bytes that may wait for a base station that does not read, about a thousand commands. Chosen here."""
-NEW_PER_S, NEW_AT_ONCE = 5.0, 100.0
-"""New connections of one network per s of wall time, and at once."""
-_SILENCE_S = 1.0
-"""s of wall time after which a base station that has not identified itself is welcomed without an address: some
-software waits for the welcome before it sends anything."""
 _WELCOME = BY_NAME["WELCOME"]
 
 
@@ -83,8 +76,6 @@ class RefBoxServer:
         self._call_generator = CallGenerator()
         self._addresses: dict[Side, str] = dict(addresses or {})
         self._peers = Peers()
-        self._guesses = GuessLimit()
-        self._new = NetworkLimits(NEW_PER_S, NEW_AT_ONCE)
         self.refusals = Refusals("referee box", log)
         """Refused connections and messages by kind."""
         self.ports: list[int] = []
@@ -113,8 +104,7 @@ class RefBoxServer:
             await stop.wait()
             for peer in self._peers:
                 peer.writer.transport.abort()
-            if refused := self.refusals.summary():
-                self._log(f"referee box: refused {refused}")
+            self.refusals.log_summary()
 
     async def _open(self, address: ServerAddress, bound: socket.socket) -> asyncio.Server:
         return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound, backlog=16)
@@ -152,50 +142,40 @@ class RefBoxServer:
     ) -> None:
         """Serve one connection from its beginning to its end."""
         host, port = (writer.get_extra_info("peername") or ("gone", 0))[:2]
-        now, network = self._live.now, client_network(host)
-        peer = Peer(writer, f"{host}:{port}", network, now, protocol=address.protocol)
-        if not self._new.allow(network, now):
-            self._refuse(peer, "connections beyond the rate limit")
-            return
+        peer = Peer(writer, host, port, self._live.now, protocol=address.protocol)
         if len(self._peers) >= MOST and not self._make_room(peer):
             return
         self._peers.add(peer)
-        late = asyncio.get_running_loop().call_later(_SILENCE_S, self._welcome_unidentified, peer)
+        late = asyncio.get_running_loop().call_later(HELLO_S, self._welcome_unidentified, peer)
         try:
             if address.side is not None:
                 self._settle(peer, Identity(address.side), Proof.PORT)
             while data := await reader.read(16_384):
-                messages = [one for one in peer.framer.feed(data) if isinstance(one, dict)]
-                for message in messages:
-                    await self._pause_guesser(peer, message)
-                    self._read_object(peer, message, address.side)
-                await asyncio.sleep(peer.delay(self._live.now, len(data), len(messages)))
+                for message in peer.framer.feed(data):
+                    if isinstance(message, dict):
+                        self._read_object(peer, message, address.side)
+                await asyncio.sleep(0)  # a base station that floods takes turns with everything else
         except OSError as error:
             self._log(f"base station {peer.name}: {error}")
         except UnknownTeamError as error:
-            self._refuse(peer, "refused hellos", str(error))
+            self._refuse(peer, "hello", str(error))
         finally:
             late.cancel()
             self._forget(peer)
 
     def _make_room(self, newcomer: Peer) -> bool:
         """Drop a base station that has not identified itself; returns whether there was one."""
-        unidentified = self._peers.to_make_room(newcomer.network)
+        unidentified = self._peers.to_make_room()
         if unidentified is None:
-            self._refuse(newcomer, "connections turned away", f"{MOST} base stations are connected")
+            self._refuse(newcomer, "connection", f"{MOST} base stations are connected")
             return False
-        self._refuse(unidentified, "connections without an identity that made room")
+        self._refuse(unidentified, "connection without an identity that made room")
         return True
 
     def _refuse(self, peer: Peer, kind: str, reason: str = "") -> None:
         """Count a refusal, and close the connection."""
-        self.refusals.note(kind, peer.network, self._live.now, reason)
+        self.refusals.note(kind, peer.host, reason)
         self._drop(peer)
-
-    async def _pause_guesser(self, peer: Peer, message: Mapping[str, Any]) -> None:
-        """Wait before a token is checked, where too many unknown ones have come from its network."""
-        if message.get("type") == HELLO and message.get("token"):
-            await asyncio.sleep(self._guesses.pause(peer.network, self._live.now))
 
     def _read_object(self, peer: Peer, message: dict[str, Any], port_of: Side | None) -> None:
         """Handle one object of a base station: its identity, or its world state.
@@ -205,15 +185,8 @@ class RefBoxServer:
         """
         now = peer.heard_at = self._live.now
         is_hello = message.get("type") == HELLO
-        if is_hello and not peer.hellos.allow(now):
-            raise UnknownTeamError("too many hellos; one is enough")
         if peer.side is None or is_hello:
-            try:
-                identity = identify(message, self._names(), self._of_token)
-            except UnknownTeamError:
-                if message.get("token"):
-                    self._guesses.note_unknown(peer.network, now)
-                raise
+            identity = identify(message, self._names(), self._of_token)
             if identity is not None:
                 proof = Proof.PORT if port_of is not None else Proof.NAME
                 if port_of not in (None, identity.side):
@@ -222,7 +195,7 @@ class RefBoxServer:
         if peer.side is not None and not is_hello:
             fault = self.team_states[peer.side].update(message, now)
             if fault:
-                self.refusals.note("world states that are not passed on", peer.network, now, fault)
+                self.refusals.note("world state that is not passed on", peer.host, fault)
 
     def _settle(self, peer: Peer, identity: Identity, proof: Proof) -> None:
         """Note the identity of a base station; it replaces an earlier one of its team, and is sent its address.
@@ -232,7 +205,7 @@ class RefBoxServer:
         """
         others = self._peers.of(identity.side, peer)
         for other in others:
-            if why := self._peers.why_kept(other, proof, peer.network, self._live.now):
+            if why := self._peers.why_kept(other, proof, peer.host, self._live.now):
                 raise UnknownTeamError(f"it claims to be {identity.side}'s, and {why}")
         for other in others:
             self._log(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
@@ -268,7 +241,7 @@ class RefBoxServer:
             return
         peer.writer.write(text)
         if transport.get_write_buffer_size() > UNREAD:
-            self._refuse(peer, "base stations that do not read")
+            self._refuse(peer, "base station that does not read")
 
     def _drop(self, peer: Peer) -> None:
         self._peers.remove(peer)
@@ -281,4 +254,4 @@ class RefBoxServer:
             summary = self.team_states[peer.side].summary()
             self._log(f"{peer.side}'s base station {peer.name} is gone; {summary}{odd}")
         elif peer.framer.garbage:
-            self.refusals.note("connections without an identity", peer.network, self._live.now, odd[2:])
+            self.refusals.note("connection without an identity", peer.host, odd[2:])

@@ -10,8 +10,6 @@ from typing import Any
 from pydantic import ValidationError
 
 from coach_gateway.access import rights
-from coach_gateway.access.client_network import client_network
-from coach_gateway.access.rate_limit import TokenBucket
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import COACHES, Role
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
@@ -27,20 +25,17 @@ from coach_gateway.udp.protocol import (
     ProgramOrder,
     ProgramRequest,
 )
-from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
-from coach_gateway.udp.strangers import Address, Strangers
+from coach_gateway.udp.session import Address, SequenceStatus, Session
 from schemas.game import ActionName
 from schemas.messages.coach import CoachMode
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from schemas.wire.faults import fault_of
 
-MOST = 64
-"""Programs that may be connected at the same time."""
 MOST_WAITING = 8
 """Datagrams of one program that may wait for the host's reply; a stop is always accepted."""
-MOST_OF_A_SIDE = 20
-"""Of these for one side: coaches leave room for the other side and for the referee."""
+MOST_OF_A_ROLE = 20
+"""Programs of one role that may be connected at the same time: each side's coach leaves room for the others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,56 +73,39 @@ _NOTHING = DatagramResult()
 class CoachPrograms:
     """The sessions, by the source address of their datagrams."""
 
-    def __init__(
-        self, role_of: Callable[[str], Role | None], now: float, log: Callable[[str], None] = lambda _: None
-    ) -> None:
-        """`role_of` returns the role of a token; `now` is wall time in s."""
+    def __init__(self, role_of: Callable[[str], Role | None], log: Callable[[str], None] = lambda _: None) -> None:
+        """`role_of` returns the role of a token."""
         self._role_of = role_of
-        self.strangers = Strangers(now)
         self.refusals = Refusals("coach programs", log)
         """Refused datagrams by kind."""
         self.sessions: dict[Address, Session] = {}
-        self.invalid = 0
-        """Datagrams that were invalid."""
-        self.left_out = 0
-        """Datagrams without a session beyond the rate limit."""
 
     def handle(self, data: bytes, address: Address, now: float, robots: Mapping[str, Side]) -> DatagramResult:
         """Handle a datagram at wall time `now` in s; `robots` are all robots of the match with their sides."""
-        session = self.sessions.get(address)
-        if session is not None and session.key.encode() in data:  # the key is compared in constant time below
-            if not session.is_within_limit(now):
-                self._note("datagrams beyond the rate limit", address, now)
-                return _NOTHING
-        elif not self.strangers.allow(address, now):
-            self.left_out += 1
-            self._note("datagrams without a session beyond the rate limit", address, now)
-            return _NOTHING
         ask = _read(data)
         if isinstance(ask, Ack):
-            self.invalid += 1
-            self._note("unreadable datagrams", address, now, ask.reason)
+            self._note("unreadable datagram", address, ask.reason)
             return DatagramResult(ask)
         if isinstance(ask, Hello):
             ack = self._begin(ask, address, now)
             if not ack.accepted:
-                self._note("refused hellos", address, now, ack.reason)
+                self._note("hello", address, ack.reason)
             return DatagramResult(ack)
+        session = self.sessions.get(address)
         if session is None or not hmac.compare_digest(session.key.encode(), ask.session.encode()):
-            self._note("datagrams of an unknown session", address, now)
+            self._note("datagram of an unknown session", address)
             return DatagramResult(
                 _refused(ask, "unknown session; send a hello, and use the session of its acknowledgement")
             )
         session.heard_at = now
         return self._dispatch(session, ask, address, robots)
 
-    def _note(self, kind: str, address: Address, now: float, reason: str = "") -> None:
-        self.refusals.note(kind, client_network(address[0]), now, reason)
+    def _note(self, kind: str, address: Address, reason: str = "") -> None:
+        self.refusals.note(kind, str(address[0]), reason)
 
     def end(self, address: Address) -> None:
         """End the session of an address."""
-        if self.sessions.pop(address, None) is not None:
-            self.strangers.remember(address)
+        self.sessions.pop(address, None)
 
     def finish(self, request: PendingRequest, ack: Ack) -> None:
         """Keep the acknowledgement of a request, in case its datagram comes again."""
@@ -147,15 +125,9 @@ class CoachPrograms:
             if known is not None and known.of == "hello":
                 session.heard_at = now
                 return known.model_copy(update={"duplicate": True})
-        if session is None and len(self.sessions) >= MOST:
-            return _refused(hello, f"{MOST} coach programs are connected, which is the limit")
-        of_role = sum(other.role is role for at, other in self.sessions.items() if at != address)
-        if role in COACHES and of_role >= MOST_OF_A_SIDE:
-            return _refused(
-                hello, f"{MOST_OF_A_SIDE} programs of {role.value}'s coach are connected: the limit of a side"
-            )
-        rate_limit = session.rate_limit if session is not None else TokenBucket(PER_SECOND, AT_ONCE, now)
-        session = Session(secrets.token_urlsafe(12), role, hello.name, now, hello.rate, rate_limit=rate_limit)
+        if sum(other.role is role for at, other in self.sessions.items() if at != address) >= MOST_OF_A_ROLE:
+            return _refused(hello, f"{MOST_OF_A_ROLE} programs with {role.value}'s token are connected: the limit")
+        session = Session(secrets.token_urlsafe(12), role, hello.name, now, hello.rate)
         self.sessions[address] = session
         session.check(hello.sequence)
         ack = Ack(sequence=hello.sequence, of=hello.kind, accepted=True, session=session.key, role=role)

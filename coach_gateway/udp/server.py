@@ -10,19 +10,17 @@ from coach_gateway.access.roles import Role
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.service import pause
+from coach_gateway.timing import POLL_S, SILENCE_S
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
 from coach_gateway.udp.protocol import Ack, BeliefUpdate, BelievedObstacle, EventUpdate, Frame, SessionEnd, SideOrder
-from coach_gateway.udp.session import SILENCE_S, Session
-from coach_gateway.udp.strangers import Address, short_refusal
+from coach_gateway.udp.session import Address, Session
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
 from schemas.side import Side
 from schemas.wire.message import Part
 
-_POLL_S = 0.01
-"""s of wall time between two looks at which program is due."""
 _EVENTS_AT_ONCE = 50
 """Events sent at most with one frame, or for one request for events: more would be lost in a full buffer."""
 
@@ -46,7 +44,7 @@ class UdpServer(asyncio.DatagramProtocol):
         self._live = live
         self._log = log
         self._at, self._bound = (host, port), bound
-        self._coaches = CoachPrograms(role_of, live.now, log)
+        self._coaches = CoachPrograms(role_of, log)
         self._transport: asyncio.DatagramTransport | None = None
         self._full = False
         """The socket's buffer is full: frames are left out."""
@@ -67,7 +65,7 @@ class UdpServer(asyncio.DatagramProtocol):
         host, self.port = transport.get_extra_info("sockname")[:2]
         self._log(f"coach programs over UDP on {host}:{self.port}")
         try:
-            while not await pause(stop, _POLL_S):
+            while not await pause(stop, POLL_S):
                 self._send_due()
         finally:
             for task in tuple(self._tasks):
@@ -75,14 +73,13 @@ class UdpServer(asyncio.DatagramProtocol):
             for address in self._coaches.sessions:
                 self._send(SessionEnd(reason="the gateway is shutting down"), address)
             transport.close()
-            if refused := self._coaches.refusals.summary():
-                self._log(f"coach programs: refused {refused}")
+            self._coaches.refusals.log_summary()
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
         """Handle a datagram."""
         result = self._coaches.handle(data, addr, self._live.now, self._live.sides)
         if result.ack is not None:
-            self._acknowledge(result.ack, addr, len(data))
+            self._send(result.ack, addr)
             if result.ack.of == "hello" and result.ack.accepted and not result.ack.duplicate:
                 self._log(f"{result.ack.role} program from {addr[0]}:{addr[1]}")
         if result.events_since is not None:
@@ -190,16 +187,6 @@ class UdpServer(asyncio.DatagramProtocol):
     def _send_event(self, number: int, address: Address) -> None:
         self._send(EventUpdate(number=number, event=self._live.events[number]), address)
 
-    def _acknowledge(self, ack: Ack, address: Address, received: int) -> None:
-        """Send an acknowledgement; to a source that may be forged none longer than the `received` bytes."""
-        if ack.accepted or address in self._coaches.sessions or self._coaches.strangers.is_known(address):
-            self._send(ack, address)
-        elif (refusal := short_refusal(ack, received)) is not None:
-            self._send_bytes(refusal, address)
-
     def _send(self, message: Part, address: Address) -> None:
-        self._send_bytes(message.model_dump_json().encode(), address)
-
-    def _send_bytes(self, data: bytes, address: Address) -> None:
         if self._transport is not None and not self._transport.is_closing():
-            self._transport.sendto(data, address)
+            self._transport.sendto(message.model_dump_json().encode(), address)

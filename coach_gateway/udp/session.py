@@ -3,17 +3,17 @@
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any
 
-from coach_gateway.access.rate_limit import TokenBucket
 from coach_gateway.access.roles import Role
+from coach_gateway.timing import SILENCE_S
 from coach_gateway.udp.protocol import DEFAULT_RATE, Ack
 
-SILENCE_S = 5.0
-"""s of wall time without a datagram after which a session is over."""
 KEPT = 64
 """Acknowledgements that are kept for repeated datagrams."""
-PER_SECOND, AT_ONCE = 100.0, 200.0
-"""Datagrams of one program that are read per second, and at once; others are dropped."""
+
+Address = tuple[Any, ...]
+"""Host and port of a program."""
 
 
 class SequenceStatus(StrEnum):
@@ -37,8 +37,6 @@ class Session:
     name: str
     begun_at: float
     rate: float = DEFAULT_RATE
-    rate_limit: TokenBucket = field(kw_only=True)
-    """Rate limit of the address, kept across its sessions."""
     heard_at: float = 0.0
     newest: int = 0
     """The largest number so far."""
@@ -50,8 +48,6 @@ class Session:
     """Number of the host whose events these are: they are counted anew with each."""
     beliefs_sent: dict[str, float] = field(default_factory=dict)
     """Robot → simulated time of its belief that was sent last."""
-    left_out: int = 0
-    """Datagrams beyond the rate limit."""
     _answers: "OrderedDict[int, Ack | None]" = field(default_factory=OrderedDict)
 
     def __post_init__(self) -> None:
@@ -61,12 +57,6 @@ class Session:
     def waiting(self) -> int:
         """Datagrams that wait for their acknowledgements."""
         return sum(answer is None for answer in self._answers.values())
-
-    def is_within_limit(self, now: float) -> bool:
-        """Whether a datagram is within the rate limit, and so read."""
-        allowed = self.rate_limit.allow(now)
-        self.left_out += not allowed
-        return allowed
 
     def check(self, sequence: int) -> SequenceStatus:
         """What follows from a number; a new one is noted as waiting for its acknowledgement."""

@@ -4,21 +4,21 @@ import asyncio
 
 from coach_gateway.access import rights
 from coach_gateway.access.roles import Role
+from coach_gateway.timing import HOST_RETRY_S, POLL_S, RELOAD_S, STATUS_S
 from coach_gateway.web.frame_pace import FramePace
+from coach_gateway.web.manual_control import ManualControl
 from coach_gateway.web.match_result import ResultReader
 from coach_gateway.web.page_feed import PageFeed
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import (
-    Alive,
     PageDrive,
     PageOrder,
     PageReplay,
     PageRequest,
-    PageTokenCheck,
     ReplayUpdate,
     Welcome,
 )
-from coach_gateway.web.requests import RequestHandler
+from coach_gateway.web.requests import RequestHandler, refusal
 from coach_gateway.web.settings import BeliefsFor
 from schemas.bus.contract import Bus
 from schemas.config.scene import load_scene, shipped_scenes
@@ -26,20 +26,8 @@ from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.side import Side
 
-_POLL_S = 0.01
-"""s of wall time between two looks at the bus."""
-_STATUS_S = 0.2
-"""s of wall time between two queries of a replay's status."""
-_SWEEP_S = 0.5
-"""s of wall time between two checks for pages that do not read, and between two signs of life to each page."""
-_RESULT_S = 0.2
-"""s of wall time between two looks for a result."""
-RELOAD_S = 3.0
-"""s of wall time in which a page that was closed may come again, as a page that is loaded anew does."""
 _BEGINNING_S = 1.0
 """s of simulated time from a recording's start in which its first tick is looked for."""
-_AGAIN_S = 0.5
-"""s of wall time after which a host that did not answer is queried again."""
 
 
 class PageBroadcaster:
@@ -54,15 +42,16 @@ class PageBroadcaster:
         result: ResultReader | None = None,
     ) -> None:
         self._result = result or ResultReader(None)
-        self._bus, self._pages, self._requests = bus, pages, requests
+        self._bus, self._pages, self.requests = bus, pages, requests
         self._beliefs = beliefs
+        self._manual_control = ManualControl()
         self._pace = FramePace()
         self._scenes = {name: load_scene(name).description for name in shipped_scenes()}
         self.feed = PageFeed(bus)
 
     async def follow(self, stop: asyncio.Event) -> None:
         """Send all pages what is new until `stop` is set, or until the match has a result and its pages are closed."""
-        works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._sweep(), self._follow_result())
+        works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._follow_result())
         tasks = [asyncio.create_task(work) for work in works]
         stopped = asyncio.create_task(stop.wait())
         try:
@@ -104,10 +93,15 @@ class PageBroadcaster:
             return {}
         return {name: side for side, team in self.feed.setup.teams.items() for name in team.robots}
 
-    def refusal(self, request: PageRequest) -> str | None:
-        """Why no role can do this now; None when it can be done."""
-        if isinstance(request, PageTokenCheck):
-            return None
+    def refusal(self, page: Page, role: Role, request: PageRequest) -> str | None:
+        """Why a page with this role cannot do this now; None when it can."""
+        why = refusal(role, request, self.robots()) or self._why_not_now(request)
+        if why is None and isinstance(request, PageDrive):
+            return self._manual_control.refusal(page, request, self._bus.clock.now())
+        return why
+
+    def _why_not_now(self, request: PageRequest) -> str | None:
+        """Why no role can do this now."""
         if not self.feed.host_present:
             return "the host is gone; wait until it is back"
         if self.feed.setup is None:
@@ -148,7 +142,7 @@ class PageBroadcaster:
         while True:
             now = clock.now()
             if sent_at is not None:
-                self._pace.took(max(0.0, now - sent_at - _POLL_S))
+                self._pace.took(max(0.0, now - sent_at - POLL_S))
                 sent_at = None
             for text in feed.update():
                 pages.send(text)
@@ -160,7 +154,7 @@ class PageBroadcaster:
                 feed.frame_changed = False
                 sent_at = now
                 self._show()
-            await asyncio.sleep(_POLL_S)
+            await asyncio.sleep(POLL_S)
 
     def _show(self) -> None:
         """Send the newest frame to all pages; it is encoded once for all roles with the same view."""
@@ -182,11 +176,11 @@ class PageBroadcaster:
                     await self._ask_host()
                 except TouchlineError:
                     self.feed.host_changed = self.feed.host_present
-                    await asyncio.sleep(_AGAIN_S)
+                    await asyncio.sleep(HOST_RETRY_S)
                     continue
                 for page in self._pages:
                     self.welcome(page)
-            await asyncio.sleep(_POLL_S)
+            await asyncio.sleep(POLL_S)
 
     async def _ask_host(self) -> None:
         """Query how the match is set up and whether it is a replay, and the events of a replay's recording.
@@ -194,7 +188,7 @@ class PageBroadcaster:
         Raises:
             TouchlineError: the host does not answer.
         """
-        client = self._requests.client
+        client = self.requests.client
         setup = await asyncio.to_thread(client.setup)
         try:
             recorded = await asyncio.to_thread(client.replay, ReplayRequest(operation=ReplayOperation.EVENTS))
@@ -210,8 +204,8 @@ class PageBroadcaster:
                 try:
                     self.send_replay(await asyncio.to_thread(self._ask_replay))
                 except TouchlineError:
-                    await asyncio.sleep(_AGAIN_S)  # the follower is about to notice that the host has left
-            await asyncio.sleep(_STATUS_S)
+                    await asyncio.sleep(HOST_RETRY_S)  # the follower is about to notice that the host has left
+            await asyncio.sleep(STATUS_S)
 
     def _ask_replay(self) -> ReplayReply:
         """The status of the replay; one that starts paused is stepped to its first tick, so that there is a picture.
@@ -219,9 +213,9 @@ class PageBroadcaster:
         Raises:
             TouchlineError: the replay does not answer.
         """
-        status = self._requests.client.replay(ReplayRequest())
+        status = self.requests.client.replay(ReplayRequest())
         if status.paused and not self.feed.has_picture and status.time <= status.start + _BEGINNING_S:
-            return self._requests.client.replay(ReplayRequest(operation=ReplayOperation.STEP))
+            return self.requests.client.replay(ReplayRequest(operation=ReplayOperation.STEP))
         return status
 
     async def _follow_result(self) -> None:
@@ -234,12 +228,4 @@ class PageBroadcaster:
                 self._pages.send(self._result.result.model_dump_json())
             if self._result.result is not None and clock.now() - seen_at > RELOAD_S:
                 return
-            await asyncio.sleep(_RESULT_S)
-
-    async def _sweep(self) -> None:
-        """Drop pages that do not read, and send a sign of life to the others."""
-        alive = Alive().model_dump_json()
-        while True:
-            self._pages.drop_stuck(self._bus.clock.now())
-            self._pages.send(alive)
-            await asyncio.sleep(_SWEEP_S)
+            await asyncio.sleep(STATUS_S)

@@ -1,6 +1,7 @@
 """How often a frame is sent: 25 times a second, less often if sending to all pages takes long. Pure."""
 
-_LEAST_S = 0.04
+from coach_gateway.timing import FRAME_S
+
 _SHARE = 0.25
 """Share of its time that the server spends on frames, at most: the host may run on the same machine."""
 _NEW = 0.2
@@ -17,7 +18,7 @@ class FramePace:
     @property
     def period(self) -> float:
         """s of wall time between two frames."""
-        return max(_LEAST_S, self._takes_s / _SHARE)
+        return max(FRAME_S, self._takes_s / _SHARE)
 
     def due(self, now: float) -> bool:
         """Whether a frame may be sent at this wall time in s; if so, the next is due a period later."""

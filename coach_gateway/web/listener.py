@@ -2,7 +2,7 @@
 
 import socket
 
-from coach_gateway.web.pages import STUCK_S
+from coach_gateway.timing import UNREAD_S
 from schemas.errors import TouchlineError
 
 _ROOM_BYTES = 65_536
@@ -12,7 +12,7 @@ _HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
 
 
 def listen(address: str, port: int) -> socket.socket:
-    """A listening socket; a connection is cut when its other side has not read for 10 s.
+    """A listening socket; a connection is cut when its other side has not read for `UNREAD_S`.
 
     Raises:
         TouchlineError: the port cannot be listened on.
@@ -22,7 +22,7 @@ def listen(address: str, port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _ROOM_BYTES)
     if hasattr(socket, "TCP_USER_TIMEOUT"):
-        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, round(2 * STUCK_S * 1000))
+        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, round(UNREAD_S * 1000))
     try:
         listener.bind((address, port))
         listener.listen()  # a browser that connects before the server serves is not turned away

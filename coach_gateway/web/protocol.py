@@ -2,8 +2,8 @@
 
 The server begins with `Welcome`, then sends all that is known: whether the host is there, the newest state, health and
 orders, every event so far in order, the newest frame, and the status of a replay. A page forgets everything whenever a
-welcome comes. Another welcome comes when the page checks its token, and when a host comes back. Each message of the
-page gets one `Reply` with its `id`; a `drive` only if it is refused.
+welcome comes. Another welcome comes when a token gives the page another role, and when a host comes back. Each message
+of the page gets one `Reply` with its `id`; a `drive` only if it is refused.
 
 Messages of the host are passed on whole, below a field that names them: an event has a `kind` of its own.
 """
@@ -29,9 +29,6 @@ from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.faults import fault_of
 from schemas.wire.message import Name, Part
-
-MAX_BYTES = 65_536
-"""A message of the page that is longer is refused unread."""
 
 
 class Welcome(Part):
@@ -254,7 +251,7 @@ class PageSeat(_PageRequest):
 
 
 class PageTokenCheck(_PageRequest):
-    """Checks the token: a new welcome comes with its role; an unknown token is refused."""
+    """Checks the token: a new welcome comes with another role; an unknown token is refused."""
 
     deed: Literal["token"]
 

@@ -17,7 +17,6 @@ from coach_gateway.web.protocol import (
     PageRequest,
     PageScene,
     PageSeat,
-    PageTokenCheck,
     Reply,
 )
 from schemas.bus.contract import Bus, Publisher
@@ -102,8 +101,6 @@ class RequestHandler:
 def refusal(role: Role, request: PageRequest, robots: Mapping[str, Side]) -> str | None:
     """Why a role may not ask for this; None when it may. `robots` are all robots of the match with their sides."""
     match request:
-        case PageTokenCheck():
-            return None
         case PageAction():
             action = request.action
             return rights.refusal(role, action.action.value, robots, robot=action.robot)

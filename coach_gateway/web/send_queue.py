@@ -14,22 +14,19 @@ class SendQueue:
         self._messages: deque[str] = deque()
         self._frame: str | None = None
         self._filled = asyncio.Event()
-        self.skipped = 0
-        """Frames that were replaced before the page had read them."""
-
-    @property
-    def overflows(self) -> bool:
-        """Whether more messages wait than for a page that reads."""
-        return len(self._messages) > MOST
+        self.overflowed = asyncio.Event()
+        """Set once more messages have waited than for a page that reads."""
 
     def put(self, text: str) -> None:
         """Add a message, which is kept until it is sent."""
+        if len(self._messages) >= MOST:
+            self.overflowed.set()
+            return
         self._messages.append(text)
         self._filled.set()
 
     def put_frame(self, frame: str) -> None:
         """Add a frame, in place of one that still waits."""
-        self.skipped += self._frame is not None
         self._frame = frame
         self._filled.set()
 

@@ -1,57 +1,83 @@
-"""The page's server, one of the gateway's services: a web server, and the broadcaster that follows the match."""
+"""The page's server, one of the gateway's services: it serves from before there is a match until the process ends."""
 
 import asyncio
 from collections.abc import Callable
 from pathlib import Path
 
-from coach_gateway.access.token_checks import TokenChecks
+from coach_gateway.access.refusals import Refusals
+from coach_gateway.timing import PAGE_ALIVE_S
 from coach_gateway.web.binding import PageBinding
 from coach_gateway.web.broadcaster import PageBroadcaster
-from coach_gateway.web.connections import Connections, host_check
 from coach_gateway.web.match_result import ResultReader
 from coach_gateway.web.pages import Pages
+from coach_gateway.web.protocol import Alive
 from coach_gateway.web.requests import RequestHandler
 from coach_gateway.web.site import site
 from coach_gateway.web.socket_endpoint import SocketEndpoint
-from coach_gateway.web.token_gate import TokenGate
 from coach_gateway.web.uvicorn_server import web_server
 from schemas.bus.contract import Bus, PresenceKind
 
 
 class WebServer:
-    """Serves the page of one match."""
+    """Serves the page; `show` gives it a match."""
 
     def __init__(
-        self, bus: Bus, binding: PageBinding, log: Callable[[str], None] = lambda _: None, result: Path | None = None
+        self, binding: PageBinding, match: str | None, log: Callable[[str], None], result: Path | None = None
     ) -> None:
-        """`result` is the folder in which the result of the match will be written."""
-        self._bus, self._binding, self._log = bus, binding, log
-        self._result = result
-        settings = binding.settings
-        self.pages = Pages(settings.pages, settings.pages_per_address, log)
-        requests = RequestHandler(bus)
-        self._broadcaster = PageBroadcaster(bus, self.pages, requests, settings.beliefs, ResultReader(result))
-        gate = TokenGate(TokenChecks(binding.tokens), self.pages, bus.clock)
-        self._endpoint = SocketEndpoint(self._broadcaster, self.pages, requests, gate, binding.origins, bus.clock)
+        """`match` is the name of the match that is waited for, None for any; `result` the folder of its result."""
+        self._binding, self._result = binding, result
+        self.pages = Pages()
+        self.refusals = Refusals("page", log)
+        self._endpoint = SocketEndpoint(
+            self.pages, binding.settings.pages, binding.tokens, binding.origins, self.refusals, match
+        )
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Serve until `stop` is set, then log what was refused; pages reconnect by themselves later.
-
-        A server that is given the result of its match ends by itself after it, once no page is open any more.
-        """
-        connections = Connections(self.pages.refusals, self._bus.clock)
-        is_known = host_check(self._binding.origins, connections)
-        server = web_server(site(self._endpoint.enter, is_known, result=self._result), connections)
-        self._bus.declare_alive(PresenceKind.COACH, "page")
+        """Serve until `stop` is set, then log what was refused; pages reconnect by themselves later."""
+        app = site(self._endpoint.enter, self._binding.origins.knows, result=self._result)
+        server = web_server(app, self._binding.settings.pages)
         serving = asyncio.create_task(server.serve([self._binding.listener]))
-        following = asyncio.create_task(self._broadcaster.follow(stop))
+        stopped, alive = asyncio.create_task(stop.wait()), asyncio.create_task(self._send_alive())
         try:
-            await asyncio.wait([serving, following], return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait([serving, stopped], return_when=asyncio.FIRST_COMPLETED)
         finally:
             stop.set()
             server.should_exit = True
-            await asyncio.gather(serving, following, return_exceptions=True)
-        if faults := self.pages.fault_summary():
-            self._log(f"refused or dropped: {faults}")
-        following.result()
+            for task in (stopped, alive):
+                task.cancel()
+            await asyncio.gather(serving, stopped, alive, return_exceptions=True)
+        self.refusals.log_summary()
         serving.result()
+
+    def show(self, bus: Bus) -> "ShownMatch":
+        """The match of this bus, as a service that sends it to all pages."""
+        match = PageBroadcaster(
+            bus, self.pages, RequestHandler(bus), self._binding.settings.beliefs, ResultReader(self._result)
+        )
+        self._endpoint.match = match
+        return ShownMatch(bus, match)
+
+    async def _send_alive(self) -> None:
+        """Send all pages a sign of life."""
+        text = Alive().model_dump_json()
+        while True:
+            self.pages.send(text)
+            await asyncio.sleep(PAGE_ALIVE_S)
+
+
+class ShownMatch:
+    """Sends one match to all pages."""
+
+    def __init__(self, bus: Bus, match: PageBroadcaster) -> None:
+        self._bus, self._match = bus, match
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Send what is new until `stop` is set.
+
+        With a folder of the result it ends by itself after the match, once no page is open any more, and sets `stop`.
+        """
+        self._bus.declare_alive(PresenceKind.COACH, "page")
+        try:
+            await self._match.follow(stop)
+        finally:
+            stop.set()

@@ -12,8 +12,6 @@ from schemas.errors import TouchlineError
 
 DEFAULT_PORT = 8080
 DEFAULT_PAGES = 300
-DEFAULT_PAGES_EACH = 100
-"""Enough for three classrooms behind one address, and a third of all pages."""
 
 
 class BeliefsFor(StrEnum):
@@ -35,9 +33,7 @@ class WebSettings(Settings):
     beliefs: BeliefsFor | None = None
     """The roles that are shown beliefs; by default all in a friendly and in a replay, otherwise each team its own."""
     pages: Annotated[int, Field(ge=1)] = DEFAULT_PAGES
-    """Number of pages that may be open at once."""
-    pages_per_address: Annotated[int, Field(ge=1)] = DEFAULT_PAGES_EACH
-    """Number of them from one other address; those of this machine are not counted."""
+    """Number of pages that may be open at once; one with a token is admitted beyond it."""
 
 
 def need_web() -> None:

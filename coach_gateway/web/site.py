@@ -50,13 +50,13 @@ RESULT_HEADERS = HEADERS | {
 
 def site(
     enter: Callable[[WebSocket], Awaitable[None]],
-    is_known: Callable[[str | None, str | None], bool],
+    is_known: Callable[[str | None], bool],
     folder: Path = PAGE,
     result: Path | None = None,
 ) -> Starlette:
     """The whole site; `enter` handles the WebSocket of a page, `result` is the folder of a match's result.
 
-    `is_known` returns whether a Host header names this server; its other argument is the client's address.
+    `is_known` returns whether a Host header names this server.
     """
     for ending, kind in _TYPES.items():
         mimetypes.add_type(kind, ending)
@@ -91,7 +91,7 @@ class _Files(StaticFiles):
 class _Strict:
     """Adds the headers to every response, and refuses requests for another host: they come by a forged DNS entry."""
 
-    def __init__(self, app: ASGIApp, is_known: Callable[[str | None, str | None], bool]) -> None:
+    def __init__(self, app: ASGIApp, is_known: Callable[[str | None], bool]) -> None:
         self._app, self._is_known = app, is_known
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -106,7 +106,7 @@ class _Strict:
 
         if scope["type"] != "http":
             await self._app(scope, receive, send)
-        elif not self._is_known(Headers(scope=scope).get("host"), scope["client"][0] if scope["client"] else None):
+        elif not self._is_known(Headers(scope=scope).get("host")):
             await PlainTextResponse(_MISDIRECTED, 421)(scope, receive, with_headers)
         else:
             await self._app(scope, receive, with_headers)

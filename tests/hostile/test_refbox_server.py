@@ -8,9 +8,7 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.access import token_checks
 from coach_gateway.refbox import peers
-from coach_gateway.refbox import server as server_module
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.framing import LIMIT, BoxProtocol, Framer
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
@@ -70,11 +68,6 @@ class Attacked:
         self.bench.stage.say(phase=Phase.STOPPED, side=None)
         self.bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
         await until(lambda: all("CORNER Sapphire" in one.commands for one in stations), "the game's commands")
-
-
-@pytest.fixture(autouse=True)
-def every_address_is_another_machine(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server_module, "client_network", lambda address: address)
 
 
 @asynccontextmanager
@@ -151,26 +144,6 @@ def test_a_piece_of_very_many_or_very_deep_objects_costs_no_more_than_a_few() ->
     assert framer.garbage == 2
 
 
-def test_three_hundred_connections_of_one_address_keep_no_base_station_out() -> None:
-    async def play() -> None:
-        async with attacked() as scene:
-            quiet = await scene.connect("127.0.0.3")  # software that only reads
-            cyan = await scene.connect("127.0.0.4", {"team": "cyan"})
-            for _ in range(300):
-                await scene.connect("127.0.0.2")
-            magenta = await scene.connect("127.0.0.5", {"team": "magenta"})
-            await scene.plays_on(quiet, cyan, magenta)
-            assert sum(not station.gone for station in scene.stations) <= peers.MOST + 1
-            named = [line for line in scene.bench.logged if line.startswith("referee box: ")]
-            assert named == [
-                "referee box: connections without an identity that made room from 127.0.0.2; further ones are counted",
-                "referee box: connections beyond the rate limit from 127.0.0.2; further ones are counted",
-            ]
-            assert scene.box.refusals.counts.total() >= 280
-
-    asyncio.run(play())
-
-
 def test_a_name_alone_replaces_no_base_station_with_a_token_and_none_that_is_in_use_elsewhere() -> None:
     async def play() -> None:
         async with attacked() as scene:
@@ -188,7 +161,7 @@ def test_a_name_alone_replaces_no_base_station_with_a_token_and_none_that_is_in_
             assert scene.box.team_states[Side.MAGENTA].states == 0
             await scene.plays_on(cyan, magenta)
             assert (
-                "referee box: refused hellos from 127.0.0.2 (it claims to be cyan's, and its base station has proven "
+                "referee box: hello from 127.0.0.2 (it claims to be cyan's, and its base station has proven "
                 "more; send the token of its coach in the hello); further ones are counted"
             ) in scene.bench.logged
             again = await scene.connect("127.0.0.6", {"token": "token-of-cyan"})  # the same team from elsewhere
@@ -201,7 +174,7 @@ def test_a_name_alone_replaces_no_base_station_with_a_token_and_none_that_is_in_
 def test_a_base_station_that_has_fallen_silent_is_replaced_from_another_address(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(peers, "IN_USE_S", 0.0)
+    monkeypatch.setattr(peers, "SILENCE_S", 0.0)
 
     async def play() -> None:
         async with attacked() as scene:
@@ -230,60 +203,13 @@ def test_the_port_of_one_team_is_not_for_the_other() -> None:
     asyncio.run(play())
 
 
-def test_guesses_at_tokens_are_slowed_down_and_the_right_one_is_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(token_checks, "UNKNOWN_AT_ONCE", 5.0)
-    monkeypatch.setattr(token_checks, "PAUSE_S", 60.0)
-
-    async def play() -> None:
-        async with attacked() as scene:
-            for number in range(5):
-                guesser = await scene.connect("127.0.0.2", {"token": f"guess {number}"})
-                assert guesser.gone
-            held = await scene.connect("127.0.0.2")
-            held.send({"type": "hello", "token": "guess"}, {"type": "worldstate", "robots": []})
-            cyan = await scene.connect("127.0.0.3", {"token": "token-of-cyan"})
-            await scene.plays_on(cyan)
-            assert not held.gone  # its token has not been checked yet
-            monkeypatch.setattr(token_checks, "PAUSE_S", 0.1)
-            late = await scene.connect("127.0.0.2", {"token": "token-of-magenta"})
-            assert late.commands[0] == "WELCOME Ruby"
-
-    asyncio.run(play())
-
-
-def test_a_base_station_that_identifies_itself_again_and_again_is_sent_away() -> None:
-    async def play() -> None:
-        async with attacked() as scene:
-            restless = await scene.connect()
-            for number in range(50):
-                restless.send({"type": "hello", "team": ("cyan", "magenta")[number % 2]})
-            await until(lambda: restless.gone)
-            assert len([line for line in scene.bench.logged if "base station is" in line]) <= 11
-
-    asyncio.run(play())
-
-
-def test_world_states_in_a_flood_are_read_at_a_bounded_rate_and_others_take_turns() -> None:
+def test_world_states_in_a_flood_hold_up_no_command_to_others() -> None:
     async def play() -> None:
         async with attacked() as scene:
             cyan = await scene.connect("127.0.0.3", {"team": "cyan"})
             flooder = await scene.connect("127.0.0.2", {"team": "magenta"})
             flooder.send(b'{"type": "worldstate", "teamName": "Ruby", "robots": []}\x00' * 50_000)
             await scene.plays_on(cyan)
-            assert scene.box.team_states[Side.MAGENTA].states < 10_000
-
-    asyncio.run(play())
-
-
-def test_a_connection_that_sends_half_a_message_holds_no_place_of_a_team(monkeypatch: pytest.MonkeyPatch) -> None:
-    async def play() -> None:
-        async with attacked() as scene:
-            slow = [await scene.connect() for _ in range(peers.MOST)]
-            for station in slow:
-                station.send(b'{"type": "hel')
-            cyan, magenta = [
-                await scene.connect(f"127.0.0.{4 + number}", {"team": side.value}) for number, side in enumerate(Side)
-            ]
-            await scene.plays_on(cyan, magenta)
+            assert scene.box.team_states[Side.MAGENTA].states < 50_000
 
     asyncio.run(play())

@@ -3,14 +3,13 @@
 import asyncio
 import json
 import threading
-from collections.abc import Callable
 from pathlib import Path
 
 from coach_gateway.access.tokens import tokens_of
+from coach_gateway.service import together
 from coach_gateway.web.binding import bind_page
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
-from coach_gateway.web.waiting_page import WaitingPage
 from schemas.bus.in_process_bus import SharedState
 from schemas.process.clock import WallClock
 
@@ -29,7 +28,7 @@ def tokens_in(folder: Path) -> Path:
 
 
 class Gateway:
-    """The page's server in a thread of its own; without `medium` it waits for a host in vain."""
+    """The page's server in a thread of its own; without `medium` it waits for a host until `meet` is called."""
 
     def __init__(
         self, medium: SharedState | None, settings: WebSettings, tokens: Path | None, result: Path | None = None
@@ -37,31 +36,35 @@ class Gateway:
         self.logged: list[str] = []
         self.binding = bind_page(settings, tokens_of(tokens), tokens)
         self.origin = self.binding.origin
-        self.bus = medium.open_bus("friendly", WallClock()) if medium is not None else None
-        self._result = result
-        self._stop = asyncio.Event()
-        self._thread = threading.Thread(
-            target=self._run,
-        )
+        self._medium, self._result = medium, result
+        self._met, self._stop = asyncio.Event(), asyncio.Event()
+        self._thread = threading.Thread(target=lambda: asyncio.run(self._run()))
         self._ready = threading.Event()
         self._thread.start()
         assert self._ready.wait(SOON)
 
-    def _run(self) -> None:
-        async def main() -> None:
-            self._loop = asyncio.get_running_loop()
-            if self.bus is not None:
-                self.server = WebServer(self.bus, self.binding, self.logged.append, self._result)
-            waiting = WaitingPage(self.binding, "friendly", log=self.logged.append)
-            self.pages = self.server.pages if self.bus is not None else waiting.pages
-            self._ready.set()
-            await (waiting if self.bus is None else self.server).serve(self._stop)
+    async def _run(self) -> None:
+        self._loop = asyncio.get_running_loop()
+        server = WebServer(self.binding, "friendly", self.logged.append, self._result)
+        self.pages = server.pages
+        if self._medium is not None:
+            self._met.set()
+        self._ready.set()
+        await together([server, _Met(self, server)], self._stop)
 
-        asyncio.run(main())
+    def meet(self, medium: SharedState) -> None:
+        """A host is there from now on."""
+        self._medium = medium
+        self._loop.call_soon_threadsafe(self._met.set)
 
-    def call(self, do: Callable[[], object]) -> None:
-        """Have its thread do something soon."""
-        self._loop.call_soon_threadsafe(do)
+    async def follow(self, server: WebServer, stop: asyncio.Event) -> None:
+        """Show the match as soon as there is one."""
+        met, stopped = asyncio.create_task(self._met.wait()), asyncio.create_task(stop.wait())
+        await asyncio.wait([met, stopped], return_when=asyncio.FIRST_COMPLETED)
+        met.cancel()
+        if self._medium is not None:
+            with self._medium.open_bus("friendly", WallClock()) as bus:
+                await server.show(bus).serve(stop)
 
     @property
     def port(self) -> int:
@@ -84,5 +87,13 @@ class Gateway:
         self._thread.join(SOON)
         assert not self._thread.is_alive()
         self.binding.listener.close()
-        if self.bus is not None:
-            self.bus.close()
+
+
+class _Met:
+    """The match of a gateway as a service."""
+
+    def __init__(self, gateway: Gateway, server: WebServer) -> None:
+        self._gateway, self._server = gateway, server
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        await self._gateway.follow(self._server, stop)

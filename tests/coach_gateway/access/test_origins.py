@@ -36,6 +36,10 @@ def test_our_own_page_and_an_allowed_one_come_in(origin: str, host: str) -> None
         ("http://127.0.0.1.evil.example:8080", "127.0.0.1.evil.example:8080"),
         ("https://cup.example.org.evil.example", "127.0.0.1:8080"),
         ("file://", "127.0.0.1:8080"),
+        ("http://", "127.0.0.1:8080"),
+        ("http://127.0.0.1@evil.example", "127.0.0.1:8080"),
+        ("javascript:0", "127.0.0.1:8080"),
+        ("chrome-extension://abc", "127.0.0.1:8080"),
         ("http://[::1", "[::1"),
     ],
 )
@@ -53,3 +57,17 @@ def test_an_allowed_origin_may_be_written_in_large_letters() -> None:
 def test_an_origin_that_is_none_is_refused_with_how_to_write_it(origin: str) -> None:
     with pytest.raises(TouchlineError, match="write it as https://"):
         Origins([origin])
+
+
+@pytest.mark.parametrize(
+    "host", ["127.0.0.1", "localhost:9", "[::1]:8080", "192.168.1.5:8080", "CUP.example.org", None]
+)
+def test_numeric_addresses_own_names_and_allowed_origins_are_names_of_the_server(host: str | None) -> None:
+    assert Origins(["https://cup.example.org"]).knows(host)
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:80", "127.0.0.1.evil.example", "localhost.evil.example", "", "[", "a@b", "☃"]
+)
+def test_a_name_that_a_foreign_dns_entry_points_here_is_none_of_the_server(host: str) -> None:
+    assert not Origins(["https://cup.example.org"]).knows(host)

@@ -300,7 +300,7 @@ def test_half_a_letter_in_a_hello_is_an_unknown_name(boxed: Any, until: Any, wor
         async with boxed(of_token=lambda token: role_side(Tokens.random().role_of(token))) as (bench, _, come):
             stranger = await come(**{word: "\ud800"})
             await until(lambda: stranger.gone)
-            assert any("refused hellos from this machine" in line for line in bench.logged)
+            assert any("hello from 127.0.0.1" in line for line in bench.logged)
             assert (await come(team="cyan")).commands()[0].startswith("WELCOME")
         assert faults == []
 
@@ -327,7 +327,7 @@ def test_software_that_knows_no_hello_is_known_by_its_world_states_or_by_its_por
 def test_a_silent_base_station_is_welcomed_without_an_address_and_receives_the_game(
     boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server_module, "_SILENCE_S", 0.02)
+    monkeypatch.setattr(server_module, "HELLO_S", 0.02)
 
     async def play() -> None:
         async with boxed() as (bench, _, come):
@@ -410,7 +410,7 @@ def test_a_base_station_that_never_reads_is_dropped_and_the_others_receive_every
             await asyncio.get_running_loop().sock_sendall(deaf, b'{"type": "hello", "team": "magenta"}\x00')
             cyan = await come(team="cyan")
             told = 0
-            while not any("base stations that do not read" in line for line in bench.logged):
+            while not any("base station that does not read" in line for line in bench.logged):
                 box.send([Call(BY_NAME["CORNER"], Side.CYAN)] * 1000)
                 told += 1000
                 assert told < 1_000_000
@@ -497,7 +497,7 @@ def test_the_audience_receives_teams_and_events(
     boxed: Any, until: Any, check_world_state: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A base station's own world state, and where none comes, what our robots say."""
-    monkeypatch.setattr("coach_gateway.refbox.audience_feed._OLD_S", 1000.0)  # it is sent once
+    monkeypatch.setattr("coach_gateway.refbox.audience_feed.WORLD_STATE_S", 1000.0)  # it is sent once
 
     async def play() -> None:
         async with boxed() as (bench, box, come):
@@ -565,7 +565,7 @@ def test_a_world_state_that_is_too_large_does_not_silence_the_audience_feed(
             await until(lambda: len(display.said) > told + 3)
             check_world_state(display.said[-1]["teamA"]["worldState"])
             assert bench.logged[-1] == (
-                "referee box: world states that are not passed on from this machine (more than 30000 bytes); "
+                "referee box: world state that is not passed on from 127.0.0.1 (more than 30000 bytes); "
                 "further ones are counted"
             )
             transport.close()

@@ -1,12 +1,14 @@
 """Messages to pages, over real sockets: their order, their receivers, and hosts and servers that come and go."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 from websockets.exceptions import ConnectionClosed
 
 from coach_gateway.web.protocol import SERVER_MESSAGE
+from coach_gateway.web.settings import WebSettings
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.scene import shipped_scenes
 from schemas.messages.coach import CoachMode, CoachOrder
@@ -190,15 +192,25 @@ def test_messages_repeated_when_a_link_comes_back_are_neither_news_nor_another_h
     assert (heard["kind"], heard["event"]["text"]) == ("event", "event 3")
 
 
-def test_a_page_that_comes_before_any_host_waits_and_is_welcomed_again(
-    host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
+def test_a_page_that_comes_before_any_host_waits_learns_its_role_and_is_welcomed_again(
+    host_of: Callable[..., FakeHost], medium: SharedState, tokens: Path
 ) -> None:
-    page = Visitor(gateway_of().origin)
-    assert page.hear("welcome")["setup"] is None
+    gateway = Gateway(None, WebSettings(port=0), tokens)
+    page = Visitor(gateway.origin)
+    welcome = page.hear("welcome")
+    assert (welcome["match"], welcome["setup"], welcome["deeds"]) == ("friendly", None, [])
     assert page.hear("host")["there"] is False
+    page.hear("alive")
+    assert page.ask("token", token="nonsense")["reason"].startswith("unknown token")
+    assert page.enter("referee")["setup"] is None
+    refused = page.ask("action", action={"action": "stop"})
+    assert (refused["accepted"], refused["reason"]) == (False, "no host plays this match yet")
     host_of()
-    assert page.hear("welcome")["setup"]["match"] == "friendly"
+    gateway.meet(medium)
+    assert page.hear_what_is_played()["role"] == "referee"
+    assert page.ask("action", action={"action": "stop"})["accepted"]
     page.close()
+    gateway.close()
 
 
 def test_a_welcome_names_the_scenes_that_can_be_loaded(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
@@ -244,8 +256,8 @@ def test_a_replay_sends_all_its_events_at_once_and_none_again(
     page.enter("referee")
     sought = page.ask("replay", request={"operation": "seek", "to": "1.5"})
     assert (sought["accepted"], sought["answer"]["time"]) == (True, 1.5)
-    changed = page.ask("order", side="cyan", order={})
-    assert changed["reason"] == "this is a replay: what is recorded cannot be changed"
+    for deed, content in (("order", {"side": "cyan", "order": {}}), ("drive", {"robot": "cyan1", "manual": {}})):
+        assert page.ask(deed, **content)["reason"] == "this is a replay: what is recorded cannot be changed"
     page.close()
 
 
