@@ -12,7 +12,7 @@ from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
-from schemas.config.settings_file import exit_status, run_process
+from schemas.config.settings_file import run_process
 from schemas.messages.setup import Setup
 from schemas.side import Side
 
@@ -43,11 +43,6 @@ def run(settings: BuildCheckSettings) -> int:
         brain = config.team(settings.side).brain or ""
         load_brain(brain, Briefing.of(robot, setup), settings.brain_folder, settings.launch_folder)
     return 0
-
-
-def build(settings: BuildCheckSettings) -> NoReturn:
-    """Build the brains, and end this process."""
-    _end(exit_status(lambda: run(settings)))
 
 
 def _end(status: int) -> NoReturn:

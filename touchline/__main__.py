@@ -1,4 +1,4 @@
-"""`python -m touchline`: the command line. Every forked robot imports this module again."""
+"""`python -m touchline`: the command line. Every process of a pool imports this module again."""
 
 from touchline.script import main
 

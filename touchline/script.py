@@ -1,6 +1,6 @@
 """The command line's entry, for the installed script and for `python -m touchline`.
 
-Every forked robot imports this module again, and it runs before the module path is in order: at its top it imports
+Every process of a pool imports this module again, and it runs before the module path is in order: at its top it imports
 nothing but modules that Python has already loaded.
 """
 

@@ -29,6 +29,11 @@ class OwnConfinement(TypedDict, total=False):
     """Its working folder."""
 
 
+def leashed(wanted: OwnConfinement) -> tuple[str, ...]:
+    """The beginning of a command line that runs the rest of it, confined, until this process ends."""
+    return (sys.executable, "-I", "-S", __file__, str(os.getpid()), json.dumps(wanted))
+
+
 def confine(wanted: OwnConfinement) -> None:
     """Confine this process.
 
@@ -55,9 +60,7 @@ def main(arguments: list[str]) -> int:
     except OSError as error:
         sys.stderr.write(f"touchline: the limits of this process cannot be set: {error}\n")
         return 127
-    _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    if sys.platform == "linux" and os.getppid() != int(launcher):
-        return 1  # the launcher died before prctl took effect
+    end_with(int(launcher))
     try:
         os.execvp(command[0], command)
     except OSError as error:
@@ -65,9 +68,12 @@ def main(arguments: list[str]) -> int:
     return 127
 
 
-def _prctl(option: int, value: int) -> None:
+def end_with(parent: int) -> None:
+    """Have the kernel kill this process when its parent ends; the parent's id is given, as it may have ended."""
     if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(option, value)
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != parent:
+            os._exit(1)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ import stat
 import subprocess
 import tempfile
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,8 +15,8 @@ from schemas.access.accounts import Account
 from schemas.access.credentials import account_file, credential_files, new_credentials, write_credentials
 from schemas.bus.announcement import Announcement, announced
 from schemas.config.match_config import load_match
+from schemas.config.settings_file import write_settings
 from schemas.process.clock import WallClock
-from touchline.launch.child_process import write_settings_of
 from touchline.launch.processes import client_processes, host_process
 from touchline.launch.run_folder import prepare_credentials, prepare_run
 
@@ -54,7 +53,8 @@ def test_no_file_of_a_run_that_holds_a_secret_can_be_read_by_others(folder: Path
     protected = prepare_credentials(plan, tls=True)
     for each in (plan, protected):
         for process in (host_process(each), *client_processes(each)):
-            write_settings_of(replace(process, confinement=None))
+            assert process.settings is not None and process.settings_file is not None
+            write_settings(process.settings, process.settings_file)
         for account in Account:
             file = each.credentials_of(account)
             assert file is None or mode(file) == 0o600
@@ -73,9 +73,10 @@ def test_no_file_of_a_run_that_holds_a_secret_can_be_read_by_others(folder: Path
 def test_another_user_reads_neither_credentials_nor_tokens_nor_settings(folder: Path) -> None:
     plan = prepare_credentials(prepare_run(load_match(None), None, None, WallClock()), tls=False)
     host = host_process(plan)
-    write_settings_of(host)
+    assert host.settings is not None and host.settings_file is not None
+    write_settings(host.settings, host.settings_file)
     read_or_make(plan.tokens)
-    assert plan.credentials is not None and host.settings_file is not None
+    assert plan.credentials is not None
     for path in (*credential_files(plan.credentials), plan.tokens, host.settings_file):
         assert path.exists() and not can_be_read_by_others(path), path
     (plan.folder / "host.log").touch()

@@ -28,7 +28,7 @@ MODULES = {
     "the simulation, to check the match file": "sim_host.match.live_parameters",
     "the check of the brains, in its process": "robot_agent.build_check",
     "the launch": "touchline.launch.match_run",
-    "the robots, in the fork server": "robot_agent.process",
+    "the robots, in the process that they are forked from": "robot_agent.process",
 }
 
 

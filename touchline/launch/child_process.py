@@ -1,53 +1,69 @@
 """One launched process: it has its own process group and log, and does not outlive its supervisor."""
 
-import json
 import os
 import signal
 import subprocess
-import sys
-from abc import ABC, abstractmethod
+from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from coach_gateway.ports import inheritance_of
 from schemas.config.settings_file import STANDARD_INPUT, write_settings
 from schemas.errors import TouchlineError
-from schemas.process import leash
-from schemas.process.leash import OwnConfinement
+from schemas.process.clock import Clock
+from schemas.process.leash import OwnConfinement, leashed
 from schemas.process.process_log import message_of
 from touchline.launch.bubblewrap import run_as
+from touchline.launch.fork_server import ROBOTS
 from touchline.launch.process_table import Process
 
+if TYPE_CHECKING:
+    from robot_agent.forks import ForkRequest
+
 _TAIL_BYTES = 8192
+_POLL_S = 0.01
+"""Wall time between two looks whether a process has ended."""
 _SIGNAL_IN_BUBBLEWRAP = 128
 """bwrap ends with this and the number of the signal that ended its program."""
 _SIGNALS_OF_LIMITS = {-signal.SIGXCPU: "cpu_time", -signal.SIGXFSZ: "file_size"}
 """Exit status → the limit for which the kernel ended a process."""
 
 
-class ProcessHandle(ABC):
+class ChildProcess:
     """A launched process, running or ended; it leads its own process group."""
 
-    def __init__(self, process: Process, log: Path, log_start: int) -> None:
-        """The process appends its output to `log`, which has `log_start` bytes before."""
-        self.process = process
-        self.log = log
-        self._log_start = log_start
+    def __init__(self, process: Process, log: Path) -> None:
+        """Launch the process, which appends its output to `log`.
+
+        Raises:
+            TouchlineError: its settings or its folder cannot be written.
+        """
+        self.process, self.log = process, log
         self._status: int | None = None
+        _write_files_of(process)
+        with log.open("ab") as out:
+            self._log_start = out.tell()
+        self._poll: Callable[[], int | None]
+        pid = ROBOTS.fork(_fork_request(process, log)) if process.can_fork else None
+        if pid is not None:
+            self.pid, self._poll = pid, partial(ROBOTS.status, pid)
+        else:
+            popen = _popen(process, log)
+            self.pid, self._poll = popen.pid, popen.poll
 
-    @property
-    @abstractmethod
-    def pid(self) -> int:
-        """Process id, which is also the id of its group."""
-
-    @abstractmethod
-    def _poll(self) -> int | None:
-        """Exit status, negative for a signal; None while running. Not called again after the end."""
+    def wait(self, seconds: float, clock: Clock) -> int | None:
+        """Exit status; None if it still runs after this wall time in s."""
+        deadline = clock.now() + seconds
+        while self.status() is None and clock.now() < deadline:
+            clock.sleep_until(clock.now() + _POLL_S)
+        return self.status()
 
     def status(self) -> int | None:
         """Exit status, negative for the signal that ended the process; None while running."""
         if self._status is None:
-            self._status = self._poll()
+            self._status = _unwrapped(self.process, self._poll())
             if self._status is not None:
                 self._signal_group(signal.SIGKILL)  # ends its descendants, too
                 if self.process.confinement is not None:
@@ -58,7 +74,7 @@ class ProcessHandle(ABC):
         """Send a signal to the process group, unless the process has ended; in bubblewrap, to all within."""
         if self._status is not None:
             return
-        if self.process.confinement is not None and self.process.confinement.visible is not None:
+        if self.process.confinement is not None and self.process.confinement.is_isolated:
             self._signal_within(number)
         else:
             self._signal_group(number)
@@ -95,48 +111,34 @@ class ProcessHandle(ABC):
             return  # no process of the group is left
 
 
-def _children_of(pid: int) -> list[int]:
-    try:
-        return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
-    except OSError:  # it has ended, or the kernel does not list them
-        return []
-
-
-def write_settings_of(process: Process) -> None:
-    """Write the settings file of a process; a team's own program has none.
+def _write_files_of(process: Process) -> None:
+    """Write the settings file of a process, if it has one, and make the working folder of a confined one.
 
     Raises:
-        TouchlineError: the file cannot be written.
-    """
-    if process.settings is None or process.settings_file is None:
-        return
-    try:
-        write_settings(process.settings, process.settings_file)
-    except OSError as error:
-        raise TouchlineError(f"{error.filename}: {error.strerror}; {process.name} reads its settings there") from None
-
-
-def make_folder_of(process: Process) -> None:
-    """Make the working folder of a confined process.
-
-    Raises:
-        TouchlineError: it cannot be made.
+        TouchlineError: that cannot be written.
     """
     try:
+        if process.settings is not None and process.settings_file is not None:
+            write_settings(process.settings, process.settings_file)
         if process.confinement is not None:
             process.confinement.make_folder()
     except OSError as error:
-        raise TouchlineError(f"{error.filename}: {error.strerror}; {process.name} works there") from None
+        raise TouchlineError(f"{error.filename}: {error.strerror}; {process.name} needs it") from None
 
 
-def confinement_of(process: Process) -> tuple[dict[str, str], OwnConfinement]:
-    """The whole environment of a process, and what it applies to itself."""
+def _environment_of(process: Process) -> dict[str, str]:
+    """The whole environment of a process."""
     if process.confinement is None:
-        return {**os.environ, **process.environment}, {}
-    return process.confinement.environment(process.environment), process.confinement.own()
+        return {**os.environ, **process.environment, **inheritance_of(process.sockets)}
+    return process.confinement.environment(process.environment)
 
 
-def command_of(process: Process) -> tuple[str, ...]:
+def _own_confinement(process: Process) -> OwnConfinement:
+    """What a process applies to itself."""
+    return process.confinement.own() if process.confinement is not None else {}
+
+
+def _command_of(process: Process) -> tuple[str, ...]:
     """The command line of a process; a confined one reads its settings from standard input or by an absolute path."""
     confinement, file = process.confinement, process.settings_file
     if confinement is None:
@@ -147,41 +149,49 @@ def command_of(process: Process) -> tuple[str, ...]:
     return confinement.command(given if word == str(file) else word for word in process.command)
 
 
-class ChildProcess(ProcessHandle):
-    """A program launched by its command line."""
+def _fork_request(process: Process, log: Path) -> "ForkRequest":
+    """The request for a fork that does what the command line of the process says, `python -P -m MODULE …`."""
+    *_, module, option, file = _command_of(process)
+    return {
+        "name": process.name,
+        "module": module,
+        "arguments": [option, file],
+        "environment": _environment_of(process),
+        "confinement": _own_confinement(process),
+        "log": str(log.absolute()),
+    }
 
-    def __init__(self, process: Process, log: Path) -> None:
-        """Writes the settings, if any, before the launch."""
-        write_settings_of(process)
-        make_folder_of(process)
-        environment, own = confinement_of(process)
-        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), json.dumps(own))
-        with log.open("ab") as out, _standard_input(process).open("rb") as given:
-            super().__init__(process, log, out.tell())
-            self._popen = subprocess.Popen(
-                [*launcher, *command_of(process)],
-                **run_as(process.confinement.user if process.confinement is not None else None),
-                stdin=given,
-                stdout=out,
-                stderr=subprocess.STDOUT,
-                env={**environment, **inheritance_of(process.sockets)},
-                pass_fds=[one.fileno() for one in process.sockets],
-                process_group=0,
-            )
 
-    @property
-    def pid(self) -> int:
-        """Process id, which is also the id of its group."""
-        return self._popen.pid
-
-    def _poll(self) -> int | None:
-        status = self._popen.poll()
-        is_wrapped = self.process.confinement is not None and self.process.confinement.visible is not None
-        if is_wrapped and status is not None and status - _SIGNAL_IN_BUBBLEWRAP in set(signal.Signals):
-            return _SIGNAL_IN_BUBBLEWRAP - status
-        return status
+def _popen(process: Process, log: Path) -> "subprocess.Popen[bytes]":
+    confinement = process.confinement
+    with log.open("ab") as out, _standard_input(process).open("rb") as given:
+        return subprocess.Popen(
+            [*leashed(_own_confinement(process)), *_command_of(process)],
+            **run_as(confinement.user if confinement is not None else None),
+            stdin=given,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            env=_environment_of(process),
+            pass_fds=[one.fileno() for one in process.sockets],
+            process_group=0,
+        )
 
 
 def _standard_input(process: Process) -> Path:
     is_isolated = process.confinement is not None and process.confinement.is_isolated
     return process.settings_file if is_isolated and process.settings_file is not None else Path(os.devnull)
+
+
+def _unwrapped(process: Process, status: int | None) -> int | None:
+    """The exit status of a process, also where bwrap reports it."""
+    is_wrapped = process.confinement is not None and process.confinement.is_isolated
+    if is_wrapped and status is not None and status - _SIGNAL_IN_BUBBLEWRAP in set(signal.Signals):
+        return _SIGNAL_IN_BUBBLEWRAP - status
+    return status
+
+
+def _children_of(pid: int) -> list[int]:
+    try:
+        return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except OSError:  # it has ended, or the kernel does not list them
+        return []

@@ -1,141 +1,88 @@
-"""Launches robots, and builds brains before, with a fork server of the standard library that has the modules imported.
+"""The process that robots are forked from, `robot_agent.forks`: started once, asked for each robot.
 
-A robot is launched by its command line instead if the kernel is not Linux, if the robot has its own program, or if it
-is restarted after a crash, or if it is isolated.
+Ten robots, each in a Python of its own, would spend ten seconds of CPU time on the same imports.
 """
 
-import os
+import json
 import signal
+import subprocess
 import sys
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
-from multiprocessing import Pipe, resource_tracker
-from multiprocessing.connection import Connection
-from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
+from typing import IO, TYPE_CHECKING
 
-from robot_agent.build_check import BuildCheckSettings
-from robot_agent.forked import SAFE_PATH, build_forked, run_forked
-from robot_agent.settings import AgentSettings
-from schemas.process.leash import OwnConfinement
-from touchline.launch.child_process import (
-    ChildProcess,
-    ProcessHandle,
-    confinement_of,
-    make_folder_of,
-    write_settings_of,
-)
-from touchline.launch.process_table import Process
-from touchline.launch.python_process import module_path_environment
+from schemas.process.leash import leashed
+from touchline.launch.python_process import PYTHON, module_path_environment
 from touchline.launch.robot_environment import server_environment
-from touchline.launch.robot_fork import ROBOTS, RobotProcess
+from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 
-PATIENCE_S = 2.0
-"""Wall time for a forked robot to lead its process group; normally a few milliseconds."""
-
-
-class ForkedRobot(ProcessHandle):
-    """A robot from the fork server: a child of that server, which reports its exit status."""
-
-    def __init__(self, process: Process, log: Path, begin: int, robot: RobotProcess, group_ready: Connection) -> None:
-        """`group_ready` closes as soon as the robot group_ready its process group."""
-        super().__init__(process, log, begin)
-        self._robot, self._group_ready = robot, group_ready
-
-    @property
-    def pid(self) -> int:
-        """Process id, which is also the id of its group."""
-        assert self._robot.pid is not None
-        return self._robot.pid
-
-    def _poll(self) -> int | None:
-        return self._robot.exitcode
-
-    def _signal_group(self, number: signal.Signals) -> None:
-        self._group_ready.poll(PATIENCE_S)
-        super()._signal_group(number)
+if TYPE_CHECKING:
+    from robot_agent.forks import ForkReply, ForkRequest
 
 
 class ForkServer:
-    """Launches robots; the server starts with the first robot and ends with this process."""
+    """Forks robots; the process starts when it is first needed, and ends with this one."""
 
     def __init__(self) -> None:
-        self._can_fork = sys.platform == "linux"
-        self._launched: set[str] = set()
+        self._server: subprocess.Popen[str] | None = None
+        self._forked: SimpleQueue[int | None] = SimpleQueue()
+        self._statuses: dict[int, int] = {}
 
-    def launch(self, process: Process, log: Path) -> ProcessHandle:
-        """Launch a Python robot with the fork server, any other process by its command line."""
-        is_isolated = process.confinement is not None and process.confinement.is_isolated
-        if isinstance(process.settings, AgentSettings) and process.name not in self._launched and not is_isolated:
-            self._launched.add(process.name)
-            robot = self._fork(process, process.settings, log)
-            if robot is not None:
-                return robot
-        return ChildProcess(process, log)
+    def prepare(self) -> None:
+        """Start the process, which imports what robots need while this one goes on."""
+        if self._server is not None:
+            if self._server.poll() is None:
+                return
+            self._requests.close()
+        self._forked = SimpleQueue()
+        self._server = subprocess.Popen(
+            [*leashed({}), *PYTHON, "-m", "robot_agent.forks"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**server_environment(ROBOT_ENVIRONMENT), **module_path_environment()},
+            process_group=0,
+            text=True,
+        )
+        Thread(target=self._follow, args=(self._server.stdout, self._forked), daemon=True).start()
 
-    def prepare(self, environment: Mapping[str, str]) -> None:
-        """Start the server, which imports what robots need while this process goes on."""
-        if not self._can_fork:
-            return
-        safe = {**server_environment(environment), **module_path_environment(), SAFE_PATH: "1"}
-        try:
-            with _environment(safe):
-                resource_tracker.ensure_running()  # when it starts, it unblocks the signal
-                with _blocked(signal.SIGINT):
-                    ROBOTS.ensure_running()
-        except OSError:
-            self._can_fork = False
-
-    def _fork(self, process: Process, settings: AgentSettings, log: Path) -> ForkedRobot | None:
-        """The robot; None without a fork server."""
-        self.prepare(process.environment)
-        if not self._can_fork:
+    def fork(self, request: "ForkRequest") -> int | None:
+        """The process id of a new fork; None if there can be none."""
+        if sys.platform != "linux":
             return None
-        write_settings_of(process)
-        make_folder_of(process)
-        with log.open("ab") as out:
-            begin = out.tell()
-        started = self._start(run_forked, settings, *confinement_of(process), str(log))
-        return ForkedRobot(process, log, begin, *started) if started is not None else None
-
-    def fork_build(
-        self, settings: BuildCheckSettings, environment: Mapping[str, str], confinement: OwnConfinement, log: Path
-    ) -> tuple[RobotProcess, Connection] | None:
-        """The process that builds a team's brains, and what closes when it leads its group; None without a server.
-
-        `environment` is the whole one of the process; `prepare` has been called.
-        """
-        return self._start(build_forked, settings, environment, confinement, str(log)) if self._can_fork else None
-
-    def _start(self, function: Callable[..., None], *arguments: object) -> tuple[RobotProcess, Connection] | None:
-        group_ready, held = Pipe(duplex=False)
-        process = RobotProcess(target=function, args=(*arguments, held))
+        self.prepare()
         try:
-            with held:
-                process.start()
-        except (OSError, EOFError):
-            self._can_fork = False
+            self._requests.write(json.dumps(request) + "\n")
+            self._requests.flush()
+        except BrokenPipeError:
             return None
-        return process, group_ready
+        return self._forked.get()
+
+    def status(self, pid: int) -> int | None:
+        """Exit status of a fork, negative for a signal; None while it runs."""
+        return self._statuses.get(pid)
+
+    @property
+    def _requests(self) -> IO[str]:
+        assert self._server is not None and self._server.stdin is not None
+        return self._server.stdin
+
+    def _follow(self, replies: IO[str], forked: "SimpleQueue[int | None]") -> None:
+        """Read replies until the process ends; its forks end with it."""
+        running = set[int]()
+        with replies:
+            for line in replies:
+                reply: ForkReply = json.loads(line)
+                pid, status = reply["pid"], reply["status"]
+                if status is None:
+                    self._statuses.pop(pid, None)  # of an earlier process with this id
+                    running.add(pid)
+                    forked.put(pid)
+                else:
+                    running.discard(pid)
+                    self._statuses[pid] = status
+        self._statuses.update(dict.fromkeys(running, -signal.SIGKILL))
+        forked.put(None)
 
 
-@contextmanager
-def _blocked(number: signal.Signals) -> Iterator[None]:
-    """Block a signal within the block: the fork server would end with a traceback while it starts."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-@contextmanager
-def _environment(whole: Mapping[str, str]) -> Iterator[None]:
-    """Have this environment within the block: the fork server keeps the environment it is started with."""
-    before = dict(os.environ)
-    os.environ.clear()
-    os.environ.update(whole)
-    try:
-        yield
-    finally:
-        os.environ.clear()
-        os.environ.update(before)
+ROBOTS = ForkServer()
+"""The server of this process, for all its matches and checks."""

@@ -19,8 +19,8 @@ from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.process.clock import Clock
 from schemas.side import Side
-from touchline.launch.child_process import ProcessHandle
-from touchline.launch.fork_server import ForkServer
+from touchline.launch.child_process import ChildProcess
+from touchline.launch.fork_server import ROBOTS
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.log_notes import LogNotes
 from touchline.launch.match_screen import MatchScreen
@@ -31,7 +31,6 @@ from touchline.launch.processes import MatchPlan, client_processes, host_process
 from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
-from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.launch.team_error import TeamLeftError
@@ -91,7 +90,6 @@ class MatchRun:
         self._match_screen = MatchScreen(plan, screen, self._remote, clock)
         self._logs: dict[str, Path] = {}
         self._log_limit, self._log_notes = LogLimit(), LogNotes()
-        self._fork_server = ForkServer()
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
         self._address: AddressLines | None = None
         if plan.page is not None:
@@ -111,7 +109,7 @@ class MatchRun:
             try:
                 self._supervisor.start()
                 if self._plan.config.isolate is Isolation.NONE:
-                    self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                    ROBOTS.prepare()
                 self._check()
                 follower = self._follow(stop) if self._launch_clients(stop) else None
                 empty = self._empty_side()
@@ -157,10 +155,10 @@ class MatchRun:
         self._supervisor.check()
         return stop.received is None and "page" not in self._supervisor.ended
 
-    def _launch(self, process: Process) -> ProcessHandle:
+    def _launch(self, process: Process) -> ChildProcess:
         log = self._plan.folder / f"{process.name}.log"
         self._logs[process.name] = log
-        return self._fork_server.launch(process, log)
+        return ChildProcess(process, log)
 
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""

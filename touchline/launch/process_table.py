@@ -74,6 +74,15 @@ class Process:
     confinement: Confinement | None = None
     """How a robot's program is confined; None for the programs of this library, which are not."""
 
+    @property
+    def can_fork(self) -> bool:
+        """Whether it may be forked from the robots' server: it runs this library's code, with no view of its own."""
+        return (
+            self.kind is ProcessKind.AGENT
+            and self.settings is not None
+            and (self.confinement is None or not self.confinement.is_isolated)
+        )
+
     def restarted(self) -> "Process":
         """The process as it is launched after a crash."""
         changes = PROCESSES[self.kind].on_restart

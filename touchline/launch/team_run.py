@@ -15,13 +15,13 @@ from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
 from schemas.process.clock import Clock
 from schemas.side import Side
-from touchline.launch.child_process import ProcessHandle
+from touchline.launch.child_process import ChildProcess
 from touchline.launch.confinement import team_confinements, team_isolation_note
-from touchline.launch.fork_server import ForkServer
+from touchline.launch.fork_server import ROBOTS
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.log_notes import LogNotes
 from touchline.launch.process_table import Process
-from touchline.launch.robot_process import ROBOT_ENVIRONMENT, robot_process
+from touchline.launch.robot_process import robot_process
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import AT_ONCE, Supervisor
 from touchline.launch.team_code import team_program
@@ -71,7 +71,7 @@ class TeamRun:
         member = Membership(bus, self._robots[0], plan.agent.launch_token, plan.agent.match, plan.side)
         if not member.fits(setup):
             member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
-        self._fork_server, self._log_limit, self._log_notes = ForkServer(), LogLimit(), LogNotes()
+        self._log_limit, self._log_notes = LogLimit(), LogNotes()
         self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
 
     def play(self) -> None:
@@ -84,7 +84,7 @@ class TeamRun:
         with StopSignals() as stop:
             try:
                 if self._plan.isolate is Isolation.NONE:
-                    self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                    ROBOTS.prepare()
                 if self._note:
                     self._screen.warn(self._note)
                 self._supervisor.start()
@@ -138,8 +138,8 @@ class TeamRun:
     def _log_of(self, robot: str) -> Path:
         return self._plan.folder / f"{robot}.log"
 
-    def _launch(self, process: Process) -> ProcessHandle:
-        return self._fork_server.launch(process, self._log_of(process.name))
+    def _launch(self, process: Process) -> ChildProcess:
+        return ChildProcess(process, self._log_of(process.name))
 
 
 def _config_of(plan: TeamPlan, match: str, robots: Sequence[str]) -> MatchConfig:

@@ -1,5 +1,4 @@
 import signal
-import sys
 from pathlib import Path
 
 import pytest
@@ -7,8 +6,7 @@ import pytest
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import FIRST_SIGHT_FAILED, AgentSettings
 from schemas.errors import TouchlineError
-from schemas.process.clock import SteppedClock, WallClock
-from touchline.launch.child_process import ChildProcess
+from schemas.process.clock import SteppedClock
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 
@@ -337,72 +335,3 @@ def test_a_second_interrupt_does_not_wait_for_the_recorder() -> None:
     assert "recorder" not in stage.supervisor.ended
     stage.supervisor.end(AT_ONCE)
     assert stage.supervisor.ended["recorder"] == -signal.SIGTERM
-
-
-def python(code: str, name: str = "cyan1", **environment: str) -> Process:
-    return Process(name, ProcessKind.AGENT, (sys.executable, "-c", code), environment)
-
-
-def wait_for(child: ChildProcess) -> int:
-    clock = WallClock()
-    while (status := child.status()) is None:
-        clock.sleep_until(clock.now() + 0.01)
-    return status
-
-
-@pytest.mark.processes
-def test_a_child_has_its_own_environment_log_and_exit_status(tmp_path: Path) -> None:
-    code = "import os, sys; print(os.environ['TOUCHLINE_ROBOT']); sys.exit('brain raised')"
-    child = ChildProcess(python(code, TOUCHLINE_ROBOT="cyan1", PYTHONUNBUFFERED="1"), tmp_path / "cyan1.log")
-    assert wait_for(child) == 1
-    assert child.last_lines() == ["cyan1", "brain raised"]
-    assert child.last_lines(1) == ["brain raised"]
-
-
-@pytest.mark.processes
-def test_a_program_that_does_not_exist_is_reported_in_its_log(tmp_path: Path) -> None:
-    child = ChildProcess(Process("cyan1", ProcessKind.AGENT, ("no-such-program",), {}), tmp_path / "cyan1.log")
-    assert wait_for(child) == 127
-    assert child.last_lines() == ["no-such-program: No such file or directory"]
-
-
-@pytest.mark.processes
-def test_what_a_child_started_ends_with_it(tmp_path: Path) -> None:
-    code = "import subprocess, sys; p = subprocess.Popen(['sleep', '600']); print(p.pid); sys.exit(0)"
-    child = ChildProcess(python(code), tmp_path / "cyan1.log")
-    assert wait_for(child) == 0
-    grandchild = int(child.last_lines()[0])
-    clock = WallClock()
-    while is_running(grandchild):
-        clock.sleep_until(clock.now() + 0.01)
-
-
-@pytest.mark.processes
-@pytest.mark.skipif(sys.platform != "linux", reason="the leash is a means of the Linux kernel")
-def test_a_child_dies_with_a_supervisor_that_was_killed(tmp_path: Path) -> None:
-    code = f"""
-import os, signal, sys
-from pathlib import Path
-from touchline.launch.child_process import ChildProcess
-from touchline.launch.process_table import ProcessKind, Process
-child = ChildProcess(Process("cyan1", ProcessKind.AGENT, ("sleep", "600"), {{}}), Path({str(tmp_path / "sleep.log")!r}))
-while b"sleep" not in Path(f"/proc/{{child.pid}}/cmdline").read_bytes().split(b"\\0")[:1]:
-    pass
-print(child.pid)
-sys.stdout.flush()
-os.kill(os.getpid(), signal.SIGKILL)
-"""
-    supervisor = ChildProcess(python(code), tmp_path / "supervisor.log")
-    assert wait_for(supervisor) == -signal.SIGKILL
-    orphan = int(supervisor.last_lines()[0])
-    clock = WallClock()
-    while is_running(orphan):
-        clock.sleep_until(clock.now() + 0.01)
-
-
-def is_running(pid: int) -> bool:
-    """Whether a process exists and is no zombie."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except (FileNotFoundError, ProcessLookupError):
-        return False
