@@ -33,11 +33,12 @@ def page() -> str:
     messages = _messages(TOPICS.values())
     parts = _parts(messages)
     titles = _titles([*messages, *parts])
-    joining = (resources.files("schemas.protocol") / "joining.md").read_text("utf-8")
+    overview, joining = (_text(name) for name in ("overview.md", "joining.md"))
     sections = [
         f"# The protocol, version {VERSION}",
         _NOTE,
-        joining.strip(),
+        overview,
+        joining,
         "## Topics",
         "All keys are below `touchline/{match}/`; words in braces are placeholders. On a topic whose delivery is "
         "`query`, the message before the arrow is the request and the one behind it the reply.",
@@ -55,6 +56,10 @@ def page() -> str:
         *(_part(kind, titles) for kind in parts),
     ]
     return "\n\n".join(sections) + "\n"
+
+
+def _text(name: str) -> str:
+    return (resources.files("schemas.protocol") / name).read_text("utf-8").strip()
 
 
 def _messages(topics: Iterable[Topic]) -> list[type[WireMessage]]:
