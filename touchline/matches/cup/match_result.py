@@ -32,6 +32,14 @@ class MatchResult:
         return None
 
 
+def score_text(result: MatchResult, of: str | None = None) -> str:
+    """The score as `2 : 1`, with penalties as `1 : 1 (4 : 3)`; `of` names the team whose goals come first."""
+    turn = of is not None and result.teams[0] != of
+    pairs = [pair[::-1] if turn else pair for pair in (result.goals, result.penalties) if pair is not None]
+    goals, *penalties = [f"{first} : {second}" for first, second in pairs]
+    return f"{goals} ({penalties[0]})" if penalties else goals
+
+
 @dataclass(frozen=True, slots=True)
 class Fixture:
     """Two teams that meet in one or more matches, on swapped sides in each second one."""

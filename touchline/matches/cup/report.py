@@ -4,9 +4,9 @@ from dataclasses import asdict
 from typing import Any
 
 from touchline.matches.cup.cup_state import CupMatch, CupState, MatchState
+from touchline.matches.cup.match_result import score_text
 from touchline.matches.cup.ratings import Ratings, is_available, rate
-from touchline.matches.cup.site.links import score_text
-from touchline.matches.cup.site.tables import signed
+from touchline.matches.cup.site import signed
 from touchline.matches.series.table import aligned
 
 

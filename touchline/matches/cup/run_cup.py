@@ -11,9 +11,9 @@ from touchline.matches.cup.cup_config import CupConfig
 from touchline.matches.cup.cup_documents import CODE_FOLDER, CUP, DIGESTS, RESULT, VERSION, stored_cup
 from touchline.matches.cup.cup_plan import CupPlan, check_submitted, digests_of, match_config
 from touchline.matches.cup.cup_state import CupState, state_of
+from touchline.matches.cup.match_result import score_text
 from touchline.matches.cup.report import report_of
-from touchline.matches.cup.site.links import score_text
-from touchline.matches.cup.site.write_site import Site
+from touchline.matches.cup.site import Site
 from touchline.matches.engine.outcome import Failed, Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import Progress

@@ -14,7 +14,7 @@ from touchline.matches.cup.cup_documents import RESULT, StoredCup, stored_cup
 from touchline.matches.cup.cup_plan import CupPlan, config_with, digests_of
 from touchline.matches.cup.cup_state import CupState
 from touchline.matches.cup.report import report_of
-from touchline.matches.cup.site.tables import standings
+from touchline.matches.cup.site import standings
 from touchline.matches.engine.outcome import Played
 from touchline.matches.engine.progress import Progress
 from touchline.matches.engine.store import RunStore

@@ -9,8 +9,7 @@ import pytest
 from touchline.matches.cup.cup_config import CupConfig, FormatConfig, FormatKind, TeamEntry
 from touchline.matches.cup.cup_state import CupState, Ended, Slot, state_of
 from touchline.matches.cup.match_result import MatchResult
-from touchline.matches.cup.site.tables import signed
-from touchline.matches.cup.site.write_site import Site
+from touchline.matches.cup.site import Site, signed
 
 NAMES = ["Alpha", "Beta & <b>Co</b>", "Gamma", "Δelta", "E!", "E?"]
 
