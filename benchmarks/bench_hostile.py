@@ -96,11 +96,10 @@ def measure(attack: str, seconds: float, robots: int) -> str:
         lived = host.poll() is None
         most = max(most, memory_mb(host.pid)) if lived else most
         accounts = gauge.newest.accounts if gauge.newest is not None else {}
-        connections = gauge.newest.connections if gauge.newest is not None else {}
     measured = (before, during, after)
     rates = " | ".join([*(f"{one.ticks:.0f}" for one in measured), *(f"{one.cpu_ms:.2f}" for one in measured)])
     row = f"| {attack} | {rates} | {most - memory:+.0f} MB | {'yes' if lived else 'NO'} |"
-    return f"{row} {accounts} {connections}" if os.environ.get("VERBOSE") else row
+    return f"{row} {accounts}" if os.environ.get("VERBOSE") else row
 
 
 def main() -> None:

@@ -239,7 +239,7 @@ ADMISSION = Topic(
     "on demand",
     Delivery.QUERY,
     False,
-    "admits a recorder that the host waits for, or an account that was cut off",
+    "admits a recorder that the host waits for",
     reply=AdmissionReply,
 )
 APPLIED = Topic(

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple, Self
 from uuid import uuid4
 
 from schemas.access.accounts import Account
-from schemas.bus.links import Links
 from schemas.bus.refusals import Refusals
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
@@ -226,8 +225,6 @@ class Bus(ABC):
     """The account of a client with credentials."""
     refusals: Refusals = field(default_factory=Refusals, init=False)
     """What was refused before any reader received it."""
-    links: Links = field(default_factory=Links, init=False)
-    """A host's links to its clients."""
     _closed: bool = field(default=False, init=False)
 
     @abstractmethod

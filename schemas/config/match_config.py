@@ -135,8 +135,6 @@ class MatchConfig(Part):
     """What separates the robots that this machine launches: `none` or `bubblewrap`."""
     limits: Limits = Limits()
     """What each robot may use of the machine that launches it."""
-    forgiving: bool = False
-    """A client that goes on above its limit of messages is limited only, and never cut off."""
 
     @field_validator("pace")
     @classmethod

@@ -76,17 +76,6 @@ class AccountHealth(Part):
     """Bytes of these messages."""
     dropped: dict[str, int] = Field(default_factory=dict)
     """Reason → messages that were dropped for it."""
-    cut_off: bool = False
-    """It went on above its limit, and its messages are ignored until an operator or a referee admits it."""
-
-
-class ConnectionHealth(Part):
-    """What the host did with connections from one address; counts are since the match began."""
-
-    closed: int = 0
-    """Connections that it closed, since each carried far more than the host could read."""
-    refused: int = 0
-    """Later connections that it closed at once, since their client, or clients of that address, had done so."""
 
 
 class Health(Message):
@@ -114,8 +103,6 @@ class Health(Message):
     """Side → use of its radio."""
     accounts: dict[str, AccountHealth] = Field(default_factory=dict)
     """Account → what it has sent; without credentials, each key counts as an account of its own."""
-    connections: dict[str, ConnectionHealth] = Field(default_factory=dict)
-    """Address → connections from it that the host has closed."""
 
 
 class Invalid(Message):

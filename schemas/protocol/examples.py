@@ -129,7 +129,7 @@ def _game() -> tuple[WireMessage, ...]:
         ActionReply(accepted=False, reason="free_kick: no half is being played, the phase is half_time"),
         SeatRequest(operation=SeatOperation.TAKE, referee="gateway_5f0c6e1d", source="referee's page"),
         SeatReply(accepted=True, holder="referee's page (gateway_5f0c6e1d)"),
-        AdmissionRequest(account="cyan"),
+        AdmissionRequest(recorder="tape"),
         AdmissionReply(accepted=True),
     )
 

@@ -1,4 +1,4 @@
-"""What each account sends, its limit, and its exclusion from the match. Knows neither bus nor clock.
+"""What each account sends, and its limit. Knows neither bus nor clock.
 
 The host does not see which client sent a message. A message counts for the account that alone may send on its key; on
 a host without credentials, where anybody may send on any key, for the key itself.
@@ -7,17 +7,17 @@ a host without credentials, where anybody may send on any key, for the key itsel
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from schemas.access.accounts import Account
 from schemas.bus.refusals import Refusal
 from schemas.messages.health import AccountHealth
 from schemas.side import Side
 
-OVER_RATE = "over the limit of messages"
-CUT_OFF = "cut off"
-MOST_EXTRA = 250
-"""Most messages beyond the useful ones in a period. A command that answers a new sight is useful; a repeated, late or
-invalid one is not, and of what is sent rarely, as orders, every message counts."""
-MOST_PERIODS = 12
-"""Periods in a row above the limit after which an account is cut off: 3 s at 4 Hz."""
+OVER_LIMIT = "over the limit of messages"
+EXTRA_RATE = 1000.0
+"""Messages a second of wall time that an account may send beyond the useful ones. A command that answers a new sight is
+useful; a repeated or invalid one is not, and of what is sent rarely, as orders, every message counts."""
+MOST_EXTRA = 3000
+"""Most such messages that count at the same time: what arrives in a burst after a stall is no flood."""
 ORDER_WEIGHT = 5
 """An order counts as this many messages: it is sent rarely, and takes long to check."""
 _MAX_OTHERS = 20
@@ -30,112 +30,74 @@ _SIDES = tuple(side.value for side in Side)
 class AccountTraffic:
     """What one account has sent."""
 
-    name: str
-    may_be_cut_off: bool = True
     messages: int = 0
     size: int = 0
     """Bytes."""
-    extra: int = 0
-    """Messages of this period that were not useful."""
-    read: int = 0
-    """Bytes of the messages of this period that were to be read."""
-    periods: int = 0
-    """Periods in a row above the limit."""
-    cut_off: bool = False
+    extra: float = 0.0
+    """Messages that were not useful, less those that time has allowed."""
     dropped: dict[str, int] = field(default_factory=dict)
 
     def accept(self, size: int, weight: int = 0) -> bool:
         """Count a message of this size, which is not useful by `weight` messages; returns whether it is to be read."""
         self.messages += 1
         self.size += size
+        if self.extra + weight > MOST_EXTRA:
+            self.drop(OVER_LIMIT)
+            return False
         self.extra += weight
-        if self.cut_off:
-            self.drop(CUT_OFF)
-            return False
-        if self.extra > MOST_EXTRA:
-            self.extra += not weight
-            self.drop(OVER_RATE)
-            return False
-        self.read += size
         return True
 
     def drop(self, reason: str, messages: int = 1) -> None:
         """Count dropped messages."""
         self.dropped[reason] = self.dropped.get(reason, 0) + messages
 
-    def end_period(self, forgiving: bool) -> bool:
-        """End a period; returns whether the account is cut off from now on."""
-        self.periods = self.periods + 1 if self.extra > MOST_EXTRA else 0
-        self.extra = self.read = 0
-        if forgiving or self.cut_off or not self.may_be_cut_off or self.periods < MOST_PERIODS:
-            return False
-        self.cut_off = True
-        return True
-
-    def admit(self) -> None:
-        """Read its messages again."""
-        self.cut_off, self.periods, self.extra = False, 0, 0
-
     def health(self) -> AccountHealth:
         """The counts as they are published."""
-        return AccountHealth(messages=self.messages, size=self.size, dropped=dict(self.dropped), cut_off=self.cut_off)
+        return AccountHealth(messages=self.messages, size=self.size, dropped=dict(self.dropped))
 
 
 class AccountLimits:
     """All accounts of a match."""
 
-    def __init__(self, sides: Mapping[str, Side], *, has_accounts: bool = False, forgiving: bool = False) -> None:
+    def __init__(self, sides: Mapping[str, Side], *, has_accounts: bool = False) -> None:
         """`sides` maps each robot to its side; with `has_accounts`, keys are bound to accounts by credentials."""
         self.sides = sides
         self._has_accounts = has_accounts
-        self._forgiving = forgiving
         self._accounts: dict[str, AccountTraffic] = {}
         self._by_key: dict[str, AccountTraffic] = {}
         self._others = 0
+        self._reported: set[str] = set()
 
     def of_key(self, key: str) -> AccountTraffic:
         """The account that a message on this key counts for."""
         return self._by_key.get(key) or self._learn(key)
 
     def add_refusals(self, refusals: list[Refusal]) -> None:
-        """Count what the bus has refused. Anybody can send on a key of no topic, so this cuts off nobody."""
+        """Count what the bus has refused."""
         for refusal in refusals:
-            account = self._account(refusal.key, may_be_cut_off=False)
+            account = self._account(refusal.key)
             account.messages += refusal.messages
             account.size += refusal.size
             account.drop(refusal.reason, refusal.messages)
 
-    @property
-    def read(self) -> int:
-        """Bytes of the messages of this period that were to be read, of all accounts."""
-        return sum(account.read for account in self._accounts.values())
+    def pass_time(self, seconds: float) -> None:
+        """Allow each account the messages of this wall time."""
+        for account in self._accounts.values():
+            account.extra = max(0.0, account.extra - EXTRA_RATE * seconds)
 
-    @property
-    def over_limit(self) -> list[str]:
-        """Names of the accounts that are above their limit in this period, or cut off."""
-        return [name for name, account in self._accounts.items() if account.cut_off or account.extra > MOST_EXTRA]
+    def pop_over_limit(self) -> list[str]:
+        """Names of the accounts that have gone over their limit for the first time since the last call."""
+        over = [
+            name for name, one in self._accounts.items() if OVER_LIMIT in one.dropped and name not in self._reported
+        ]
+        self._reported.update(over)
+        return over
 
-    def end_period(self) -> list[AccountTraffic]:
-        """End a period for all accounts; returns those that are cut off from now on."""
-        return [account for account in self._accounts.values() if account.end_period(self._forgiving)]
-
-    def admit(self, name: str) -> bool:
-        """Read the messages of an account again that was cut off; returns whether there is one of that name."""
-        account = self._accounts.get(name)
-        if account is None or not account.cut_off:
-            return False
-        account.admit()
-        return True
-
-    def is_cut_off(self, robot: str) -> bool:
-        """Whether the commands of a robot are not read."""
-        account = self._by_key.get(f"robot/{robot}/command")
-        return account is not None and account.cut_off
-
-    @property
-    def cut_off(self) -> list[str]:
-        """Names of the accounts that are cut off."""
-        return [name for name, account in self._accounts.items() if account.cut_off]
+    def forfeiting(self) -> list[Side]:
+        """The sides whose robots have gone over the limit of their account."""
+        if not self._has_accounts:
+            return []  # anybody may have sent it
+        return [side for side in Side if Account.of_team(side).value in self._reported]
 
     def health(self) -> dict[str, AccountHealth]:
         """The counts of all accounts that have sent anything."""
@@ -144,7 +106,7 @@ class AccountLimits:
     def _learn(self, key: str) -> AccountTraffic:
         name = self._name(key)
         if self._is_known(key):
-            account = self._by_key[key] = self._accounts.setdefault(name, AccountTraffic(name))
+            account = self._by_key[key] = self._accounts.setdefault(name, AccountTraffic())
             return account
         return self._account(name)
 
@@ -153,14 +115,14 @@ class AccountLimits:
         kind, who = (*key.split("/"), "")[:2]
         return (kind == "robot" and who in self.sides) or (kind == "team" and who in _SIDES)
 
-    def _account(self, name: str, *, may_be_cut_off: bool = True) -> AccountTraffic:
+    def _account(self, name: str) -> AccountTraffic:
         """The account of a key that anybody may have invented."""
         if name not in self._accounts:
             if self._others >= _MAX_OTHERS or name.startswith("robot/"):
-                name, may_be_cut_off = _OTHERS, False
+                name = _OTHERS
             else:
                 self._others += 1
-        return self._accounts.setdefault(name, AccountTraffic(name, may_be_cut_off))
+        return self._accounts.setdefault(name, AccountTraffic())
 
     def _name(self, key: str) -> str:
         if not self._has_accounts:

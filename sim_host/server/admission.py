@@ -1,9 +1,8 @@
-"""Whom the host admits: the recorders that it waits for, and accounts that were cut off and may send again."""
+"""Whom the host admits: the recorders that it waits for."""
 
 from collections.abc import Iterable
 
 from schemas.messages.admission import AdmissionReply, AdmissionRequest
-from sim_host.server.account_limits import AccountLimits
 
 MOST_UNNAMED = 4
 """Recorders with credentials, beside the named ones, that a host waits for: each that reports nothing holds the match
@@ -13,13 +12,12 @@ for its patience, and one account may declare any number of names."""
 class Admission:
     """Recorders that a lockstep host waits for. Every other recorder is served, and may fall behind."""
 
-    def __init__(self, recorders: Iterable[str], accounts: AccountLimits, *, any_recorder: bool = False) -> None:
+    def __init__(self, recorders: Iterable[str], *, any_recorder: bool = False) -> None:
         """With `any_recorder` the first few are admitted that join, since the host asks for credentials."""
         self._recorders = set(recorders)
         self._any_recorder = any_recorder
         self._unnamed: set[str] = set()
         self._is_full = False
-        self._accounts = accounts
         self._changes: list[str] = []
 
     def waits_for(self, recorder: str) -> bool:
@@ -41,18 +39,11 @@ class Admission:
         )
 
     def handle(self, request: AdmissionRequest) -> AdmissionReply:
-        """Admit what the request names."""
-        if request.recorder is not None:
-            if not self.waits_for(request.recorder):
-                self._recorders.add(request.recorder)
-                self._changes.append(f"the host waits for the recorder {request.recorder} ({request.source})")
-        elif request.account is not None:
-            if not self._accounts.admit(request.account):
-                names = ", ".join(self._accounts.cut_off) or "none"
-                reason = f"{request.account} is not cut off; cut off are: {names}"
-                return AdmissionReply(accepted=False, reason=reason, cut_off=self._accounts.cut_off)
-            self._changes.append(f"{request.account} is admitted again ({request.source})")
-        return AdmissionReply(accepted=True, cut_off=self._accounts.cut_off)
+        """Admit the recorder that the request names."""
+        if not self.waits_for(request.recorder):
+            self._recorders.add(request.recorder)
+            self._changes.append(f"the host waits for the recorder {request.recorder} ({request.source})")
+        return AdmissionReply(accepted=True)
 
     def pop_changes(self) -> list[str]:
         """What has been admitted since the last call, one line each."""

@@ -46,8 +46,8 @@ class AgentStats:
     """What was wrong with its newest message; empty after a valid one."""
     late_answer: int | None = None
     """The earlier tick that its newest message answers; None after an answer to the newest sight."""
-    cut_off: bool = False
-    """Its commands are ignored: its account is above its limit in this period, or was cut off for the match."""
+    is_over_limit: bool = False
+    """Its newest message was not read: its account is over its limit."""
     removed: bool = False
     """Its robot was taken off the pitch."""
     still: bool = False
@@ -68,8 +68,8 @@ class AgentStats:
 
     @property
     def is_silent(self) -> bool:
-        """Whether the host does not wait for it: it is idle, gone, cut off, or has missed several ticks in a row."""
-        return self.idle or not self.alive or self.cut_off or self.silent >= SILENT_TICKS
+        """Whether the host does not wait for it: idle, gone, over its limit, or several ticks missed in a row."""
+        return self.idle or not self.alive or self.is_over_limit or self.silent >= SILENT_TICKS
 
     @property
     def idle(self) -> bool:

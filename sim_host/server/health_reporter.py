@@ -8,7 +8,6 @@ from schemas.side import Side
 from sim_host.match.radio_use import RadioUse
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.inbox import Inbox
-from sim_host.server.link_limits import LinkLimits
 from sim_host.server.presence_tracker import PresenceTracker
 
 _PERIOD_S = 0.25
@@ -52,7 +51,6 @@ class HealthReporter:
         inbox: Inbox,
         presence: PresenceTracker,
         accounts: AccountLimits,
-        links: LinkLimits,
         radio: RadioUse,
         radio_budget: float,
     ) -> Health:
@@ -71,5 +69,4 @@ class HealthReporter:
             recorders=presence.recorder_lags(tick),
             radio={side: TeamRadio(budget=radio_budget, busiest=radio.busiest(side)) for side in Side},
             accounts=accounts.health(),
-            connections=links.health(),
         )

@@ -6,11 +6,12 @@ from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
+from schemas.game import ActionName
+from schemas.messages.game import RefereeAction
 from schemas.recovery_window import PARTING_S
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.account_limits import AccountLimits
-from sim_host.server.account_supervision import AccountSupervision
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
 from sim_host.server.admission import Admission
 from sim_host.server.debug_publisher import DebugPublisher
@@ -19,7 +20,6 @@ from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.host_reports import HostReports
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
-from sim_host.server.link_limits import LinkLimits
 from sim_host.server.manual_control import ManualControl
 from sim_host.server.outbox import Outbox
 from sim_host.server.pace import Lockstep, Pace, Realtime
@@ -30,6 +30,9 @@ from sim_host.server.services import Services
 _FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
 """Wall time that the host stays after full time for its watchers: missed messages of the end show with the bus's next
 heartbeat, half a second later, and can be fetched as long as the host is running."""
+
+_ACCOUNTS_S = 0.1
+"""Wall time between two updates of the accounts' limits."""
 
 
 class Host:
@@ -43,7 +46,6 @@ class Host:
         *,
         recorders: Sequence[str] = (),
         has_accounts: bool = False,
-        forgiving: bool = False,
     ) -> None:
         """Make the host of a match, without stepping it.
 
@@ -53,13 +55,11 @@ class Host:
             launch_token: only agents that know it may play for a side that is not remote; None admits every agent.
             recorders: recorders that a lockstep host waits for, beside those of the match file.
             has_accounts: credentials bind each key to an account.
-            forgiving: no account is cut off, as the match file may also set.
         """
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
-        self.accounts = AccountLimits(self._sides(), has_accounts=has_accounts, forgiving=forgiving or config.forgiving)
-        self._links = LinkLimits(forgiving=forgiving or config.forgiving)
-        admission = Admission([*config.record.admit, *recorders], self.accounts, any_recorder=has_accounts)
+        self.accounts = AccountLimits(self._sides(), has_accounts=has_accounts)
+        admission = Admission([*config.record.admit, *recorders], any_recorder=has_accounts)
         self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches, self.accounts)
         self._eligibility = Eligibility.of(config, launch_token)
@@ -88,11 +88,12 @@ class Host:
             self.presence.add_refusal,
         )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
-        self._supervision = AccountSupervision(bus, self.accounts, self._links, admission, self.inbox.agent_stats)
+        self._bus = bus
+        self._accounts_updated_at = bus.clock.now()
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
         self._debug = DebugPublisher(self._batches, tick_s)
-        self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self._supervision)
+        self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self.accounts, admission)
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
         )
@@ -155,12 +156,13 @@ class Host:
         self._set_sim_time(self.simulation.now.tick + 1)
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
+        requested = self._services.actions
         tick = self.simulation.step(
-            commands, self._services.actions, self._send_sight, silent, self.presence.has_referee_box()
+            commands, [*requested, *self._forfeits()], self._send_sight, silent, self.presence.has_referee_box()
         )
         self._outbox.publish_tick(tick, self.simulation.state)
         self._active_orders.publish(tick.tick, tick.time, self.simulation.roster)
-        self._services.reply(tick.replies)
+        self._services.reply(tick.replies[: len(requested)])
         self._update_stats(tick)
         self._report(tick)
         self._batches.end_tick(tick.tick)
@@ -212,8 +214,22 @@ class Host:
     def _while_waiting(self) -> None:
         """While the host waits for robots or recorders: publish batches that are due, and reply to requests."""
         self._services.serve_while_waiting()
-        self._supervision.update()
+        self._update_accounts()
         self._batches.send_if_due()
+
+    def _update_accounts(self) -> None:
+        """Count what the bus has refused, and allow all accounts the messages of the wall time that has passed."""
+        now = self._clock.now()
+        if now - self._accounts_updated_at >= _ACCOUNTS_S:
+            self.accounts.add_refusals(self._bus.refusals.pop())
+            self.accounts.pass_time(now - self._accounts_updated_at)
+            self._accounts_updated_at = now
+
+    def _forfeits(self) -> list[RefereeAction]:
+        """The end of the game for a side whose robots go on above the limit of messages."""
+        return [
+            RefereeAction(action=ActionName.END_GAME, side=side, source="host") for side in self.accounts.forfeiting()
+        ]
 
     def _send_sight(self, robot: str, sight: bytes) -> None:
         """Send a sight, before any other message of its tick: robots wait for sights, watchers do not."""
@@ -252,7 +268,7 @@ class Host:
 
     def _report(self, tick: TickResult) -> None:
         """Publish the host's health when a report is due, and at most one invalid payload: a flood is not echoed."""
-        self._supervision.update()
+        self._update_accounts()
         invalid = self._invalid_log.pop(tick.tick, tick.time)
         if invalid is not None:
             self._outbox.publish_invalid(invalid)
@@ -269,7 +285,6 @@ class Host:
             self.inbox,
             self.presence,
             self.accounts,
-            self._links,
             simulation.radio_use,
             budget,
         )

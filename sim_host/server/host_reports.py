@@ -6,7 +6,8 @@ from typing import Any
 from schemas.game import EventKind
 from schemas.messages.game import GameEvent
 from sim_host.match.simulation import Simulation, TickResult
-from sim_host.server.account_supervision import AccountSupervision
+from sim_host.server.account_limits import AccountLimits
+from sim_host.server.admission import Admission
 from sim_host.server.outbox import Outbox
 from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.referee_seat import RefereeSeat
@@ -23,16 +24,18 @@ class HostReports:
         simulation: Simulation,
         presence: PresenceTracker,
         seat: RefereeSeat,
-        supervision: AccountSupervision,
+        accounts: AccountLimits,
+        admission: Admission,
     ) -> None:
         self._outbox = outbox
         self._simulation = simulation
         self._presence = presence
         self._seat = seat
-        self._supervision = supervision
+        self._accounts = accounts
+        self._admission = admission
 
     def publish(self, tick: TickResult) -> None:
-        """Log agents that joined or left; publish refusals, changes of the referee's seat and accounts cut off."""
+        """Log agents that joined or left; publish refusals, changes of the seat, accounts over a limit."""
         self._log_agents()
         for refusal in self._presence.pop_refusals():
             log.warning(refusal.text)
@@ -43,7 +46,11 @@ class HostReports:
         for text in self._seat.pop_changes():
             log.warning(text)
             self._publish(tick, "referee_seat", text)
-        for text in self._supervision.pop_reports():
+        over = [
+            f"{name} is over its limit of messages: the rest is not read" for name in self._accounts.pop_over_limit()
+        ]
+        for text in [*over, *self._admission.pop_changes()]:
+            log.warning(text)
             self._publish(tick, "account", text)
 
     def publish_on_agent(self, tick: TickResult, robot: str, rule: str, text: str) -> None:

@@ -84,6 +84,7 @@ class Inbox:
         if stats is None:
             self._count_unknown_sender(received, "no robot of this match has that name")
             return None
+        stats.is_over_limit = False
         if not stats.is_admitted:
             self._count_unknown_sender(received, "no agent of this match's launch has claimed that robot")
             return None
@@ -112,10 +113,10 @@ class Inbox:
         return name, command
 
     def _ignore(self, received: ReceivedMessage) -> None:
-        """The host does not wait for a robot whose account is above its limit."""
+        """The host does not wait for a robot whose account is over its limit."""
         stats = self.agent_stats.get(received.key.split("/")[1])
         if stats is not None:
-            stats.cut_off = True
+            stats.is_over_limit = True
 
     def _count_unknown_sender(self, received: ReceivedMessage, reason: str) -> None:
         key = (

@@ -66,7 +66,6 @@ def _serve(settings: HostSettings) -> None:
             settings.launch_token,
             recorders=settings.admit,
             has_accounts=protection is not None,
-            forgiving=settings.forgiving,
         )
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: host.stop())

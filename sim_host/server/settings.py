@@ -22,7 +22,5 @@ class HostSettings(ListenSettings, LogSettings):
     """Secret that an agent must know to play; by default every agent may."""
     admit: list[Name] = Field(default_factory=list)
     """A recorder that a lockstep host waits for, by name; may be given several times."""
-    forgiving: bool = False
-    """Limit a client that goes on above its limit of messages, and never cut it off."""
     announcement: Path | None = None
     """File in which the host announces its endpoint as soon as it listens."""

@@ -17,14 +17,11 @@ from typing import Any
 
 import zenoh
 
-from schemas.process.open_sockets import duplicate
-
 STAMP = struct.Struct("<QQq")
 """The attachment of a message: sequence number, wall time in ns, simulated time in ns."""
 BELIEF = b'{"version":"2.0","tick":1,"time":0.02,"robot":"cyan1","side":"cyan","message":{}}'
 PROGRESS = b'{"version":"2.0","tick":999999,"messages":0,"lost":0}'
 COMMAND = b'{"version":"2.0","answers_tick":1}'
-_PATIENCE_S = 20.0
 _READ = ("world", "game/**", "host/**")
 """Keys that deaf readers subscribe to."""
 DEEP = b"[" * 3000 + b"]" * 3000
@@ -44,18 +41,6 @@ def open_session(endpoint: str, mode: str = "client", **more: Any) -> zenoh.Sess
     for key, value in settings.items():
         config.insert_json5(key, json.dumps(value))
     return zenoh.open(config)
-
-
-def _patient_session(endpoint: str, **user: str) -> zenoh.Session:
-    """A session, also while the host refuses unknown clients because of an earlier attack."""
-    deadline = time.monotonic() + _PATIENCE_S
-    while True:
-        try:
-            return open_session(endpoint, **user)
-        except zenoh.ZError:
-            if time.monotonic() > deadline:
-                raise
-            time.sleep(0.2)
 
 
 Attack = Callable[[zenoh.Session, str, float], None]
@@ -198,31 +183,6 @@ def burn(session: zenoh.Session, prefix: str, until: float) -> None:
             publisher.put(COMMAND)
 
 
-def reconnecting_flood(endpoint: str, match: str, until: float, **user: str) -> None:
-    """A flood by a new client whenever the host has closed the connection of the last one."""
-    while time.monotonic() < until:
-        try:
-            with open_session(endpoint, **user) as session:
-                publisher = session.declare_publisher(
-                    f"touchline/{match}/robot/cyan1/command", congestion_control=zenoh.CongestionControl.BLOCK
-                )
-                while session.info.routers_zid() and time.monotonic() < until:
-                    for _ in range(1000):
-                        publisher.put(COMMAND)
-        except zenoh.ZError:
-            time.sleep(0.05)
-
-
-def steady_flood(session: zenoh.Session, prefix: str, until: float) -> None:
-    """Small messages on one robot's key, three times as many as the host allows.
-
-    Faster ones reach the host in smaller numbers: of those that arrive together, the router passes few. What was not
-    sent in time is sent later, so that the rate does not fall while other processes use the processor.
-    """
-    publisher = session.declare_publisher(f"{prefix}robot/cyan1/command", express=True)
-    _paced(until, 3000.0, lambda _: publisher.put(COMMAND))
-
-
 def flood_of_names(session: zenoh.Session, prefix: str, until: float) -> None:
     """Small messages on keys of robots that do not exist, as fast as they can be sent."""
     number = 0
@@ -288,65 +248,28 @@ def malformed(session: zenoh.Session, prefix: str, until: float) -> None:
     _paced(until, 5, act)
 
 
-def _deaf_readers(links: int) -> Callable[..., None]:
-    def attack(endpoint: str, match: str, until: float, **user: str) -> None:
-        held = []
-        for _ in range(links):
-            session = _patient_session(endpoint, **user)
-            held += [
-                session.declare_subscriber(f"touchline/{match}/{key}", zenoh.handlers.FifoChannel(1)) for key in _READ
-            ]
-            held.append(session)
-        time.sleep(max(0.0, until - time.monotonic()))
-        os._exit(0)  # Zenoh would wait for the readers
-
-    attack.__doc__ = f"Subscriptions over {links} links that are never read."
-    return attack
+def deaf_readers(endpoint: str, match: str, until: float, **user: str) -> None:
+    """Subscriptions over ten links that are never read."""
+    held = []
+    for _ in range(10):
+        session = open_session(endpoint, **user)
+        held += [session.declare_subscriber(f"touchline/{match}/{key}", zenoh.handlers.FifoChannel(1)) for key in _READ]
+        held.append(session)
+    time.sleep(max(0.0, until - time.monotonic()))
+    os._exit(0)  # Zenoh would wait for the readers
 
 
 def resets(endpoint: str, match: str, until: float, **user: str) -> None:
-    """Connections that are reset in the middle of the handshake, and sessions in the middle of a long message."""
+    """Connections that are reset in the middle of the handshake."""
+    del match, user
     while time.monotonic() < until:
         for content in (b"", b"\x20\x00\x01", b"\xff\x7f" + b"\x01" * 1000):
             try:
-                near = socket.create_connection(_parts(endpoint), timeout=0.5)
-                near.sendall(content)
-                _reset(near)
+                with socket.create_connection(_parts(endpoint), timeout=0.5) as near:
+                    near.sendall(content)
+                    near.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # closes by a reset
             except OSError:
                 time.sleep(0.02)
-        try:
-            with open_session(endpoint, **user) as session:
-                session.put(f"touchline/{match}/robot/cyan1/command", b"x" * 1_000_000)
-                for near in _connections_to(endpoint):
-                    _reset(near)
-        except (zenoh.ZError, OSError):
-            time.sleep(0.02)
-
-
-def _connections_to(endpoint: str) -> list[socket.socket]:
-    """The connections of this process to the host, whichever library has opened them."""
-    found = []
-    for entry in Path("/proc/self/fd").iterdir():
-        try:
-            near = duplicate(int(entry.name))
-        except OSError:
-            continue
-        try:
-            is_wanted = near.getpeername()[1] == _parts(endpoint)[1]
-        except (OSError, IndexError):
-            is_wanted = False
-        if is_wanted:
-            found.append(near)
-        else:
-            near.close()
-    return found
-
-
-def _reset(near: socket.socket) -> None:
-    """End a connection with a reset: what was not sent is discarded."""
-    near.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
-    near.shutdown(socket.SHUT_RDWR)
-    near.close()
 
 
 def half_open(endpoint: str, match: str, until: float, **user: str) -> None:
@@ -421,18 +344,13 @@ ATTACKS: dict[str, Attack] = {
 }
 """Attacks over the protocol of Zenoh."""
 RAW_ATTACKS: dict[str, Callable[..., None]] = {
-    "reconnecting_flood": reconnecting_flood,
     "half_open": half_open,
     "garbage": garbage,
     "slow_loris": slow_loris,
     "resets": resets,
-    "one_deaf_reader": _deaf_readers(1),
-    "ten_deaf_readers": _deaf_readers(10),
-    "forty_deaf_readers": _deaf_readers(40),
+    "deaf_readers": deaf_readers,
 }
 """Attacks on the port itself, or by connections of their own; each is called with the endpoint and the match."""
-STEADY_ATTACKS: dict[str, Attack] = {"steady_flood": steady_flood}
-"""Attacks that take effect after seconds only."""
 CONTROLS: dict[str, Attack] = {"burn": burn}
 """What an attacker's process costs the others by its CPU time alone."""
 
@@ -453,9 +371,9 @@ def main() -> None:
     if name in RAW_ATTACKS:
         RAW_ATTACKS[name](endpoint, match, time.monotonic() + float(seconds), **user)
         return
-    with _patient_session(endpoint, **user) as session:
+    with open_session(endpoint, **user) as session:
         until = time.monotonic() + float(seconds)
-        {**ATTACKS, **STEADY_ATTACKS, **CONTROLS}[name](session, f"touchline/{match}/", until)
+        {**ATTACKS, **CONTROLS}[name](session, f"touchline/{match}/", until)
 
 
 if __name__ == "__main__":

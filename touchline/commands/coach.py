@@ -174,7 +174,6 @@ for _group, _name in ((app, "coach"), (referee, "referee")):
     for _word, _seat in SEAT_COMMANDS.items():
         _group.command(_word, help=f"{_seat.help}\n\nExample: touchline {_name} {_word}")(_seat_command(_seat))
 
-referee.command("admit")(admit.account)
 referee.command("admit-recorder")(admit.recorder)
 app.command("order")(orders.order)
 app.command("test")(orders.test)

@@ -20,7 +20,7 @@ def host(
     waiting: Annotated[dict[str, Any], FieldsOf(Patience, attendance="wait")],
     more: Annotated[
         dict[str, Any],
-        FieldsOf(HostSettings, "outcome", "launch_token", "admit", "forgiving", "announcement", "log_format"),
+        FieldsOf(HostSettings, "outcome", "launch_token", "admit", "announcement", "log_format"),
     ],
 ) -> None:
     """Run the simulation host of a match; robots join with `touchline agent` or `touchline team`.

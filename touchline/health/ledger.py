@@ -4,13 +4,12 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from schemas.messages.health import AccountHealth, ConnectionHealth, Health, RobotHealth
+from schemas.messages.health import AccountHealth, Health, RobotHealth
 from schemas.messages.latency_counts import quantile_ms
 from schemas.side import Side
 
 _NEVER = RobotHealth()
 _NO_ACCOUNT = AccountHealth()
-_NO_CONNECTIONS = ConnectionHealth()
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,19 +60,6 @@ class AccountLedger:
     """Bytes of these messages."""
     dropped: dict[str, int]
     """Reason → messages that were dropped for it."""
-    cut_off: bool
-    """Its messages are ignored, since it went on above its limit."""
-
-
-@dataclass(frozen=True, slots=True)
-class ConnectionLedger:
-    """What the host did with connections from one address."""
-
-    address: str
-    closed: int
-    """Connections that it closed, since each carried far more than it could read."""
-    refused: int
-    """Later connections that it closed at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,8 +81,6 @@ class Ledger:
     """Longest wall time of a tick in the last second, in ms."""
     robots: list[RobotLedger]
     accounts: list[AccountLedger]
-    connections: list[ConnectionLedger]
-    """Addresses from which connections were closed in the stretch."""
     radio_busiest: dict[str, float]
     """Side → share of its radio budget in its busiest second since the match began, 0 to 1."""
     strangers: dict[str, int]
@@ -136,7 +120,6 @@ def ledger_of(last: Health, sides: Mapping[str, Side], first: Health | None = No
             _account_ledger(name, account, first.accounts.get(name, _NO_ACCOUNT) if first is not None else _NO_ACCOUNT)
             for name, account in last.accounts.items()
         ],
-        connections=_connections(last.connections, first.connections if first is not None else {}),
         radio_busiest={side.value: _share(use.busiest, use.budget) for side, use in last.radio.items()},
         strangers=_increase(last.strangers, first.strangers if first is not None else {}),
         recorders=dict(last.recorders),
@@ -176,16 +159,7 @@ def _account_ledger(name: str, last: AccountHealth, first: AccountHealth) -> Acc
         messages=last.messages - first.messages,
         size=last.size - first.size,
         dropped=_increase(last.dropped, first.dropped),
-        cut_off=last.cut_off,
     )
-
-
-def _connections(last: Mapping[str, ConnectionHealth], first: Mapping[str, ConnectionHealth]) -> list[ConnectionLedger]:
-    pairs = ((address, counts, first.get(address, _NO_CONNECTIONS)) for address, counts in last.items())
-    rows = [
-        ConnectionLedger(address, now.closed - then.closed, now.refused - then.refused) for address, now, then in pairs
-    ]
-    return [row for row in rows if row.closed or row.refused]
 
 
 def _state(robot: RobotHealth) -> str:

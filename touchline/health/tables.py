@@ -63,9 +63,8 @@ def _account_table(ledger: Ledger) -> Table:
     for column in table.columns[1:3]:
         column.justify = "right"
     for row in ledger.accounts:
-        reasons = [f"{count} {reason}" for reason, count in row.dropped.items()]
-        dropped = "; ".join([*(["cut off"] if row.cut_off else []), *reasons]) or "0"
-        style = _TROUBLE if row.cut_off or row.dropped else None
+        dropped = "; ".join(f"{count} {reason}" for reason, count in row.dropped.items()) or "0"
+        style = _TROUBLE if row.dropped else None
         table.add_row(row.account, str(row.messages), f"{row.size / 1e3:.1f}", dropped, style=style)
     return table
 
@@ -78,8 +77,6 @@ def _remarks(ledger: Ledger) -> Iterator[str]:
         yield f"radio {side}: busiest second {100 * share:.2g} % of the budget"
     for key, count in ledger.strangers.items():
         yield f"{count} messages on {key}, which is no robot's of this match"
-    for one in ledger.connections:
-        yield f"{one.address}: {one.closed} connections closed that flooded the host, {one.refused} refused after that"
     for name, behind in ledger.recorders.items():
         yield f"recorder {name}: {behind} ticks behind"
 

@@ -61,13 +61,10 @@ class MatchResult:
     """Goals of the penalty shoot-out, if there was one."""
     names: TeamNames = SIDES_ALONE
     """The teams' names."""
-    cut_off: tuple[str, ...] = ()
-    """Accounts that were cut off at the end, because they went on above their limits."""
 
     @classmethod
     def of(cls, follower: MatchFollower, recording: RecordingOutcome) -> "MatchResult":
         """The result from the received messages."""
-        accounts = follower.health.accounts if follower.health is not None else {}
         return cls(
             score=follower.state.score if follower.state is not None else Score(),
             duration_s=follower.last.time if follower.last is not None else 0.0,
@@ -79,7 +76,6 @@ class MatchResult:
             effective_s=follower.state.effective if follower.state is not None else 0.0,
             robots=follower.state.robots if follower.state is not None else {},
             shoot_out=follower.state.shoot_out if follower.state is not None else None,
-            cut_off=tuple(name for name, one in accounts.items() if one.cut_off),
         )
 
     @property
@@ -95,7 +91,6 @@ class MatchResult:
             "score": self.score.model_dump(),
             "halves": [score.model_dump() for score in self.halves],
             "shoot_out": self.shoot_out.model_dump() if self.shoot_out is not None else None,
-            "cut_off": list(self.cut_off),
             "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.robots.items()},
             "duration_s": round(self.duration_s, 6),
             "effective_s": round(self.effective_s, 6),

@@ -26,7 +26,6 @@ from schemas.bus.contract import (
 )
 from schemas.bus.endpoint import is_cut_off
 from schemas.bus.mailbox import FifoMailbox
-from schemas.bus.zenoh.links import ZenohLinks
 from schemas.bus.zenoh.match_at import hosts_of, match_at, other_match
 from schemas.bus.zenoh.newest import ZenohNewest
 from schemas.bus.zenoh.presence import ZenohPresenceWatch
@@ -138,7 +137,6 @@ class ZenohBus(Bus):
         super().__init__(match, clock)
         self.account = account
         self.session = session
-        self.links = ZenohLinks(session)
         self.endpoint = endpoint
         """Where the host listens; of a client, where it is connected."""
         self._context = SessionContext(session, key_prefix(match), clock, is_client, WaitTimer(clock), self)

@@ -25,8 +25,8 @@ _MOST_AHEAD, _MOST_AHEAD_MS = "UHLC_MAX_DELTA_MS", "1"
 """Environment variable with the time by which a time stamp may be ahead of the router's clock, in ms. The router takes
 over the time of a later stamp, and stamps the messages of all others with it; one further ahead is replaced."""
 _CLIENT_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
-"""Few threads, since a match has many small processes. Where the system lets links be closed slowly (see
-`schemas.bus.zenoh.links`), closing one blocks a thread for up to 10 s.
+"""Few threads, since a match has many small processes. Closing a link whose data was not sent, as after a cut of the
+network, blocks a thread for up to 10 s: Zenoh's sockets have `SO_LINGER` (eclipse-zenoh/zenoh, issue 2350).
 
 The thread that sends closes no link. With its own, a message wakes it alone: one of several threads that share their
 tasks wakes another one as soon as it has found a task, and that one finds nothing."""

@@ -1,4 +1,4 @@
-"""End the game: full time at once, from any phase."""
+"""End the game: full time at once, from any phase; a side that the action names forfeits."""
 
 from schemas.game import Phase
 from schemas.messages.game import RefereeAction
@@ -13,4 +13,7 @@ def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """End the match."""
+    if action.side is not None:
+        ending.forfeit(draft, action.side, f"by decision of {action.source}")
+        return
     ending.end_match(draft, action.action, f"match ended after {draft.state.clock:.1f} s of play by {action.source}")

@@ -1,5 +1,7 @@
 """The end of play: a break, full time, or a forfeit by a side that cannot field enough robots."""
 
+from typing import Any
+
 from schemas.game import EventKind, Phase
 from schemas.side import Side
 from sim_host.referee.procedures import advantage, discipline
@@ -46,24 +48,19 @@ def end_if_forfeited(draft: RulingDraft) -> bool:
     if fielded[Side.CYAN] == fielded[Side.MAGENTA]:
         end_match(draft, RULE, f"full time, neither side can field {least} robots")
     else:
-        _forfeit(draft, min(fielded, key=lambda side: fielded[side]))
+        loser = min(fielded, key=lambda side: fielded[side])
+        left = fielded[loser]
+        reason = f"it can field {left} robots, {least} required"
+        forfeit(draft, loser, reason, measured=left, limit=least, unit="robots")
     return True
 
 
-def _forfeit(draft: RulingDraft, loser: Side) -> None:
+def forfeit(draft: RulingDraft, loser: Side, reason: str, **figures: Any) -> None:
     """End the match: the other side wins, at least by the number of goals that the rule book sets."""
     state, winner = draft.state, loser.opponent
     goals = max(0, state.score.of(loser) + draft.book.people.forfeit_goals - state.score.of(winner))
     draft.state = state._replace(score=state.score.plus(winner, goals))
-    left, least = discipline.count_playable(draft, loser), draft.book.people.least_robots
     draft.add_event(
-        EventKind.FORFEIT,
-        RULE,
-        f"{loser} forfeits: it can field {left} robots, {least} required",
-        side=loser,
-        score=draft.state.score,
-        measured=left,
-        limit=least,
-        unit="robots",
+        EventKind.FORFEIT, RULE, f"{loser} forfeits: {reason}", side=loser, score=draft.state.score, **figures
     )
     end_match(draft, RULE, f"full time, {winner} wins by forfeit")

@@ -68,6 +68,13 @@ class Target:
         lines = Path(f"/proc/{self.host.popen.pid}/status").read_text().splitlines()
         return next(int(line.split()[1]) / 1024 for line in lines if line.startswith("VmRSS"))
 
+    def memory_mb_or(self, default: float) -> float:
+        """The same; the default where the host has ended meanwhile."""
+        try:
+            return self.memory_mb()
+        except (OSError, StopIteration):
+            return default
+
     def close(self) -> None:
         self.watcher.bus.close()
         for program in self._programs:
@@ -83,24 +90,23 @@ def target(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Target]:
 
 
 @pytest.fixture(scope="module")
-def guarded_target(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Target]:
-    """A host with credentials; cyan has two robots."""
-    folder = tmp_path_factory.mktemp("credentials")
-    write_credentials(folder, new_credentials())
-    made = Target(tmp_path_factory.mktemp("guarded"), {**ROBOTS, "cyan": ["cyan1", "cyan2"]}, folder)
+def guarded_target_of(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[], Target]]:
+    """Starts hosts with credentials; cyan has two robots."""
+    started: list[Target] = []
+
+    def start() -> Target:
+        folder = tmp_path_factory.mktemp("credentials")
+        write_credentials(folder, new_credentials())
+        started.append(Target(tmp_path_factory.mktemp("guarded"), {**ROBOTS, "cyan": ["cyan1", "cyan2"]}, folder))
+        return started[-1]
+
+    yield start
+    for one in started:
+        one.close()
+
+
+@pytest.fixture(scope="module")
+def guarded_target(guarded_target_of: Callable[[], Target]) -> Target:
+    made = guarded_target_of()
     made.watcher.until_tick(50)
-    yield made
-    made.close()
-
-
-@pytest.fixture
-def attack(target: Target) -> Callable[..., Program]:
-    """Carries an attack out to its end, while the match has to go on; returns the attacker's process."""
-
-    def carry_out(name: str, seconds: float = 0.5) -> Program:
-        attacker = target.attack(name, seconds)
-        attacker.popen.wait(SHORT_LIMIT)
-        target.watcher.for_ticks(20)
-        return attacker
-
-    return carry_out
+    return made

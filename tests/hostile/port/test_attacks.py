@@ -1,13 +1,14 @@
-"""Attacks on the port of a host without credentials: it lives, the match goes on, and it reports what happened."""
+"""Attacks on the port of a host: it lives, its memory is bounded, the match goes on, and the account is named."""
 
 import pytest
 
+from schemas.access.accounts import Account
 from schemas.bus.zenoh.bus import open_client
 from schemas.game import EventKind
 from schemas.messages.setup import SetupRequest
 from schemas.process.clock import WallClock
 from schemas.topics import SETUP
-from sim_host.server.account_limits import OVER_RATE
+from sim_host.server.account_limits import OVER_LIMIT
 from support.attacker import ATTACKS, RAW_ATTACKS
 from support.process_story import SHORT_LIMIT
 
@@ -16,27 +17,64 @@ pytestmark = [pytest.mark.processes, pytest.mark.timeout(180)]
 MEMORY_MB = 100
 FALSE_MS = 390.0
 """Time by which false time stamps are ahead."""
+ON_CYAN1 = ("flood", "flood_of_names", "flood_of_drives", "malformed")
+"""Attacks on the key of cyan1, whose own commands are then over the limit, too."""
+FLOODS = [
+    (Account.CYAN_COACH, "flood_of_orders"),
+    (Account.CYAN_COACH, "flood_of_drives"),
+    (Account.OPERATOR, "scene_queries"),
+    (Account.OPERATOR, "parameter_queries"),
+    (Account.REFEREE, "action_queries"),
+    (Account.RECORDER, "histories"),
+    (Account.VIEWER, "setup_queries"),
+    (Account.VIEWER, "deaf_readers"),
+    (Account.MAGENTA, "huge_message"),
+]
+"""Accounts, and floods on keys that they may write or read; what each may not is in `test_accounts.py`."""
 
 
-def is_cut_off(listener):
-    """Whether an earlier flood on the key of cyan1 has had it cut off."""
-    listener.update()
-    account = listener.healths[-1].accounts.get("robot/cyan1/command") if listener.healths else None
-    return account is not None and account.cut_off
+def carry_out(target, name, robots, account=None):
+    """Carry an attack out to its end, while the match has to go on with these robots; returns the growth in MB."""
+    memory, before = target.memory_mb(), target.watcher.tick
+    attacker = target.attack(name, 0.5, account)
+    attacker.popen.wait(SHORT_LIMIT)
+    assert attacker.popen.returncode == 0, attacker.err
+    target.watcher.for_ticks(50)
+    assert target.host.popen.poll() is None, target.host.err
+    assert target.watcher.tick > before + 50
+    assert "Traceback" not in target.host.err
+    for robot in robots:
+        target.watcher.until(lambda one, robot=robot: one.robot(robot).answering, f"answers of {robot}")
+    return target.memory_mb() - memory
 
 
 @pytest.mark.parametrize("name", [*ATTACKS, *RAW_ATTACKS])
-def test_the_match_goes_on_during_and_after_the_attack(target, attack, name):
-    memory, before, was_cut_off = target.memory_mb(), target.watcher.tick, is_cut_off(target.watcher)
-    attacker = attack(name)
-    assert attacker.popen.returncode == 0, attacker.err
-    assert target.host.popen.poll() is None, target.host.err
-    assert target.watcher.tick > before + 20
+def test_without_credentials_the_match_goes_on_during_and_after_the_attack(target, name):
+    robots = ["magenta1"] if name in ON_CYAN1 else ["cyan1", "magenta1"]
+    assert carry_out(target, name, robots) < MEMORY_MB
+
+
+@pytest.mark.parametrize(("account", "name"), FLOODS)
+def test_a_flood_of_any_account_on_keys_that_it_may_use_leaves_the_match_to_all_robots(guarded_target, account, name):
+    assert carry_out(guarded_target, name, ["cyan1", "cyan2", "magenta1"], account) < MEMORY_MB
+
+
+def test_a_team_that_floods_its_own_key_is_named_and_forfeits_and_the_host_ends_in_good_order(guarded_target_of):
+    target = guarded_target_of()
+    target.watcher.until_tick(50)
+    memory = target.memory_mb()
+    attacker = target.attack("flood", SHORT_LIMIT, Account.CYAN)
+    most = memory
+    while target.host.popen.poll() is None:
+        most = max(most, target.memory_mb_or(most))
+        target.watcher.update()
+    attacker.end()
+    assert target.host.popen.returncode == 0, target.host.err
     assert "Traceback" not in target.host.err
-    assert target.memory_mb() - memory < MEMORY_MB
-    if not was_cut_off and name not in ("flood", "flood_of_names", "malformed", "reconnecting_flood"):
-        target.watcher.until(lambda one: one.robot("cyan1").answering, "answers of cyan1")
-    target.watcher.until(lambda one: one.robot("magenta1").answering, "answers of magenta1")
+    assert "cyan is over its limit of messages" in target.host.err
+    assert most - memory < MEMORY_MB
+    forfeits = [event for event in target.watcher.events if event.kind is EventKind.FORFEIT]
+    assert [event.side for event in forfeits] == ["cyan"]
 
 
 def test_a_new_client_gets_in_while_a_thousand_half_open_connections_are_held(target):
@@ -59,15 +97,15 @@ def test_false_time_stamps_of_one_client_do_not_lengthen_the_latency_of_others(t
     assert min(latency for latency in latencies if latency is not None) < FALSE_MS / 2
 
 
-def test_tokens_without_a_name_are_named_in_health(target, attack):
-    attack("strange_tokens")
+def test_tokens_without_a_name_are_named_in_health(target):
+    carry_out(target, "strange_tokens", [])
     target.watcher.until(
         lambda one: one.healths[-1].accounts["alive/recorder/*"].dropped, "a count of tokens without a name"
     )
 
 
-def test_silent_and_slow_recorders_are_not_waited_for(target, attack):
-    attack("silent_recorders")
+def test_silent_and_slow_recorders_are_not_waited_for(target):
+    carry_out(target, "silent_recorders", [])
     attacker = target.attack("slow_recorder", 3.0)
     target.watcher.until(lambda one: "slow" in one.healths[-1].recorders, "the slow recorder")
     target.watcher.for_ticks(400)
@@ -75,17 +113,13 @@ def test_silent_and_slow_recorders_are_not_waited_for(target, attack):
     attacker.popen.wait(SHORT_LIMIT)
 
 
-def test_who_floods_is_cut_off_and_named(target):
-    attacker = target.attack("steady_flood", SHORT_LIMIT)
+def test_the_key_that_is_flooded_is_named_and_the_others_are_not(target):
+    attacker = target.attack("flood", SHORT_LIMIT)
     target.watcher.until(
-        lambda one: one.healths[-1].accounts["robot/cyan1/command"].cut_off, "the cut of the flooded key"
+        lambda one: one.healths[-1].accounts["robot/cyan1/command"].dropped.get(OVER_LIMIT), "the limit of the key"
     )
     attacker.end()
-    health = target.watcher.healths[-1]
-    assert health.accounts["robot/cyan1/command"].dropped[OVER_RATE] > 0
-    assert not health.accounts["robot/magenta1/command"].cut_off
+    assert not target.watcher.healths[-1].accounts["robot/magenta1/command"].dropped
     events = [event.text for event in target.watcher.events if event.kind is EventKind.AGENT]
-    assert any(text.startswith("robot/cyan1/command is cut off: ") for text in events)
-    assert "robot/cyan1/command is cut off" in target.host.err
-    target.watcher.for_ticks(50)
-    target.watcher.until(lambda one: one.robot("magenta1").answering, "answers of magenta1")
+    assert any(text.startswith("robot/cyan1/command is over its limit of messages") for text in events)
+    assert "robot/cyan1/command is over its limit of messages" in target.host.err

@@ -18,7 +18,6 @@ from sim_host.server.agent_stats import AgentStats
 from sim_host.server.health_reporter import HealthReporter
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
-from sim_host.server.link_limits import LinkLimits
 from sim_host.snapshot import Roster
 
 NO_AGENTS = SimpleNamespace(agent_stats={}, unknown_senders={})
@@ -34,9 +33,7 @@ def speed_after(*stretches):
             clock.sleep_until(clock.now() + took)
             tick += 1
             reporter.end_tick(tick * 0.02)
-    return reporter.report(
-        tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS, AccountLimits({}), LinkLimits(), RadioUse(), 2e6
-    )
+    return reporter.report(tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS, AccountLimits({}), RadioUse(), 2e6)
 
 
 def test_the_real_time_factor_and_the_worst_tick_are_those_of_the_last_second():

@@ -107,8 +107,9 @@ def test_a_flood_does_not_hold_the_host():
     box = inbox.Inbox(
         bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus), AccountLimits({})
     )
-    assert box.receive_command(0, 0.0) is None
-    assert bus.received > 500
+    for _ in range(5):
+        assert box.receive_command(0, 0.0) is None
+    assert 500 < bus.received < 10_000
     assert 0 < box.agent_stats["cyan1"].invalid < bus.received  # beyond its limit they are not even read
 
 

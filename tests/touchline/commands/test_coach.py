@@ -105,7 +105,6 @@ def test_the_referees_commands_can_be_given_to_the_referee(host: Host) -> None:
     assert [command.name for command in coach.referee.registered_commands] == [
         *coach.REFEREE_COMMANDS,
         *coach.SEAT_COMMANDS,
-        "admit",
         "admit-recorder",
     ]
 

@@ -65,7 +65,7 @@ def report(tick: int) -> Health:
         radio={Side.CYAN: TeamRadio(budget=2e5, busiest=5e4)},
         accounts={
             "cyan": AccountHealth(messages=tick, size=tick * 100),
-            "magenta": AccountHealth(messages=5, size=500, dropped={"above the rate": 44}, cut_off=True),
+            "magenta": AccountHealth(messages=5, size=500, dropped={"above the rate": 44}),
         },
         strangers={"robot/x/command": 7},
     )
@@ -100,7 +100,7 @@ def test_a_running_match_is_one_row_for_each_robot(host: FakeHost) -> None:
     assert cyan1.split()[1:10] == ["answers", "54", "48", "2", "4", "0", "0", "1", "3"]
     assert next(line for line in lines if line.startswith("magenta1")).split()[1] == "silent"
     assert ["cyan", "50", "5.0", "0"] in [line.split() for line in lines]
-    assert "magenta 5 0.5 cut off; 44 above the rate" in [" ".join(line.split()) for line in lines]
+    assert "magenta 5 0.5 44 above the rate" in [" ".join(line.split()) for line in lines]
     assert "magenta1: answers tick 0, the match is at 50; use sight.tick" in lines
     assert "radio cyan: busiest second 25 % of the budget" in lines
     assert "7 messages on robot/x/command, which is no robot's of this match" in lines

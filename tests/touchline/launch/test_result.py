@@ -55,7 +55,6 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
         "score": {"cyan": 2, "magenta": 1},
         "halves": [{"cyan": 2, "magenta": 1}],
         "shoot_out": None,
-        "cut_off": [],
         "cards": {"cyan3": {"yellow": 1, "red": 0}},
         "duration_s": 120.0,
         "effective_s": 80.0,

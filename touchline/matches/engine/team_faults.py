@@ -9,13 +9,11 @@ from schemas.config.match_config import MatchConfig
 from schemas.messages.health import Health, RobotHealth
 from schemas.side import Side
 from schemas.topics import HEALTH
-from sim_host.server.account_limits import CUT_OFF, OVER_RATE
+from sim_host.server.account_limits import OVER_LIMIT
 from touchline.matches.engine.outcome import FailureKind
 
 _SILENT_TICKS = 50
 """Sights in a row that no robot of a side has answered after which the side counts as hung."""
-_BREACHES = (OVER_RATE, CUT_OFF)
-"""Reasons for dropped messages of which one is enough: more than 250 useless messages in a quarter of a second."""
 
 
 def fault_of(health: Health | None, config: MatchConfig) -> tuple[FailureKind, Side, str] | None:
@@ -42,9 +40,8 @@ def breach_of(health: Health | None, _: MatchConfig, side: Side) -> str | None:
     Messages on keys that it has no right to are no breach: they never pass the router.
     """
     account = health.accounts.get(Account.of_team(side).value) if health is not None else None
-    dropped = {reason: account.dropped.get(reason, 0) for reason in _BREACHES} if account is not None else {}
-    counts = ", ".join(f"{count} messages were dropped: {reason}" for reason, count in dropped.items() if count)
-    return f"account {side.value}: {counts}" if counts else None
+    count = account.dropped.get(OVER_LIMIT, 0) if account is not None else 0
+    return f"account {side.value}: {count} messages were dropped: {OVER_LIMIT}" if count else None
 
 
 def silence_of(health: Health | None, config: MatchConfig, side: Side) -> str | None:

@@ -2,12 +2,10 @@
 
 from collections.abc import Callable
 
-import pytest
-
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import AccountHealth, Health, RobotHealth
 from schemas.side import Side
-from sim_host.server.account_limits import CUT_OFF, OVER_RATE
+from sim_host.server.account_limits import OVER_LIMIT
 from touchline.matches.engine.outcome import FailureKind
 from touchline.matches.engine.team_faults import fault_of
 
@@ -37,11 +35,10 @@ def test_a_side_of_which_no_robot_answers_has_hung(match_of: MatchOf) -> None:
     )
 
 
-@pytest.mark.parametrize("why", [OVER_RATE, CUT_OFF])
-def test_dropped_messages_above_the_limits_break_the_access_rules(match_of: MatchOf, why: str) -> None:
+def test_dropped_messages_above_the_limits_break_the_access_rules(match_of: MatchOf) -> None:
     config = match_of()
-    found = fault_of(health({"cyan1": 900, "magenta1": 0}, {why: 12}), config)
+    found = fault_of(health({"cyan1": 900, "magenta1": 0}, {OVER_LIMIT: 12}), config)
     assert found is not None
     kind, side, reason = found
     assert (kind, side) == (FailureKind.BROKE_ACCESS_RULES, Side.MAGENTA)
-    assert reason == f"account magenta: 12 messages were dropped: {why}"
+    assert reason == f"account magenta: 12 messages were dropped: {OVER_LIMIT}"
