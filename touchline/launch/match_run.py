@@ -4,7 +4,6 @@ import shutil
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,7 +24,6 @@ from touchline.launch.log_limit import LogLimit
 from touchline.launch.log_notes import LogNotes
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
-from touchline.launch.page_probe import AddressLines
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.processes import MatchPlan, client_processes, host_process
 from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
@@ -91,10 +89,6 @@ class MatchRun:
         self._logs: dict[str, Path] = {}
         self._log_limit, self._log_notes = LogLimit(), LogNotes()
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
-        self._address: AddressLines | None = None
-        if plan.page is not None:
-            lines = partial(address_lines, plan.page.settings, plan.tokens)
-            self._address = AddressLines(plan.page.settings, lines, partial(screen.event, notable=False))
 
     def play(self) -> MatchResult:
         """Play the match.
@@ -166,6 +160,9 @@ class MatchRun:
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
                 self._match_screen.begin(announcement, (self._plan.isolation_note,))
+                if self._plan.page is not None:
+                    for line in address_lines(self._plan.page.settings, self._plan.tokens):
+                        self._screen.event(line, notable=False)
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
@@ -210,8 +207,6 @@ class MatchRun:
             self._screen.warn(notice.sentence)
             for line in notice.log:
                 self._screen.warn(f"  {notice.name}: {line}")
-        if self._address is not None:
-            self._address.update()
         return self._supervisor.host_status is None and self._empty_side() is None
 
     def _is_ending(self, stop: StopSignals) -> bool:

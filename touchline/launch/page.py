@@ -3,7 +3,6 @@
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,6 @@ from coach_gateway.web.settings import WebSettings, need_web
 from schemas.process.clock import Clock
 from touchline.cli.option_groups import from_options
 from touchline.launch.child_process import ChildProcess
-from touchline.launch.page_probe import AddressLines
 from touchline.launch.processes import TOKENS, Page, page_process
 from touchline.launch.supervisor import AT_ONCE, Notice, Supervisor
 
@@ -33,6 +31,8 @@ def open_page(options: Mapping[str, Any]) -> Page:
 
 def address_lines(web: WebSettings, tokens: Path) -> list[str]:
     """The lines to print: the referee's address of the page, the spectators' address, and the coaches' tokens.
+
+    A browser that opens the page before it is served waits.
 
     Raises:
         TouchlineError: the tokens cannot be written to their file.
@@ -65,14 +65,10 @@ def serve_page_beside(
         )
         process = page_process(settings, page.listener, folder)
         supervisor = Supervisor([process], lambda process: ChildProcess(process, folder / "page.log"), clock)
-        address = AddressLines(page.settings, partial(address_lines, page.settings, tokens), log)
+        for line in address_lines(page.settings, tokens):
+            log(line)
         supervisor.start()
-
-        def check() -> list[Notice]:
-            address.update()
-            return supervisor.check()
-
         try:
-            yield check
+            yield supervisor.check
         finally:
             supervisor.end(AT_ONCE)
