@@ -11,10 +11,9 @@ from playwright.sync_api import Browser
 
 from coach_gateway.web.match_result import FILE
 from recordings.reading.recording import open_recording
-from recordings.recorder.file_limits import ONE_FILE
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from recordings.stats.page import page_of
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
@@ -117,7 +116,7 @@ def hostile_recording(tmp_path: Path) -> Path:
     }
     match = Match(pace="lockstep", duration=2.0, teams=teams)
     bus = match.medium.open_bus("friendly", clock)
-    sink = open_sink(path, clock, "friendly", loss_counts, ONE_FILE)
+    sink = FileSink(path, clock, "friendly", loss_counts)
     recorder = Recorder(bus, sink, loss_counts, config=match.config)
     recording = threading.Thread(target=recorder.run, args=(lambda: False,))
     recording.start()

@@ -55,11 +55,6 @@ def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
     assert RuleLimits.of(simulation_league).at_once
 
 
-def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
-    old = league.model_copy(update={"handling": None, "scoring": None, "fouls": None})
-    assert RuleLimits.of(old) == RuleLimits(math.inf, math.inf, False, math.inf, False, math.inf, False, 0.0)
-
-
 def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():
     carry = carry_after(None, scene((0.0, 0.0), holding=True), RELEASED)
     back = Body(0.0, 0.0, 0.0, vx=-1.0)

@@ -1,6 +1,7 @@
 """A robot lets go of an opponent that it pushes, before the referee calls it."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -51,5 +52,6 @@ def test_it_drives_on_while_the_way_is_short_and_away_from_the_opponent_after_th
 
 
 def test_without_a_rule_it_goes_on(setup: Setup) -> None:
-    me, limits, free = Body(0.0, 0.0, 0.0, 1.5, 0.0), DriveLimits.of(setup), setup.model_copy(update={"contact": None})
+    me, limits = Body(0.0, 0.0, 0.0, 1.5, 0.0), DriveLimits.of(setup)
+    free = setup.model_copy(update={"fouls": replace(setup.fouls, pushing="off")})
     assert let_go_of_opponent(pushed(1.0, 1.5), me, AHEAD, free, limits) == AHEAD

@@ -8,8 +8,8 @@ import pytest
 from recordings.container.key_selection import KeySelection
 from recordings.reading.recording import open_recording
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.contract import NoReplyError
@@ -68,7 +68,7 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
     path = tmp_path / "again.mcap"
     bus = room.seat()
     loss_counts = LossCounts()
-    recorder = Recorder(bus, open_sink(path, bus.clock, room.match, loss_counts), loss_counts)
+    recorder = Recorder(bus, FileSink(path, bus.clock, room.match, loss_counts), loss_counts)
     host = room.host(recorded.path, rate=None)
     recorder.pump()
     host.pump()
@@ -86,7 +86,7 @@ def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, m
     monkeypatch.setattr("recordings.replay.listeners.RUN_AHEAD_TICKS", 20)
     bus = room.seat()
     loss_counts = LossCounts()
-    sink = open_sink(recorded.path.with_name("late.mcap"), bus.clock, room.match, loss_counts)
+    sink = FileSink(recorded.path.with_name("late.mcap"), bus.clock, room.match, loss_counts)
     recorder = Recorder(bus, sink, loss_counts)
     host = room.host(recorded.path, rate=None, paused=True)
     worlds = room.seat().subscribe(WORLD)

@@ -103,16 +103,3 @@ def test_the_setup_has_every_type_and_the_robots_of_each(tmp_path: Path) -> None
     assert setup.for_robot("cyan2").robot.mass == 60.0
     assert setup.for_robot("cyan3").drive.max_speed == 1.0
     assert setup.for_robot("cyan2").for_robot("cyan4") == setup
-
-
-def test_a_setup_from_before_there_were_types_is_read_with_equal_robots() -> None:
-    """Recordings keep their setup as it was written."""
-    new = Setup.of(MatchConfig(), load_profile("msl"), load_rule_book("msl"))
-    fields = new.model_dump(mode="json", exclude={"models"})
-    for team in fields["teams"].values():
-        del team["types"]
-    for key in ("frame_width", "frame_depth"):
-        del fields["robot"][key]
-    old = Setup.model_validate(fields)
-    assert old.models == {} and old.for_robot("cyan1") == old
-    assert old.robot == new.robot

@@ -9,10 +9,9 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from recordings.container.key_selection import EVERYTHING
-from recordings.recorder.file_limits import ONE_FILE
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
@@ -133,7 +132,7 @@ def recording(tmp_path: Path) -> Path:
     """A match in real time, recorded from its host: cyan2 misses the sights after tick 50."""
     rig = HostRig(MatchConfig.model_validate({"seed": 7, "teams": TEAMS, "pace": "realtime"}))
     path, losses, clock = tmp_path / "match.mcap", LossCounts(), SteppedClock()
-    sink = open_sink(path, clock, "friendly", losses, ONE_FILE)
+    sink = FileSink(path, clock, "friendly", losses)
     recorder = Recorder(
         rig.seat(), sink, losses, name="recorder", sights=False, config=rig.config, selection=EVERYTHING
     )

@@ -10,10 +10,9 @@ import pytest
 from playwright.sync_api import Browser
 
 from coach_gateway.web.settings import WebSettings
-from recordings.recorder.file_limits import ONE_FILE
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.in_process_bus import SharedState
@@ -133,9 +132,7 @@ def record_to(path: Path, match: Match) -> None:
     clock = WallClock()
     loss_counts = LossCounts()
     bus = match.medium.open_bus("friendly", clock)
-    recorder = Recorder(
-        bus, open_sink(path, clock, "friendly", loss_counts, ONE_FILE), loss_counts, config=match.config
-    )
+    recorder = Recorder(bus, FileSink(path, clock, "friendly", loss_counts), loss_counts, config=match.config)
     recording = threading.Thread(target=recorder.run, args=(lambda: False,))
     recording.start()
     match.wait_for_end()
