@@ -1,4 +1,4 @@
-"""The bridges of one gateway process beside the page: which ones its settings ask for, and their services."""
+"""The bridges of one gateway process, besides the page: which ones its settings ask for, and their services."""
 
 import socket
 from collections.abc import Callable, Mapping
@@ -25,7 +25,7 @@ from schemas.side import Side
 
 @dataclass(frozen=True, slots=True)
 class Bridges:
-    """The bridges that are served beside the page."""
+    """The bridges that are served besides the page."""
 
     udp: int | None = None
     """Port for coach programs; 0 selects a free one."""

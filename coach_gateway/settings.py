@@ -54,4 +54,4 @@ class GatewaySettings(ClientSettings, LogSettings):
     """Folder in which the result of the match will be written; with one, the page's server ends after the match, once
     no page is open any more."""
     bridges: BridgeOptions = NO_BRIDGES
-    """What takes part beside the page."""
+    """What takes part besides the page."""

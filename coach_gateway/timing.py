@@ -1,7 +1,7 @@
 """The times of the gateway, in s of wall time, each with its reason."""
 
 POLL_S = 0.01
-"""Between two looks at the bus, or at who is due: half a tick of the host."""
+"""Between two polls of the bus, or of who is due: half a tick of the host."""
 REPLY_S = 3.0
 """For a reply of the host, and to find one whose match is to be shown: a busy host replies between two ticks."""
 HOST_SEARCH_S = 1.0

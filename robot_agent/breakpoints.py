@@ -19,7 +19,7 @@ class SkippedBreakpoints:
     """Called in place of a debugger; reports each line of code once."""
 
     def __init__(self, settings: AgentSettings, clock: Clock) -> None:
-        """The simulated time of `clock` is that of the sight in hand."""
+        """`clock` has the simulated time of the sight in hand."""
         self.tick_s: float | None = None
         """Length of a tick in s; None while the setup of the match is unknown."""
         self._settings = settings

@@ -22,7 +22,7 @@ class AgentOptions(ClientSettings, LogSettings):
     brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")] = ""
     """module:Class, or module:function of a plain act(sight)."""
     brain_folder: Path | None = None
-    """Folder in which the module is looked for before the current directory; a match uses that of its file."""
+    """Folder in which the module is looked for before the current directory; a match uses the folder of its file."""
     launch_folder: Path | None = None
     """Folder in which the module is looked for after that; by default the current directory."""
     reload: bool = False

@@ -12,7 +12,7 @@ from schemas.wire.units import Metres
 
 
 class Phase(StrEnum):
-    """What is being played; a restart belongs to the side that is given beside it."""
+    """What is being played; a restart belongs to the side that is given with it."""
 
     PRE_GAME = "pre_game"
     STOPPED = "stopped"

@@ -13,14 +13,14 @@ class PresenceKind(StrEnum):
     REPLAY = "replay"
     """In addition to `host`: this host replays a recording."""
     AGENT = "agent"
-    """Its name is that of its robot."""
+    """It has the name of its robot."""
     SESSION = "session"
     """An agent that claims a robot; its name is no other agent's."""
     RECORDER = "recorder"
     COACH = "coach"
     """A page or a terminal that shows the match."""
     REFBOX = "refbox"
-    """A base station that is connected to a league's referee box; its name is that of its side."""
+    """A base station that is connected to a league's referee box; it has the name of its side."""
     REFEREE = "referee"
     """A gateway through which people officiate; its name is that in their requests."""
 
@@ -32,7 +32,7 @@ class Token:
     writers: tuple[Party, ...]
     readers: tuple[Party, ...]
     name: str = "*"
-    """Form of its name: `{robot}` and `{side}` stand for those of the writer, `*` for any name."""
+    """Form of its name: `{robot}` and `{side}` stand for the writer's, `*` for any name."""
 
 
 _WATCHERS = (Party.COACH, Party.REFEREE, Party.RECORDER, Party.VIEWER, Party.OPERATOR)

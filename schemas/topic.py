@@ -62,7 +62,7 @@ class Topic:
     cache_size: int = 1500
     """Messages that the publisher of a `recovered` topic keeps for each key: 30 s of ticks in real time."""
     other_writers: tuple[Party, ...] = ()
-    """Who writes beside `writer`."""
+    """Who writes, apart from `writer`."""
 
     names_sender: bool = True
     """Whether the key tells the host what it must know of the sender. Hosts with credentials admit no other topic."""

@@ -188,7 +188,7 @@ class Snapshot:
     touches: tuple[str, ...]
     """Robots that touched, held or kicked the ball since the tick before, each once, in order of their last touch.
 
-    A touch in a later physics step is later, and within a step that of the robot that presses harder."""
+    A touch in a later physics step is later, and within a step the touch of the robot that presses harder."""
     level: tuple[str, ...] = ()
     """The last robots of `touches`, if several were equally late and pressed equally hard: none of them is the last."""
     kicked: str | None = None

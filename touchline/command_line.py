@@ -116,7 +116,7 @@ app.command("schema", rich_help_panel=PROTOCOL)(schema.schema)
 
 
 def main() -> None:
-    """Run the command line; exits with its status, after Ctrl-C with that of a process that SIGINT ended."""
+    """Run the command line; exits with its status, after Ctrl-C as a process that SIGINT ended."""
     try:
         app(prog_name="touchline")
     except KeyboardInterrupt:

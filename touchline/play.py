@@ -52,7 +52,7 @@ class InProcessMatch:
     def __init__(
         self, config: MatchConfig, brains: Mapping[str, BrainSource] | None = None, brain_folder: Path | None = None
     ) -> None:
-        """Brains by robot; the others are those of the match file, looked for in `brain_folder` first.
+        """Brains by robot; the others are the match file's, looked for in `brain_folder` first.
 
         Raises:
             RobotNotStartedError: a brain cannot be loaded.
@@ -128,7 +128,7 @@ def play_match(
 ) -> MatchOutcome:
     """Play a match to its end, or to `until` s of simulated time; `watch` sees each tick.
 
-    Brains are looked for in `brain_folder`, such as that of the match file, and then in the current directory.
+    Brains are looked for in `brain_folder`, such as the match file's, and then in the current directory.
 
     Raises:
         TouchlineError: a brain cannot be loaded.

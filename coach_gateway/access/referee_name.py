@@ -1,4 +1,4 @@
-"""The names under which referees hold the seat of a match: a gateway's, a terminal's, and that of a league's box."""
+"""The names under which referees hold the seat of a match: a gateway's, a terminal's, and a league's box's."""
 
 import getpass
 import platform

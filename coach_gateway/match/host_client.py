@@ -29,7 +29,7 @@ class HostClient:
     """One client of a match's host."""
 
     def __init__(self, bus: Bus, patience: float = REPLY_S, referee: str | None = None) -> None:
-        """`referee` is the name under which it officiates; by default that of its connection, which is present with it.
+        """`referee` is the name under which it officiates; by default its connection's, which is present with it.
 
         A client that closes its connection after each request needs a name of its own, to keep the referee's seat.
         """

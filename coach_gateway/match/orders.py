@@ -103,7 +103,7 @@ class OrderBook:
         )
 
     def clear(self) -> None:
-        """Forget all orders, as those of another host."""
+        """Forget all orders: they were another host's."""
         self._active.clear()
 
 

@@ -25,7 +25,7 @@ class Identity(NamedTuple):
     side: Side
     address: str | None = None
     protocol: BoxProtocol | None = None
-    """The protocol that it wants; None for that of its port."""
+    """The protocol that it wants; None for its port's."""
 
 
 class UnknownTeamError(ValueError):

@@ -7,7 +7,7 @@ from schemas.league.findings import Findings
 from schemas.league.lenient_json import REQUIRED, fields_of, items_of, vector
 
 MOST_BYTES = 30_000
-"""Bytes of a world state that is passed on: the audience feed has those of both teams in one datagram."""
+"""Bytes of a world state that is passed on: the audience feed has both teams' in one datagram."""
 
 
 class TeamWorldState:

@@ -114,7 +114,7 @@ class CoachPrograms:
     def _begin(self, hello: Hello, address: Address, now: float) -> Ack:
         """Begin a session; a repeated hello gets the acknowledgement of the session that it began.
 
-        A hello after any other datagram is that of a restarted program, whatever its number.
+        A hello after any other datagram is from a restarted program, whatever its number.
         """
         session = self.sessions.get(address)
         role = self._role_of(hello.token)

@@ -26,7 +26,7 @@ class _NumberedRequest(Part):
     """Fields of every datagram of a coach."""
 
     sequence: Annotated[int, Field(ge=1, lt=2**53, strict=True)]
-    """Larger than that of every datagram before it in this session."""
+    """Larger than the sequence of every datagram before it in this session."""
 
 
 class _InSession(_NumberedRequest):

@@ -136,7 +136,7 @@ class PageBroadcaster:
         return rights.sides_shown(role, to_all=not self.feed.live)
 
     async def _broadcast(self) -> None:
-        """Send what has come, look after look. What a look takes beyond its period was spent on sending the frame."""
+        """Send what has come, poll by poll. What a poll takes beyond its period was spent on sending the frame."""
         clock, feed, pages = self._bus.clock, self.feed, self._pages
         sent_at: float | None = None
         while True:

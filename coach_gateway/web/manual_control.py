@@ -1,4 +1,4 @@
-"""Which page drives which robot: two pages at once would pull a robot to and fro. Pure."""
+"""Which page drives which robot: two pages at the same time would pull a robot to and fro. Pure."""
 
 from coach_gateway.web.pages import Page
 from coach_gateway.web.protocol import PageDrive

@@ -8,13 +8,13 @@ from coach_gateway.web.protocol import ResultUpdate
 
 FILE = "result.json"
 STATISTICS = "statistics.html"
-"""The replay and the statistics as one page, beside the file of the result."""
+"""The replay and the statistics as one page, in the folder of the result."""
 STATISTICS_ADDRESS = f"result/{STATISTICS}"
 """The address of the statistics, below the page's own."""
 
 
 def write_result(folder: Path, result: ResultUpdate) -> None:
-    """Write the result into a folder at once: a reader sees all of it, or that of before."""
+    """Write the result into a folder atomically: a reader sees the new one or the previous one, whole."""
     folder.mkdir(parents=True, exist_ok=True)
     handle, draft = tempfile.mkstemp(prefix=".result.", dir=folder)
     with os.fdopen(handle, "w", encoding="utf-8") as file:

@@ -11,7 +11,7 @@ class Page:
     """One open page."""
 
     def __init__(self, address: str) -> None:
-        """`address` is that of its client, for the log."""
+        """`address` is its client's, for the log."""
         self.address = address
         self.role = Role.SPECTATOR
         self.queue = SendQueue()
@@ -45,7 +45,7 @@ class Pages:
         return list(there)
 
     def send(self, text: str, role: Role | None = None) -> None:
-        """Send to all pages, or to those of one role."""
+        """Send to all pages, or to the pages of one role."""
         for page in self._open:
             if role is None or page.role is role:
                 page.queue.put(text)

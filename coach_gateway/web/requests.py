@@ -32,7 +32,7 @@ SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENT
 """Role → the source that the match records for a request."""
 
 _THREADS = 4
-"""Requests of one role, or stops, that are in progress at once; further ones wait."""
+"""Requests of one role, or stops, that are in progress at the same time; further ones wait."""
 _IN_EVERY_REPLY = frozenset({"version", "accepted", "reason"})
 
 
@@ -51,7 +51,7 @@ class RequestHandler:
     async def answer(self, role: Role, request: PageRequest) -> Reply:
         """Send a request to the match and return its reply.
 
-        Requests of one role do not wait for those of another, orders of one side not for those of the other, and a stop
+        Requests of one role do not wait for another's, orders of one side not for the other's, and a stop
         waits for nothing.
         """
         try:
@@ -128,5 +128,5 @@ def _accepted(request: PageRequest, order: CoachOrder) -> Reply:
 
 
 def _content(reply: WireMessage) -> dict[str, Any] | None:
-    """The fields of a reply beside `accepted` and `reason`."""
+    """The fields of a reply besides `accepted` and `reason`."""
     return {name: value for name, value in reply.plain().items() if name not in _IN_EVERY_REPLY} or None

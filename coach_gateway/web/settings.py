@@ -33,7 +33,7 @@ class WebSettings(Settings):
     beliefs: BeliefsFor | None = None
     """The roles that are shown beliefs; by default all in a friendly and in a replay, otherwise each team its own."""
     pages: Annotated[int, Field(ge=1)] = DEFAULT_PAGES
-    """Number of pages that may be open at once; one with a token is admitted beyond it."""
+    """Number of pages that may be open at the same time; one with a token is admitted beyond it."""
 
 
 def need_web() -> None:

@@ -43,7 +43,7 @@ class SocketEndpoint:
     def __init__(
         self, pages: Pages, most: int, tokens: Tokens, origins: Origins, refusals: Refusals, match: str | None
     ) -> None:
-        """At most `most` pages at once without a token; `match` is the name of the match that is waited for."""
+        """At most `most` pages without a token at the same time; `match` names the match that is waited for."""
         self._pages, self._most, self._tokens, self._origins = pages, most, tokens, origins
         self._refusals, self._match_name = refusals, match
         self.match: PageBroadcaster | None = None

@@ -1,4 +1,4 @@
-"""The web server and its limits: those of uvicorn, as it documents them."""
+"""The web server, with the limits that uvicorn documents."""
 
 import logging
 
@@ -10,7 +10,7 @@ from coach_gateway.timing import KEEP_ALIVE_S, PING_S, SHUTDOWN_S
 MAX_MESSAGE_BYTES = 65_536
 """A longer message of a page ends its connection."""
 _LOADING = 600
-"""Connections beside those of open pages: a hundred browsers that load the page use six each."""
+"""Connections in addition to open pages: a hundred browsers that load the page use six each."""
 _MAX_HEADER_BYTES = 16_384
 """Bytes of a request's first line and headers."""
 

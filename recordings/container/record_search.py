@@ -42,7 +42,7 @@ def _metadata_places(content: mmap.mmap, name: str) -> Iterator[int]:
 
 
 def _text(text: str) -> bytes:
-    """A string as MCAP has it: its length, and its bytes."""
+    """A string in MCAP: its length, and its bytes."""
     return struct.pack("<I", len(text)) + text.encode()
 
 

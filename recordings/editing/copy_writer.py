@@ -59,7 +59,7 @@ class CopyWriter:
                 self._mcap.add_attachment(
                     0, 0, name, MEDIA_TYPES.get(Path(name).suffix, "application/octet-stream"), data
                 )
-            self._mcap.add_metadata(MANIFEST, to_metadata(manifest))  # again, as every recording has it
+            self._mcap.add_metadata(MANIFEST, to_metadata(manifest))  # again, as in every recording
 
     def add(self, copy: MessageCopy, *, counted: bool = True) -> None:
         """Write a message; one that is not `counted` is in the counts of another file."""

@@ -42,7 +42,7 @@ class Importer(NamedTuple):
     def import_log(self, log: list[Path], out: Path, profile: str | None, team_a: str | None) -> "ImportSummary":
         """Convert the files of a log to the recording `out`.
 
-        `profile` is that of the pitch, recognised if None, `team_a` the name of team A in the log.
+        `profile` is the pitch's, recognised if None, `team_a` the name of team A in the log.
 
         Raises:
             TouchlineError: the log cannot be read, or the recording cannot be written.

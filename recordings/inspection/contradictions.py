@@ -126,7 +126,7 @@ def _of_setup(recording: Recording) -> Iterator[str]:
 
 
 def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
-    """The counts in the result, and those of the file."""
+    """The counts in the result, and the counts of the file."""
     if not result.keys or recording.manifest.latched_count:
         return  # of a repaired file, or with latched messages at its beginning, which are in no count
     there = {channel.key: channel.messages for channel in recording.channels if channel.messages}
@@ -145,7 +145,7 @@ def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
 
 
 def _of_ending(result: Result, recording: Recording) -> Iterator[str]:
-    """Score, phase and last tick in the result, and those of the last messages."""
+    """Score, phase and last tick in the result, and in the last messages."""
     if result.ended not in _ENDS or recording.manifest.made != "recorded":
         return
     state: GameState | None = _last(recording, STATE.key)

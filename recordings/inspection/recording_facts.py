@@ -97,7 +97,7 @@ class RecordingFacts:
 
 
 def facts_of(recording: Recording) -> RecordingFacts:
-    """The facts of a recording; those of a truncated file are collected from its messages."""
+    """The facts of a recording; of a truncated file they are collected from its messages."""
     manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
     ending = _ending(recording)
     start, end = _extent(recording)

@@ -22,7 +22,7 @@ class RecordOrder:
     """Follows the messages of the host, in the order of the file."""
 
     def __init__(self, ticks: range, tick_s: float) -> None:
-        """`ticks` are those of the segment: messages of other ticks are faults only at log times of the segment."""
+        """`ticks` are the segment's: messages of other ticks are faults only at log times of the segment."""
         self._ticks = ticks
         self._tick_s = tick_s
         self._last: dict[str, int] = {}

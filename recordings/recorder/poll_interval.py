@@ -1,4 +1,4 @@
-"""How long a recorder sleeps between two polls: reading the messages of many ticks at once costs less.
+"""How long a recorder sleeps between two polls: reading the messages of many ticks together costs less.
 
 Each poll loads the recorder's code into caches that host and robots have used since the last one.
 """

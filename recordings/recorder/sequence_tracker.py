@@ -15,7 +15,7 @@ _MAX_WRITERS = 8
 _MAX_RATE = 10_000
 """Most messages that a writer sends in a second on one key: a larger gap is a change of the writer."""
 _BURST = 1_000
-"""Messages beyond that rate that a writer may send at once."""
+"""Messages beyond that rate that a writer may send in one burst."""
 _SILENT_NS = 1_000_000_000
 """Time in ns without a message after which a gap is rather one of another writer."""
 

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 AS_FAST_AS_POSSIBLE = math.inf
-"""Rate at which all messages are due at once."""
+"""Rate at which all messages are due immediately."""
 
 
 @dataclass(frozen=True, slots=True)

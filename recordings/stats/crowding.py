@@ -5,7 +5,7 @@ import math
 from recordings.stats.match_tick import MatchTick
 
 RADIUS = 1.0
-"""m from the centre of a robot to that of the ball, on the ground, within which the robot is at the ball."""
+"""m from the centre of a robot to the ball's, on the ground, within which the robot is at the ball."""
 CROWD = 3
 """Robots of both sides at the ball that make a crowd."""
 

@@ -1,6 +1,6 @@
 """A program as a child process: lines into its standard input, lines from its standard output, neither ever blocking.
 
-The child ends with this process, by whatever this process ends. Its standard error is that of this process: the robot's
+The child ends with this process, by whatever this process ends. Its standard error is this process's: the robot's
 log.
 """
 
@@ -20,7 +20,7 @@ from schemas.messages.command import Command
 from schemas.process import leash
 
 _CHUNK = 65_536
-"""Bytes read at once."""
+"""Bytes of one read."""
 _END_S = 0.5
 """Wall time for the program to end after its input has ended, and again after SIGTERM."""
 _OWN_SIGNAL_S = 0.3
@@ -33,7 +33,7 @@ class Child:
     """One running program."""
 
     def __init__(self, command: Sequence[str], environment: Mapping[str, str] | None = None) -> None:
-        """`environment` is added to that of this process."""
+        """`environment` is added to this process's."""
         launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), "{}")
         inherited = {name: value for name, value in os.environ.items() if name not in _NOT_PASSED}
         self._popen = subprocess.Popen(

@@ -24,7 +24,7 @@ from schemas.wire.struct import encode
 SILENCE_S = 1.0
 """Wall time without an answer after which the program counts as silent, and may get a newer sight."""
 SLICE_S = 0.25
-"""Longest wait of one exchange: the caller looks at its host between two."""
+"""Longest wait of one exchange: the caller polls its host between two."""
 ACT_PATIENCE_S = 30.0
 """Wall time for an answer in a match in one process, which waits for each robot."""
 _REPORT_S = 0.05

@@ -1,6 +1,6 @@
 """Zenoh's access control for one match: default deny, and for each account the rules that its rights come to. Pure.
 
-Flows are those of the host: `ingress` is what an account sends, `egress` what it is sent. A rule matches if its keys
+Flows are seen from the host: `ingress` is what an account sends, `egress` what it is sent. A rule matches if its keys
 include the key of the message, so that a subscription or a publication with wildcards needs a rule of at least its
 extent.
 """

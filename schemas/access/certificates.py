@@ -34,7 +34,7 @@ def need_trustme() -> None:
 
 
 def make_certificate(names: Sequence[str] = ()) -> Certificate:
-    """A certificate for the host names and addresses by which clients connect, beside those of loopback.
+    """A certificate for loopback and for the host names and addresses by which clients connect.
 
     Raises:
         TouchlineError: the package for certificates is missing, or a name is none.

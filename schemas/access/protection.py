@@ -27,7 +27,7 @@ class Protection:
         """The protection of a match with these robots.
 
         Raises:
-            TouchlineError: the credentials are those of another match.
+            TouchlineError: the credentials are for another match.
         """
         if credentials.match not in (None, match):
             raise TouchlineError(
@@ -41,7 +41,7 @@ class Protection:
         """The protection of a match by the host's file; None without a file.
 
         Raises:
-            TouchlineError: the file cannot be read, or is that of another match.
+            TouchlineError: the file cannot be read, or is for another match.
         """
         if path is None:
             return None
@@ -49,7 +49,7 @@ class Protection:
 
 
 def robots_of(config: MatchConfig) -> Robots:
-    """The robots that each side may play: those of the match, and those with usual names that a scene may add later.
+    """The robots that each side may play: the match's, and ones with usual names that a scene may add later.
 
     Access rules cannot change during a match. A robot of another name that is added later has no agent.
     """

@@ -97,8 +97,8 @@ class Rights:
     def _keys(self, topic: Topic, *, is_own: bool) -> list[str]:
         """The keys of a topic for this account.
 
-        A team's robots have their own keys only, a coach those of its side. A coach reads the keys of every robot where
-        the key names no side, and writes those of its own robots.
+        A team's robots have their own keys only, a coach its side's. A coach reads the keys of every robot where
+        the key names no side, and writes the keys of its own robots.
         """
         if self.account.side is None:
             return [topic.fill()]

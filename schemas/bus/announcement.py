@@ -37,7 +37,7 @@ class Announcement(Part):
     def of(cls, match: str, endpoint: str, host_credentials: Path | None = None) -> Self:
         """The announcement of this process, which listens on `endpoint`.
 
-        `host_credentials` is the host's own file; the accounts' files are beside it.
+        `host_credentials` is the host's own file; the accounts' files are in the same folder.
         """
         return cls(
             endpoint=local_endpoint(endpoint),

@@ -20,7 +20,7 @@ LOOKBACK = 100
 
 
 class Gap(NamedTuple):
-    """A range of missing messages: those of one publisher on one key, from `first` to `last`, both included.
+    """A range of missing messages of one publisher on one key, from `first` to `last`, both included.
 
     The last of them has already arrived: a reply that contains it is complete.
     """

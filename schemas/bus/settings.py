@@ -41,11 +41,11 @@ class ClientSettings(Settings):
     """Settings of a process that joins a match."""
 
     connect: Annotated[Endpoint | None, CommandLine(environment="TOUCHLINE_CONNECT")] = None
-    """Endpoint of the host; by default that of the running match on this machine."""
+    """Endpoint of the host; by default the running match on this machine."""
     match: Annotated[MatchName | None, CommandLine(environment="TOUCHLINE_MATCH")] = None
     """Name of the match; by default the match that the host plays."""
     credentials: Annotated[Path | None, CommandLine(environment="TOUCHLINE_CREDENTIALS")] = None
-    """File of the account to join with; by default that of the running match on this machine."""
+    """File of the account to join with; by default the file of the running match on this machine."""
 
 
 class ListenSettings(Settings):

@@ -15,7 +15,7 @@ FileSize = Annotated[float, Field(ge=0.001, le=1e6)]
 
 
 class Isolation(StrEnum):
-    """What separates the robots of a team from other programs of the machine, beside their limits."""
+    """What separates the robots of a team from other programs of the machine, in addition to their limits."""
 
     NONE = "none"
     """Nothing: they run as the user who launches the match."""
@@ -54,7 +54,7 @@ _BREACHES = {
 
 
 class TeamLimits(Part):
-    """Limits of the robots of one team that replace those of the match."""
+    """Limits of the robots of one team that replace the match's."""
 
     cpu_time: CpuTime | None = None
     """CPU time of each process in s; None for the match's."""
@@ -68,5 +68,5 @@ class TeamLimits(Part):
     """Size of each written file, in MB; None for the match's."""
 
     def over(self, limits: Limits) -> Limits:
-        """The limits of the match with those of this team in their place."""
+        """The limits of the match, replaced by this team's where it has some."""
         return limits.model_copy(update=self.model_dump(exclude_none=True))

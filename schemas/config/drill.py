@@ -61,7 +61,7 @@ class Drill(Part):
 
 
 class Variation(Part):
-    """How far the start of a body in a drill may be from that of the scene, to both sides; equally likely."""
+    """How far a body of a drill may start from its place in the scene, to both sides; equally likely."""
 
     body: Name
     """The body: `ball`, or the name of a robot."""

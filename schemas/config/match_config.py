@@ -109,11 +109,11 @@ class MatchConfig(Part):
     profile: str = "msl"
     """A shipped profile by name, or the path of the file that `profile_tables` was read from."""
     profile_tables: dict[str, Any] | None = None
-    """All tables of the profile, with those of the profiles that it extends; None for the shipped profile."""
+    """All tables of the profile and of the profiles that it extends; None for the shipped profile."""
     rules: str = "friendly"
     """A shipped rule book by name, or the path of the file that `rule_book_tables` was read from."""
     rule_book_tables: dict[str, Any] | None = None
-    """All tables of the rule book, with those of the rule books that it extends; None for the shipped rule book."""
+    """All tables of the rule book and of the rule books that it extends; None for the shipped rule book."""
     teams: TeamConfigs = Field(default_factory=TeamConfigs)
     """Both teams."""
     types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
@@ -124,7 +124,7 @@ class MatchConfig(Part):
     noise: NoiseConfig = NoiseConfig()
     """Quality of the robots' perception."""
     radio: RadioOverride = RadioOverride()
-    """Radio numbers that replace those of the profile."""
+    """Radio numbers that replace the profile's."""
     referee: OfficiatingConfig = OfficiatingConfig()
     """How the match is refereed."""
     record: RecordingConfig = RecordingConfig()

@@ -31,7 +31,7 @@ class TeamConfig(Part):
     """One team of the match file: its robots and their program."""
 
     name: str = ""
-    """Name of the team, for display; where it is empty, that of the side."""
+    """Name of the team, for display; where it is empty, the side's."""
     brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
     """`module:Class` of a brain in Python; each robot's process constructs one instance."""
     command: list[str] | None = None
@@ -49,9 +49,9 @@ class TeamConfig(Part):
     parameters: Annotated[dict[Name, Parameter], Field(max_length=MAX_PARAMETERS)] = Field(default_factory=dict)
     """Numbers, texts and switches for the team's own program, which reads them in `Briefing.parameters`."""
     limits: TeamLimits = TeamLimits()
-    """Limits of its robots that replace those of the match."""
+    """Limits of its robots that replace the match's."""
     pass_environment: list[Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$")]] = Field(default_factory=list)
-    """Names of environment variables that its programs get beside the usual ones, such as CUDA_VISIBLE_DEVICES."""
+    """Names of environment variables that its programs get besides the usual ones, such as CUDA_VISIBLE_DEVICES."""
 
     @field_validator("parameters", mode="before")
     @classmethod
@@ -111,7 +111,7 @@ class NoiseConfig(Part):
 
 
 class RadioOverride(Part):
-    """Radio numbers that replace those of the profile."""
+    """Radio numbers that replace the profile's."""
 
     delay: Annotated[float, Field(ge=0, le=5)] | None = None
     """Least simulated time from sending to delivery, in s; None for the profile's."""
@@ -153,7 +153,7 @@ class RecordingConfig(RecordOptions):
     """What is recorded, and whether the match waits for a recorder."""
 
     admit: list[Name] = Field(default_factory=list)
-    """Recorders that a lockstep host waits for when they fall behind, beside that of the launch."""
+    """Further recorders than the launch's that a lockstep host waits for when they fall behind."""
     wait: bool = False
     """The first tick waits for a recorder, so that the recording is complete."""
 

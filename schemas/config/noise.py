@@ -42,7 +42,7 @@ SIMATCH = replace(
 )
 """simatch's global_config.yaml: scale 0.10 m and m/s at a rate of 0.01, that is, one reading in a hundred.
 
-As in its plugin, x, y, vx and vy have noise, including those of the robot itself; heading and turn rate have none.
+As in its plugin, x, y, vx and vy have noise, also of the robot itself; heading and turn rate have none.
 """
 
 PRESETS = ("profile", "perfect", "paper", "simatch")

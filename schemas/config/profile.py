@@ -1,6 +1,6 @@
 """A profile: its sections and its types of robots, read from TOML.
 
-The package ships those of `SHIPPED`. Any other TOML file may extend one with `extends = "msl"` and change numbers.
+The package ships the ones in `SHIPPED`. Any other TOML file may extend one with `extends = "msl"` and change numbers.
 The `version` of a shipped profile is raised with every change of a number in it, or in one that it extends.
 Every number has a unit (declared in `schemas.config.sections`) and an origin (written in the file, kept in
 `Profile.origins`).

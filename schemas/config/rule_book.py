@@ -1,6 +1,6 @@
 """A rule book: the numbers of the rules as frozen data, read from TOML. The rules themselves are in the referee.
 
-The package ships those of `SHIPPED`. Any other TOML file may extend one with `extends = "msl"` and change numbers. The
+The package ships those in `SHIPPED`; any other TOML file may extend one with `extends = "msl"` and change numbers. The
 `version` of a shipped rule book is raised with every change of a number in it, or in one that it extends.
 """
 

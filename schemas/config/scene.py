@@ -117,7 +117,7 @@ class Scene(Part):
     """A start position with the state of the game."""
 
     name: Name = "scene"
-    """Name of the scene; by default that of its file."""
+    """Name of the scene; by default the name of its file."""
     description: Annotated[str, StringConstraints(min_length=1, max_length=200)]
     """Purpose of the scene, in one sentence."""
     profile: str | None = None

@@ -1,6 +1,6 @@
 """Transforms between the field frame and the league's axes: +y toward the opponents' goal, +x to the right of it.
 
-The league's axes are those of each team: its team frame turned by a quarter. In both, heading 0 is toward the
+The league's axes are each team's: its team frame turned by a quarter. In both, heading 0 is toward the
 opponents' goal. All functions take numbers or arrays, in m and rad; `attack` is +1 or −1, the x direction of the field
 frame that the team attacks.
 """

@@ -13,7 +13,7 @@ class Signal:
     name: str
     """Name in the protocol since 2020."""
     character: str
-    """Character in the earlier protocol; for a signal to a side that of cyan; lower case for magenta."""
+    """Character in the earlier protocol; for a signal to a side cyan's; lower case for magenta."""
     kind: EventKind
     description: str
     sided: bool = False

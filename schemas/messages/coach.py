@@ -17,7 +17,7 @@ from schemas.wire.struct import StructMessage, check
 MAX_SEQUENCE = 2**53 - 1
 """The largest whole number that every language reads exactly from JSON."""
 MAX_SEQUENCE_STEP = 2**51
-"""How far an order's number may exceed that of the order in force. A clock in microseconds since 1970 fits in; a
+"""How far an order's number may exceed the number of the order in force. A clock in microseconds since 1970 fits in; a
 mistake that would leave no number for the next order does not."""
 MAX_DISTANCE = 100.0
 """m from the centre mark; a point farther away is an error of the sender, perhaps of its units."""
@@ -81,7 +81,7 @@ class CoachOrder(StructMessage, frozen=True, kw_only=True):
     """
 
     sequence: Annotated[int, Meta(ge=1, le=MAX_SEQUENCE)]
-    """Larger than that of every earlier order to the side, from any sender; the setup has the number in force."""
+    """Larger than the number of every earlier order to the side, from any sender; the setup has the number in force."""
     mode: CoachMode = CoachMode.PLAY
     """What the team does while the game allows it."""
     test: CoachTest | None = None

@@ -64,7 +64,7 @@ class GameState(Message):
     effective: float = 0.0
     """Effective playing time in s: how long the ball has been in play."""
     score: Score = Score()
-    """Goals without those of a penalty shoot-out."""
+    """Goals without the penalty shoot-out's."""
     shoot_out: Score | None = None
     """Goals of the penalty shoot-out, during and after it; None without one."""
     cyan_attacks: Annotated[int, Field(ge=-1, le=1)] = 1
@@ -99,9 +99,9 @@ class GameView(Struct, frozen=True, kw_only=True):
     clock: Seconds
     """Game clock in s: playing time of this half and those before it."""
     our_score: int
-    """Our goals, without those of a penalty shoot-out."""
+    """Our goals, without the penalty shoot-out's."""
     their_score: int
-    """Their goals, without those of a penalty shoot-out."""
+    """Their goals, without the penalty shoot-out's."""
     spot: Point | None = None
     """Where the ball is placed for the restart, in the team frame; None where the referee has set no spot."""
     stage: GameStage = GameStage.REGULAR

@@ -58,7 +58,7 @@ class Parameter(Part):
     value: Value
     """Value in force from the next tick on."""
     initial: Value
-    """Value at the start of the match: the profile's, or that of the match file."""
+    """Value at the start of the match: the profile's, or the match file's."""
     live: bool = True
     """It can be changed while the match runs."""
     fixed_reason: str = ""

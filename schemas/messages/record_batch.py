@@ -1,7 +1,7 @@
 """Batches of all messages to be recorded, byte for byte, several ticks in one batch.
 
 A recorder subscribes to one key. The cost of a message to host and recorder is paid once for several ticks, and
-messages that robots and coaches publish once can be requested again like those of the host.
+messages that robots and coaches publish once can be requested again like the host's.
 """
 
 from base64 import b64decode, b64encode

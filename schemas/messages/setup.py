@@ -103,7 +103,7 @@ class Setup(Message):
     teams: dict[Side, TeamSetup]
     """Side → its team."""
     models: dict[Name, RobotModel]
-    """Type → model; `standard` is that of robots without a type."""
+    """Type → model; `standard` is for robots without a type."""
     engine: dict[str, str] = Field(default_factory=dict)
     """Fingerprint of what computes the world: version of the engine, results of the maths library."""
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)

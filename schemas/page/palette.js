@@ -17,5 +17,5 @@ export const NOSE = "#ffffff";
 /** The ring of the robot that holds the ball. */
 export const HOLDS = "#ffd23f";
 export const BALL = { fill: "#ffb000", edge: "#4a3000", trail: "#ffcf5c" };
-/** Opacity of trails of the last seconds, and of those of the whole match. */
+/** Opacity of trails of the last seconds, and of trails of the whole match. */
 export const TRAIL_ALPHA = { short: 0.85, all: 0.7 };

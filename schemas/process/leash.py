@@ -1,6 +1,6 @@
 """Confines a process and ends it with its launcher: `python leash.py PID CONFINEMENT PROGRAM …` becomes the program.
 
-The program can be ended by SIGINT and SIGTERM, even if the launcher ignores them, as shells have it for their
+The program can be ended by SIGINT and SIGTERM, even if the launcher ignores them, as shells do for their
 background jobs: an ignored signal stays ignored in the programs that a process starts.
 
 This file is run by its path and imports the standard library alone, so that it costs a few milliseconds. It avoids

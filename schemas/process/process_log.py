@@ -42,7 +42,7 @@ _LOG = _ProcessLog()
 def configure_log(
     process: str, log_format: LogFormat | None = None, robot: str | None = None, text: str | None = None
 ) -> None:
-    """Set the format of this process's log: the given one, or that of the environment, or text.
+    """Set the format of this process's log: the given one, or the environment's, or text.
 
     A process that has configured `logging` itself keeps that.
 

@@ -1,7 +1,7 @@
 """Faults of invalid content: one plain sentence with the field, its value and what was expected.
 
 The one formatter for all content from outside: payloads, files, options and pages. The faults of pydantic models are
-found here, those of msgspec structs in `struct_faults`.
+found here, faults of msgspec structs in `struct_faults`.
 """
 
 import re

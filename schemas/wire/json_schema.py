@@ -1,4 +1,4 @@
-"""JSON Schemas in one form for models and structs: the message at the root, and its definitions beside it."""
+"""JSON Schemas in one form for models and structs: the message at the root, and its definitions next to it."""
 
 from collections.abc import Mapping
 from inspect import cleandoc

@@ -59,7 +59,7 @@ class HeldBall(NamedTuple):
 
 
 def by_pose(held: HeldBall) -> CarryStep:
-    """Set the pose to the gap, and the velocity to that of the gap."""
+    """Set pose and velocity to the gap's."""
     (x, y), (next_x, next_y), ball = held.target_now(), held.target_next(), held.ball
     dx, dy, dz = x - ball.x, y - ball.y, held.ball_radius - ball.z
     share = min(1.0, PULL_SPEED * held.step / max(math.hypot(dx, dy, dz), 1e-9))

@@ -34,7 +34,7 @@ class Chassis:
             for name, kind in _DIRECT.items()
             if (indices := driven[name])
         ]
-        """Drives that plan a whole tick at once: the indices of their robots, and the drive."""
+        """Drives that plan a whole tick in one step: the indices of their robots, and the drive."""
         self._omni_driven = driven["omni"]
         self._omni = OmniDrive(time, [models[index] for index in self._omni_driven])
         self._detector = StuckDetector(models, time.tick)

@@ -1,6 +1,6 @@
-"""Limits on speed and acceleration, which turn demanded motions into possible ones, for all robots at once.
+"""Limits on speed and acceleration, which turn demanded motions into possible ones, for all robots together.
 
-A whole control tick is planned at once, since the demand does not change within it. The limits apply in the body frame,
+A whole control tick is planned in one step, since the demand does not change within it. Limits apply in the body frame,
 where the wheels are, and keep the direction of the vector that they limit. Planar vectors are complex numbers, x + iy,
 which are turned by multiplication. A turn rate is a vector of one dimension with the same rules.
 
@@ -66,7 +66,7 @@ class Ramp:
 
     @classmethod
     def of_both(cls, drives: Sequence[DriveLimits], step: float, steps: int) -> Self:
-        """The limits of each drive's velocity, followed by those of its turn rate."""
+        """The limits of each drive's velocity, followed by the limits of its turn rate."""
         pairs = zip(_moving(drives), _turning(drives), strict=True)
         top, gain, loss = ([limit for both in zip(*pair, strict=True) for limit in both] for pair in pairs)
         return cls(complex, (top, gain, loss), step, steps)

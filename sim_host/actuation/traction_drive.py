@@ -80,7 +80,7 @@ class TractionDrive:
     def plan(self, robots: RobotStates, demands: Sequence[Drive]) -> list[list[FieldTwist]]:
         """The velocities of one tick, per physics step and robot; `demands` are in the body frames.
 
-        The demanded direction is that of the heading halfway through the tick.
+        The demanded direction is taken at the heading halfway through the tick.
         """
         twists = np.fromiter(chain.from_iterable(map(_twist, demands)), float, 3 * self._count)
         self._demand_numbers[...] = twists.reshape(-1, 3)

@@ -64,7 +64,7 @@ class WheelSets:
         self._grip = load * each(lambda w: w.traction) * (self._geometry != 0).any(axis=1)
         self._rim_mass = each(lambda w: (w.inertia + w.rotor_inertia * w.gear**2) / w.radius**2)
         self._gain_impulse, self._stall_impulse = step * gain, step * stall
-        # Effective mass of a rim that speeds up: its own, and that of the controller or the motor's line.
+        # Effective mass of a rim that speeds up: its own, and the controller's or the motor line's.
         self._controlled_mass, self._motor_mass = self._rim_mass + step * gain, self._rim_mass + step * line
         # Decrease of a wheel's force for each m/s of the ground under it.
         self._controlled_slope = 1 / (creep + step / self._controlled_mass)

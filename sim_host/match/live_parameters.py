@@ -112,7 +112,7 @@ class LiveParameters:
 
     @property
     def sensing(self) -> Sensing:
-        """The sensor parameters in force: the profile's own, or those of the noise preset."""
+        """The sensor parameters in force: the profile's own, or the noise preset's."""
         return sensing_of(self.preset, self.profile.sensing)
 
     def describe(self, names: Iterable[str] = ()) -> list[Parameter]:
@@ -226,7 +226,7 @@ class LiveParameters:
     def _expand_names(self, names: Iterable[str]) -> list[str]:
         """The parameters that these names and sections stand for, each once, in the order of the profile.
 
-        No names stand for all parameters, except those of types that follow the standard robot.
+        No names stand for all parameters, except of types that follow the standard robot.
         """
         known, asked = self._names(), list(names)
         meant: set[str] = set()

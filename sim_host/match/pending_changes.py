@@ -29,7 +29,7 @@ class PendingChanges:
     """Kind, rule and text of each event that reports a change."""
 
     def add_placements(self, placements: Sequence[Placement], names: Sequence[str]) -> None:
-        """Add placements after the pending ones, of which those of bodies not in `names` are dropped."""
+        """Add placements after the pending ones, of which placements of bodies not in `names` are dropped."""
         self.placements = [one for one in self.placements if one.body in names] + list(placements)
         self.checkpoint = True
 

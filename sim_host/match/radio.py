@@ -119,7 +119,7 @@ class RadioAir:
     def send(self, tick: int, contents: Mapping[str, Radio]) -> dict[str, str]:
         """Send messages to all teammates of their senders; returns sender → why its message was refused.
 
-        The messages answer the sights of the tick before; those of `tick` are the first that can have them. A field
+        The messages answer the sights of the tick before; the sights of `tick` are the first to have them. A field
         that is None or empty is not sent, and does not count toward the budget.
         """
         if not contents:

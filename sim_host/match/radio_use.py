@@ -33,7 +33,7 @@ class RadioUse:
         """Side → bits in the busiest second of earlier budgets."""
 
     def follow(self, budgets: Mapping[Side, Budget]) -> None:
-        """Count what is spent of these budgets from now on, beside what was spent of others."""
+        """Count what is spent of these budgets from now on, apart from what was spent of others."""
         self._before = {side: self.busiest(side) for side in Side}
         self._budgets = budgets
 

@@ -1,4 +1,4 @@
-"""Lets the referee judge a recorded match again, beside the resimulation of its world.
+"""Lets the referee judge a recorded match again, along with the resimulation of its world.
 
 Each `schemas.messages.applied.Applied` holds what the referee was given: actions, silent robots, changes by operators.
 At checkpoints it holds the complete state of the referee, so that a resimulation can begin there.
@@ -31,7 +31,7 @@ CHANGED_BY_LAYOUT = ("participation", "evidence", "set_piece", "proposal", "adva
 
 
 class OfficiatingSettings(NamedTuple):
-    """The constants of a match that the referee needs beside profile and roster."""
+    """The constants of a match that the referee needs besides profile and roster."""
 
     book: RuleBook
     duration: float | None
@@ -64,7 +64,7 @@ class OfficiatedTick(NamedTuple):
     """What the referee makes of one tick."""
 
     events: Sequence[GameEvent]
-    """All events of the tick but those of agents, in their order."""
+    """All events of the tick except events of agents, in their order."""
     state: GameState | None
     """The state of the game, where it is published in this tick."""
     state_may_be_missing: bool

@@ -59,7 +59,7 @@ class _Half:
     """The places of one side in its half, in its team frame."""
 
     def __init__(self, pitch: Pitch, distance: float) -> None:
-        """`distance` is that of a hull from the centre mark, m."""
+        """`distance` is from a hull to the centre mark, m."""
         self._pitch = pitch
         self._distance = distance
         self.taken: list[tuple[float, float, float]] = []

@@ -1,6 +1,6 @@
 """Impacts: robots that hit each other in a tick, with the speeds that they had before.
 
-After a tick, the velocities of two robots are those of the rebound, and they may have separated again. So the contacts
+After a tick, the velocities of two robots are already the rebound's, and they may have separated again. So the contacts
 of each physics step are looked at, and the velocities are those at the beginning of the tick.
 """
 

@@ -1,7 +1,7 @@
 """The random numbers of a camera's picture: which things each robot detects, and the noise of their places.
 
 The numbers of a pair of a robot and a thing depend on their names and the tick alone. So both classes give the same
-ones: `AllPairs` draws those of all pairs for many pictures at once, `PairsInView` those of the pairs in view alone.
+ones: `AllPairs` draws for all pairs and many pictures together, `PairsInView` for the pairs in view alone.
 """
 
 from collections.abc import Sequence

@@ -48,7 +48,7 @@ class LastSeen(NamedTuple):
 
 
 class Perception:
-    """The sensors of all robots of a match, computed for all robots at once."""
+    """The sensors of all robots of a match, computed for all robots together."""
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, tick: float) -> None:
         self._roster = roster

@@ -1,7 +1,7 @@
 """Counter-based random streams: a number depends on (seed, stream, robot, tick, index) alone.
 
 Philox4x32-10 (Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11), vectorised.
-There is no state: draws do not affect each other, and can be made in any order and many at once.
+There is no state: draws do not affect each other, and can be made in any order, one by one or together.
 """
 
 from collections.abc import Callable, Sequence

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from schemas.messages.admission import AdmissionReply, AdmissionRequest
 
 MOST_UNNAMED = 4
-"""Recorders with credentials, beside the named ones, that a host waits for: each that reports nothing holds the match
+"""Recorders with credentials, besides the named ones, that a host waits for: each that reports nothing holds the match
 for its patience, and one account may declare any number of names."""
 
 

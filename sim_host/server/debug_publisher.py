@@ -22,7 +22,7 @@ class DebugPublisher:
         self._publishers: dict[tuple[str, Side], Publisher] = {}
 
     def publish(self, commands: Mapping[str, Command], roster: Roster, state: RefereeState) -> None:
-        """Publish the values and shapes of these commands in the field frame; `state` is that of their sights."""
+        """Publish the values and shapes of these commands in the field frame; `state` belongs to their sights."""
         for robot, command in commands.items():
             if command.debug is not None:
                 side = roster.side_of(robot)

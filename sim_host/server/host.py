@@ -53,7 +53,7 @@ class Host:
             config: the match.
             bus: the host's bus.
             launch_token: only agents that know it may play for a side that is not remote; None admits every agent.
-            recorders: recorders that a lockstep host waits for, beside those of the match file.
+            recorders: further recorders than the match file's that a lockstep host waits for.
             has_accounts: credentials bind each key to an account.
         """
         self.simulation = Simulation(config)
@@ -242,7 +242,7 @@ class Host:
         self._outbox.sights_recorded = self._config.record.sights or self.presence.wants_sights
 
     def _set_sim_time(self, tick: int) -> None:
-        """Set the simulated time of messages sent from now on to that of a tick."""
+        """Messages sent from now on have the simulated time of this tick."""
         self._clock.sim_ns = round(tick * self.simulation.profile.time.tick * 1e9)
 
     def _update_stats(self, tick: TickResult) -> None:

@@ -1,4 +1,4 @@
-"""Manual control: the commands of a person replace those of a robot's brain."""
+"""Manual control: the commands of a person replace the brain's."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ class ManualControl:
         self._reported: dict[str, bool] = {}
 
     def override(self, tick: int, names: tuple[str, ...], commands: Mapping[str, Command]) -> dict[str, Command]:
-        """The commands that answer `tick`, with those of manually driven robots in place of their brains'.
+        """The commands that answer `tick`; of manually driven robots the person's.
 
         Radio messages from the brain of a driven robot are still sent.
         """

@@ -17,7 +17,7 @@ _REMEMBERED = (PresenceKind.REFBOX, PresenceKind.COACH)
 _MAX_CHANGES = 500
 """Most changes, and most reports of recorders, that are read in one call: a flood must not block the host."""
 _MAX_RECORDERS = 20
-"""Most recorders that are followed beside the admitted ones."""
+"""Most recorders that are followed in addition to the admitted ones."""
 _MAX_NAMES = 100
 """Most names kept for each kind of process; a flood of invented names must not fill the memory."""
 

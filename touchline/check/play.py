@@ -65,7 +65,7 @@ def play_checked(subject: Subject, seconds: float, clock: Clock) -> Played:
 
 
 class _Measured:
-    """A brain around that of one robot."""
+    """A brain around another robot's."""
 
     def __init__(self, robot: CheckedRobot, setup: Setup, played: Played, now: Callable[[], float]) -> None:
         self._robot, self._played, self._now = robot, played, now

@@ -163,7 +163,7 @@ def need_pybullet() -> None:
 
 
 def need_scipy() -> None:
-    """Check that this machine can compute intervals; what simulates is installed with what does that.
+    """Check that this machine can compute intervals: scipy is part of the extra `sim`.
 
     Raises:
         TouchlineError: scipy is missing; the message has the command that installs it.

@@ -57,7 +57,7 @@ def run(
     into: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder of the study; by default runs/ and its name.")
     ] = None,
-    seeds: Annotated[str | None, typer.Option(metavar="SEEDS", help="In place of those of the file: 1-50.")] = None,
+    seeds: Annotated[str | None, typer.Option(metavar="SEEDS", help="In place of the file's: 1-50.")] = None,
     until_interval: Annotated[
         float | None,
         typer.Option(metavar="WIDTH", help="Add seeds until the interval of the first response is at most this wide."),

@@ -18,7 +18,7 @@ def export(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
     to: Annotated[str, typer.Option(help=_FORMATS)],
     out: Annotated[
-        Path | None, typer.Option(help="The file or folder to write; by default beside the recording.")
+        Path | None, typer.Option(help="The file or folder to write; by default in the recording's folder.")
     ] = None,
     json: options.Json = False,
 ) -> None:

@@ -11,7 +11,7 @@ from touchline.cli import options
 
 def import_log(
     log: Annotated[list[Path], typer.Argument(metavar="LOG...", help="A zip, a folder, or the log's files.")],
-    out: Annotated[Path | None, typer.Option(help="The recording, *.mcap; by default beside the log.")] = None,
+    out: Annotated[Path | None, typer.Option(help="The recording, *.mcap; by default in the log's folder.")] = None,
     profile: Annotated[
         str | None,
         typer.Option(help="Profile of the pitch: msl for 22 × 14 m, paper for 18 × 12 m; recognised by default."),

@@ -186,7 +186,7 @@ def _protection(opened: "Replay", match: str, credentials: Path | None) -> "Prot
 
 
 def _operator_of(credentials: Path | None) -> Path | None:
-    """The file of the operator beside that of the host."""
+    """The operator's file in the folder of the host's."""
     from schemas.access.accounts import Account
     from schemas.access.credentials import account_file
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from touchline.matches.series.plan import SeriesPlan
     from touchline.matches.series.summary import Summary
 
-_TEAM_HELP = "The team in {}: the name of a shipped team, or module:Class; by default that of the match file."
+_TEAM_HELP = "The team in {}: the name of a shipped team, or module:Class; by default the match file's."
 
 
 @with_option_groups
@@ -50,7 +50,7 @@ def series(
 ) -> None:
     """Play a series of matches in parallel, without a network, and print their figures with intervals of 95 %.
 
-    Equal seeds give equal matches, whatever the number of jobs. The figures are those of `touchline stats`. Ctrl-C
+    Equal seeds give equal matches, whatever the number of jobs. The figures are as in `touchline stats`. Ctrl-C
     prints the figures of the matches played so far. If a brain raises, its match is reported as failed, the
     series goes on, and the exit status is 1.
 

@@ -11,8 +11,8 @@ from touchline.cli.option_groups import with_option_groups
 def serve(settings: GatewaySettings) -> None:
     """Serve the page of a running match, or of a replay, until Ctrl-C; hosts may restart meanwhile.
 
-    Prints the page's address, with a token for the referee and for each side's coach. Bridges run beside it, as with
-    `touchline coach bridge`.
+    Prints the page's address, with a token for the referee and for each side's coach. Bridges run in the same
+    process, as with `touchline coach bridge`.
 
     Example: touchline coach serve --port 8081
     """

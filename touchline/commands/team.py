@@ -38,7 +38,7 @@ def team(
     """Run the robots of a team until the match is over: one process each, started again after a crash.
 
     The host runs elsewhere, with `touchline host` or `touchline match --remote`. Logs are written under ./runs/.
-    Robots are limited and isolated from this machine as those of a match: docs/security.md.
+    Robots are limited and isolated from this machine as in a match: docs/security.md.
     With --reload, brains that were edited play on from the next episode.
 
     Example: touchline team magenta --connect tcp/192.168.1.5:7447 --brain my_team:Striker

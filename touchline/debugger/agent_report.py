@@ -68,7 +68,7 @@ class AgentReport:
             self._print_events(tick.events)
 
     def print_result(self, result: "LiveResult", notes: list[str], out: Path | None) -> None:
-        """Print what came of a live match, recorded in `out`, beside what was recorded in the same time."""
+        """Print what came of a live match, recorded in `out`, and what was recorded in the same time."""
         recorded = self._recorded_score(result.end)
         if self._is_json:
             fields = {

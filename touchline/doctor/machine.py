@@ -29,7 +29,7 @@ _FEW_FILES = 1024
 
 @dataclass(frozen=True)
 class MachineFacts:
-    """What an examination of a machine looks at."""
+    """What is examined on a machine."""
 
     python: str
     packages: frozenset[str]

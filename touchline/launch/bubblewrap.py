@@ -86,7 +86,7 @@ def bubblewrap(folder: Path, visible: Iterable[Path], hidden: Iterable[Path]) ->
 
 
 def _mounts(visible: Iterable[Path], hidden: list[Path]) -> Iterator[str]:
-    """The arguments that make paths visible: links with what they lead to; nothing twice."""
+    """The arguments that make paths visible: symlinks with their targets; each path once."""
     wanted = {path for one in visible for path in (one, one.resolve())}
     for path in sorted(wanted):
         if any(path.resolve().is_relative_to(one) for one in hidden):

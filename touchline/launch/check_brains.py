@@ -41,7 +41,7 @@ def check_teams(
     report: Callable[[str], None] = lambda _: None,
     confinements: Mapping[Side, Confinement] | None = None,
 ) -> None:
-    """Check both teams; `report` receives a line if that takes long. Brains are confined as those of the match.
+    """Check both teams; `report` receives a line if that takes long. Brains are confined as in the match.
 
     Raises:
         TeamError: a program does not exist, or a brain cannot be built; the message names its key.

@@ -35,7 +35,7 @@ class Confinement:
     passed: tuple[str, ...] = ()
     """Names of further variables of the launcher's environment that it gets."""
     user: int | None = None
-    """Id of the user and the group that it runs as; None for those of the launcher."""
+    """Id of the user and the group that it runs as; None for the launcher's."""
     visible: tuple[Path, ...] | None = None
     """What it can read in bubblewrap; None without bubblewrap."""
     hidden: tuple[Path, ...] = ()
@@ -58,7 +58,7 @@ class Confinement:
         return robot_environment(os.environ, own, self.folder, self.passed)
 
     def command(self, command: Iterable[str]) -> tuple[str, ...]:
-        """The command line of a program, with that of bubblewrap where it is used."""
+        """The command line of a program, within bubblewrap where it is used."""
         wrapper = bubblewrap(self.folder, self.visible, self.hidden) if self.visible is not None else []
         return (*wrapper, *command)
 
@@ -116,7 +116,7 @@ class Confinement:
 def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path) -> dict[Side, Confinement]:
     """The confinement of the robots of each side that is launched here, without their folders.
 
-    `beside_match` is the folder of the match file, `runs` that of all runs.
+    `beside_match` is the folder of the match file, `runs` the folder of all runs.
 
     Raises:
         TouchlineError: this machine cannot isolate them as the match file asks.

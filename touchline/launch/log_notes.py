@@ -5,11 +5,11 @@ from pathlib import Path
 from schemas.process.process_log import NOTE, message_of
 
 _MOST_BYTES = 1_000_000
-"""Bytes of a log that are looked through at once; of more, the newest."""
+"""Bytes of a log that one search reads; of a longer one, the newest."""
 
 
 class LogNotes:
-    """Reads logs as they grow; of notes with equal subjects, such as those of a team's robots, the first one counts."""
+    """Reads logs as they grow; of notes with equal subjects, such as a team's robots, the first one counts."""
 
     def __init__(self) -> None:
         self._read: dict[Path, int] = {}

@@ -34,7 +34,7 @@ class ProcessRow:
     restarts: int = 0
     """Maximum number of restarts after crashes."""
     on_restart: Mapping[str, Any] = field(default_factory=dict)
-    """Settings of a restarted process that differ from those of the first."""
+    """Settings of a restarted process that differ from the first's."""
 
 
 PROCESSES: dict[ProcessKind, ProcessRow] = {

@@ -57,9 +57,9 @@ class MatchPlan:
     page: Page | None = None
     """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
-    """The bridges beside the page."""
+    """The bridges besides the page."""
     brain_folder: Path | None = None
-    """Folder in which brains are looked for before the current directory: that of the match file."""
+    """Folder in which brains are looked for before the current directory: the match file's."""
     bridge_sockets: tuple[socket.socket, ...] = ()
     """The bound sockets of the bridges, in the order in which they are inherited."""
     launch_token: str | None = None

@@ -37,7 +37,7 @@ def outcome_of(
 ) -> RecordingOutcome:
     """The outcome after the recorder has ended with this exit status and these last lines of its log.
 
-    `losses` returns those of the finished recording.
+    `losses` returns the finished recording's.
     """
     path = plan.recording
     if path is None:

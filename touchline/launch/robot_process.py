@@ -20,7 +20,7 @@ def robot_process(
     """A robot's brain, or its team's own program, which reads what the settings say from its environment.
 
     Args:
-        settings: with paths that are valid in this process's folder; the robot works in that of its confinement.
+        settings: with paths that are valid in this process's folder; the robot works in its confinement's folder.
         command: the team's own program, with absolute paths; empty for a brain.
     """
     if settings.credentials is not None:

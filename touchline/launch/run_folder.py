@@ -78,7 +78,7 @@ def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
 
 
 def with_credentials(plan: MatchPlan, folder: Path) -> MatchPlan:
-    """The plan with the credentials in a folder: an agent that has those of its team needs no secret of the launch."""
+    """The plan with the credentials in a folder: an agent that has its team's needs no secret of the launch."""
     return replace(plan, credentials=folder, launch_token=None)
 
 

@@ -47,7 +47,7 @@ def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> Tea
 def team_program(config: MatchConfig, side: Side, beside_match: Path | None) -> tuple[str, ...]:
     """The command line of a side's own program, for any working folder; empty for a brain.
 
-    The files of a `command` are looked for in the current directory, those of `stdio` beside the match file, too.
+    The files of a `command` are looked for in the current directory, of `stdio` in the match file's folder, too.
     """
     team = config.team(side)
     return command_line(team.program, beside_match if team.command is None else None) if team.program else ()
@@ -67,7 +67,7 @@ def are_rivals(one: TeamCode, other: TeamCode) -> bool:
 
 
 def share_a_folder(one: TeamCode, other: TeamCode) -> bool:
-    """Whether the modules of two different teams lie beside each other."""
+    """Whether the modules of two different teams lie in one folder."""
     in_packages = all(path.is_dir() for path in (*one.own, *other.own))
     return bool(one.own and other.own) and one.folder == other.folder and one.own != other.own and not in_packages
 

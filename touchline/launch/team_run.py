@@ -55,7 +55,7 @@ class TeamRun:
     """A team from its launch to the end of its match."""
 
     def __init__(self, plan: TeamPlan, bus: Bus, screen: Screen, clock: Clock) -> None:
-        """`bus` is that of the match.
+        """`bus` is the match's.
 
         Raises:
             TouchlineError: the host refuses the team, or a robot is none of the side.

@@ -31,7 +31,7 @@ class ScenePlayer:
     """Plays scenes: call it, or its method `over` for many seeds."""
 
     def __init__(self, folder: Path | None = None) -> None:
-        """Scenes and brains are looked for in `folder`, such as that of a test, and then in the current directory."""
+        """Scenes and brains are looked for in `folder`, such as a test's, and then in the current directory."""
         self._folder = folder
 
     def __call__(
@@ -73,7 +73,7 @@ class ScenePlayer:
         return Runs([self(scene, seed=seed, **options) for seed in seeds])
 
     def _place(self, scene: str) -> str:
-        """A scene's file beside the test, if there is one of this name."""
+        """A scene's file in the test's folder, if there is one of this name."""
         beside = self._folder / scene if self._folder is not None and scene.endswith(".toml") else None
         return str(beside) if beside is not None and beside.exists() else scene
 

@@ -1,4 +1,4 @@
-"""Compares the recorded events and states of the game with those of the simulated referee."""
+"""Compares the recorded events and states of the game with the simulated referee's."""
 
 from collections.abc import Mapping, Sequence
 from itertools import zip_longest
@@ -26,7 +26,7 @@ def state_differences(states: Sequence[RecordedMessage], tick: OfficiatedTick) -
 
 
 def event_differences(events: Sequence[RecordedMessage], tick: OfficiatedTick) -> list[Detail]:
-    """Where the recorded events of one tick are not those of the simulated referee; reports on agents are left out."""
+    """Where the recorded events of one tick are not the simulated referee's; reports on agents are left out."""
     recorded = [event for event in map(_message, events) if not is_agent_event(event)]
     if len(recorded) == len(tick.events):
         pairs = zip(recorded, tick.events, strict=True)

@@ -5,7 +5,7 @@ import { SIDES } from "./shared/palette.js";
 import { circle, line, write } from "./shared/shapes.js";
 import { numberOf } from "./text.js";
 
-/** Turns a body from the frame of a side into that of the field. */
+/** Turns a body from the frame of a side into the field's. */
 export function onField(match, side, { x, y, heading = 0, ...rest }) {
   const sign = match.attack(side);
   return { ...rest, x: sign * x, y: sign * y, heading: sign > 0 ? heading : heading + Math.PI };

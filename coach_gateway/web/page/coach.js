@@ -101,7 +101,7 @@ export class Coach {
     ];
   }
 
-  /** Draws the points of the form while it is visible, and those of active tests. */
+  /** Draws the points of the form while it is visible, and the points of active tests. */
   #draw(context, projection) {
     if (byId("order-fields").offsetParent !== null) {
       for (const key of ["point_a", "point_b"]) {

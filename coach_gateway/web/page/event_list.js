@@ -54,7 +54,7 @@ export class EventList {
     this.#later();
   }
 
-  /** Many events come at once at the beginning: they are shown together. */
+  /** Many events come together at the beginning: they are shown together. */
   #later() {
     if (this.waiting) return;
     this.waiting = true;

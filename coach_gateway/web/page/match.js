@@ -94,7 +94,7 @@ export class Match {
     return this.live && this.state?.phase === "full_time";
   }
 
-  /** All robots: those of the setup in order, then others on the pitch. */
+  /** All robots: the setup's in order, then others on the pitch. */
   get robots() {
     const listed = this.setup ? ["cyan", "magenta"].flatMap((side) => this.setup.teams[side].robots) : [];
     const there = this.frames.newest?.robots ?? {};

@@ -57,7 +57,7 @@ export class Requests {
     this.#bubbles.delete(source);
   }
 
-  /** Moves the verdicts with their elements, and removes those of hidden ones. */
+  /** Moves the verdicts with their elements, and removes the verdicts of hidden ones. */
   #follow() {
     for (const [source, { bubble }] of [...this.#bubbles]) {
       if (source.offsetParent === null) this.#remove(source);

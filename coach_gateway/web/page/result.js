@@ -36,7 +36,7 @@ export class Result {
     match.on("event", () => this.#later());
   }
 
-  /** Many events come at once at the beginning: they are shown together. */
+  /** Many events come together at the beginning: they are shown together. */
   #later() {
     if (this.waiting) return;
     this.waiting = true;

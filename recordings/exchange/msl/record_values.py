@@ -40,7 +40,7 @@ class RobotReport(NamedTuple):
 
 
 def robot_report(fields: dict[str, Any], name: int, row: RobotRow, intention: str, findings: Findings) -> RobotReport:
-    """What a robot reports beside its pose."""
+    """What a robot reports besides its pose."""
     x, y, heading = vector(fields.get("targetPose"), 3, "targetPose", findings)
     target = None if x is None or y is None else (x, y, _or_nan(heading))
     battery = number(fields.get("batteryLevel"), "batteryLevel", findings)

@@ -176,7 +176,7 @@ def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
 
 
 def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Record]:
-    """The records by time, one for each time, without those of a wrong clock."""
+    """The records by time, one for each time, without records of a wrong clock."""
     if not found:
         return []
     middle = median(record.epoch_ms for record in found)

@@ -1,6 +1,6 @@
 """The shared estimate: what this robot and its teammates believe, fused, each part with its age.
 
-Own pictures and the freshest ball of the team are the world model's. This adds what teammates send beside it (`extra`):
+Own pictures and the freshest ball of the team are the world model's. This adds what teammates send besides (`extra`):
 the opponents that each sees, and when it could be at the ball. All robots compare the same numbers that way, their own
 included as they were sent, and so agree on who plays the ball.
 """
@@ -22,7 +22,7 @@ MOST_OPPONENTS = 6
 
 
 class Words(NamedTuple):
-    """What a teammate sent beside its pose and ball."""
+    """What a teammate sent besides its pose and ball."""
 
     arrival: float
     """s until it could be at the ball, by now; infinite when it does not know."""

@@ -32,7 +32,7 @@ def places(
 
     Args:
         attacks: whether our side has the ball, or is first at it.
-        blocks: whether a robot is needed between the ball and the own goal beside the one that goes for the ball.
+        blocks: whether a robot is needed between the ball and the own goal, besides the one that goes for the ball.
         robots: where the robots are that share the places.
         inset: m between the lines and a robot's centre.
     """

@@ -153,7 +153,7 @@ class Parameters:
     prepared: float = 0.6
     """m into the other half, where a pass that is received makes a goal count: noise and the ball's roll."""
     pass_bonus: float = 0.06
-    """Value of a pass beside its progress: the ball moves faster than robots, and opponents have to turn."""
+    """Value of a pass besides its progress: the ball moves faster than robots, and opponents have to turn."""
     pass_prepares: float = 0.25
     """Value of a pass into the other half, without which a goal would not count."""
     turn_rate: float = 2.8

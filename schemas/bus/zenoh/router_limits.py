@@ -51,7 +51,7 @@ def router_limits(match: str, robots: Iterable[str]) -> dict[str, Any]:
 
 
 def _sizes(prefix: str) -> list[dict[str, Any]]:
-    """Largest payloads that clients may send: those of the topic table."""
+    """Largest payloads that clients may send, from the topic table."""
     limits: dict[int, list[str]] = {}
     for topic in _sent_by_clients():
         limits.setdefault(max(_LEAST_SIZE, _size_of(topic)), []).append(prefix + topic.fill())

@@ -87,7 +87,7 @@ class Participation:
         return dataclasses.replace(self, cards=cards, absences=absences, silent=silent, offences=offences, owed=owed)
 
     def disciplinary_records(self, names: Collection[str]) -> dict[str, DisciplinaryRecord]:
-        """The published records of those of these robots that have a card or are off the field."""
+        """Records of the given robots that are carded or off the field, for publication."""
         if not (self.cards or self.absences):
             return {}
         found = {}

@@ -33,7 +33,7 @@ class QueryHandler:
         self._allowed = _MOST_AT_ONCE
 
     def process(self) -> None:
-        """Reply to queries that have arrived; those of a flood wait for the next call."""
+        """Reply to queries that have arrived; of a flood, the rest waits for the next call."""
         self._allowed = min(_MOST_AT_ONCE, self._allowed + _MOST_IN_A_ROW)
         while self._allowed and (query := self._server.receive()) is not None:
             self._allowed -= 1

@@ -62,7 +62,7 @@ class TeamEntry(Part):
     challenge: float = 0.0
     """Points of the technical challenge, a tie-break."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] | None = None
-    """Number of robots; None for that of the cup."""
+    """Number of robots; None for the cup's."""
 
     @model_validator(mode="before")
     @classmethod
@@ -116,13 +116,13 @@ class FormatConfig(Part):
 
 
 class TableConfig(Part):
-    """Points and tie-breaks; by default those of the rule book."""
+    """Points and tie-breaks; by default the rule book's."""
 
     win: Annotated[int, Field(ge=0, le=100)] = 3
     draw: Annotated[int, Field(ge=0, le=100)] = 1
     loss: Annotated[int, Field(ge=0, le=100)] = 0
     order: str | list[str] | None = None
-    """A rule book whose order of tie-breaks applies, or the criteria themselves; None for that of the match."""
+    """A rule book whose order of tie-breaks applies, or the criteria themselves; None for the match's."""
 
     @field_validator("order")
     @classmethod
@@ -150,7 +150,7 @@ class CupConfig(Part):
     title: str = ""
     """Title of its pages; the name where it is empty."""
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
-    """Seed from which those of all matches follow, and of lots."""
+    """Seed from which the seeds of all matches follow, and the lots."""
     way: Way = Way.IN_PROCESS
     """How matches are played: brains in Python and stdio programs in one process, or each robot in a process."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE

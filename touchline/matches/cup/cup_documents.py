@@ -1,4 +1,4 @@
-"""What the state of a run has on a cup, beside the outcomes of its matches."""
+"""What the state of a run has on a cup, besides the outcomes of its matches."""
 
 import json
 from collections.abc import Mapping

@@ -19,7 +19,7 @@ from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.series.team_names import brain_of
 
 RECORDINGS, LOGS = "recordings", "logs"
-"""Folders in that of a cup: a recording of each match; logs of processes, and tracebacks."""
+"""Folders in a cup's folder: a recording of each match; logs of processes, and tracebacks."""
 _FORFEITS = {
     FailureKind.DID_NOT_START: "did not start",
     FailureKind.CRASHED: "crashed",
@@ -129,7 +129,7 @@ def check_submitted(cup: CupConfig, digests: Mapping[str, str]) -> None:
 
 
 def match_config(cup: CupConfig, slot: Slot) -> MatchConfig:
-    """The config of a match; its name is that of the cup, so that its place in the cup is no part of it.
+    """The config of a match; it has the cup's name, so that its place in the cup is no part of it.
 
     Raises:
         TouchlineError: a team is none that ships, or a key of the match is invalid.

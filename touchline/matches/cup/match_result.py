@@ -13,7 +13,7 @@ class MatchResult:
 
     teams: tuple[str, str]
     goals: Pair
-    """Goals without those of a penalty shoot-out."""
+    """Goals without the penalty shoot-out's."""
     penalties: Pair | None = None
     """Goals of the penalty shoot-out; None without one."""
     yellows: Pair = (0, 0)

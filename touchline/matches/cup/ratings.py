@@ -2,7 +2,7 @@
 
 A team of strength θ beats one of strength φ with a probability in proportion to exp θ, loses in proportion to exp φ,
 and draws in proportion to ν exp((θ + φ) / 2). A weak prior keeps the strength of a team that has won all its matches
-finite. The scale is that of Elo: 400 points are odds of ten to one, and the mean of all teams is 0.
+finite. The scale is Elo's: 400 points are odds of ten to one, and the mean of all teams is 0.
 """
 
 import importlib.util

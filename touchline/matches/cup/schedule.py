@@ -62,7 +62,7 @@ def _repeats(cup: CupConfig, results: Results) -> int:
 
 
 def look_level(looks: int) -> float:
-    """The level of each of so many looks at the ratings that all of them together have `LEVEL` (Bonferroni)."""
+    """The level of each of so many tests of the ratings that all of them together have `LEVEL` (Bonferroni)."""
     return 1 - (1 - LEVEL) / looks
 
 

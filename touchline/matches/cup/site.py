@@ -29,7 +29,7 @@ class Site:
     """The pages of a cup; a page is replaced as a whole, so that no reader sees half of one."""
 
     def __init__(self, folder: Path, digests: Mapping[str, str | None]) -> None:
-        """`folder` is that of the cup; `digests` are those of the teams' files."""
+        """`folder` is the cup's; `digests` are of the teams' files."""
         self._folder = folder
         self._digests = digests
         self._written: dict[str, str] = {}

@@ -48,7 +48,7 @@ def verify_cup(
     """Check a cup. Results are compared for all matches; `sample` of them are simulated again, drawn at random.
 
     Args:
-        folder: that of the cup.
+        folder: the cup's.
         executor: where matches are checked.
         sample: number of matches to simulate again; None for all.
         code_folder: where teams are looked for; by default where they were when the cup was played.

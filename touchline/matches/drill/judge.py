@@ -16,7 +16,7 @@ class Verdict:
 
     success: bool
     because: str
-    """The condition that was met, as the scene has it: `goal:cyan`; `none of the conditions` when the time is over."""
+    """The condition that was met, as in the scene: `goal:cyan`; `none of the conditions` when the time is over."""
     time: float
     """Time in s since the start."""
 

@@ -17,7 +17,7 @@ _SKIPPED = _CACHES | {".git", ".venv", "runs"}
 def code_digest(config: MatchConfig, side: Side, brain_folder: Path | None = None) -> str:
     """The digest of the files of a side's team: of its module, its package, or the files that its command names.
 
-    A team that ships or is installed has that of the version of this library: its files are a part of it.
+    A team that ships or is installed has the digest of this library's version: its files are a part of it.
     """
     team = config.team(side)
     named = [team.brain or " ".join(team.program or ())]

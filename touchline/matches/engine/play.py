@@ -13,7 +13,7 @@ _WAYS = {Way.IN_PROCESS: play_in_process, Way.PROCESSES: play_with_processes}
 
 
 def play(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome:
-    """Play a match; `poll` is called while it lasts. Files of a team that are not those of the plan are not played.
+    """Play a match; `poll` is called while it lasts. A team whose files differ from the plan's is not played.
 
     What an earlier attempt has left of the recording and the logs is removed.
     """

@@ -65,7 +65,7 @@ def run_plan(
     remote: Remote | None = None,
     at_once: int | None = None,
 ) -> Outcomes:
-    """Play all that is due until nothing is; returns all outcomes, those of before among them.
+    """Play due matches until none is left; returns all outcomes, including earlier ones.
 
     An interruption leaves what is stored: the next call goes on from there. It plays matches again that have failed
     because their workers were lost.

@@ -58,7 +58,7 @@ class RunCounts:
         return ", ".join(parts)
 
     def _end(self, remaining: float) -> str:
-        """The time of day after so many s; with the date if that is another day."""
+        """Clock time so many s from now; with the date if that is another day."""
         now = datetime.fromtimestamp(self.clock.unix_ns() / 1e9)
         end = now + timedelta(seconds=remaining)
         return f"{end:%H:%M}" if end.date() == now.date() else f"{end:%d %b %H:%M}"

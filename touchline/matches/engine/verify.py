@@ -36,7 +36,7 @@ class Result(Protocol):
 
     @property
     def recording(self) -> str | None:
-        """The file of its recording, as that of an outcome."""
+        """The file of its recording, as in an outcome."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class MatchCheck:
     ticks: int = 0
     """Number of ticks that were simulated again."""
     again: Played | None = None
-    """The outcome as its recording shows it, or that of the match that was played again; None without either."""
+    """The outcome as its recording shows it, or of the match that was played again; None without either."""
 
 
 def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> list[PlannedMatch]:

@@ -25,7 +25,7 @@ from touchline.matches.engine.planned_match import PlannedMatch
 _POLL_S = 0.2
 """Wall time between two looks whether the outcome is still wanted."""
 LOG = "match.log"
-"""The log of a match, beside those of its processes."""
+"""The log of a match, next to the logs of its processes."""
 
 
 class _PollingClock(WallClock):

@@ -41,7 +41,7 @@ def share(successes: float, trials: int) -> Estimate | None:
 def ratio(counts: Sequence[float], sizes: Sequence[float], most: float = math.inf) -> Estimate | None:
     """Sum of the counts, none below 0, by sum of the sizes, for example goals by minutes, over independent samples.
 
-    The interval is that of the ratio estimator: the samples' deviations from the common ratio, and Student's t.
+    The interval is the ratio estimator's: the samples' deviations from the common ratio, and Student's t.
     `most` is the greatest possible value, 1 for a share. None if the sizes add up to 0.
     """
     size, number = sum(sizes), len(sizes)

@@ -24,7 +24,7 @@ _NOT_SUMMED = ("top_speed", "mean_speed", "possession", "result")
 
 
 def flat_figures(figures: MatchFigures) -> dict[str, Value]:
-    """The figures of a match by name; those of cyan as `cyan.NAME`, of its first robot as `cyan.1.NAME`."""
+    """The figures of a match by name; cyan's as `cyan.NAME`, of its first robot as `cyan.1.NAME`."""
     content = figures.to_json()
     flat: dict[str, Value] = {name: content[name] for name in _MATCH}
     for side in Side:

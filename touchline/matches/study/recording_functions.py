@@ -1,4 +1,4 @@
-"""A user's functions of a recording: responses beside the figures of `touchline stats`."""
+"""A user's functions of a recording: responses besides the figures of `touchline stats`."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -13,7 +13,7 @@ from touchline.matches.study.match_figures import Value
 
 
 def load_functions(paths: Mapping[str, str], folder: Path | None) -> dict[str, Callable[..., Any]]:
-    """Name of a response → the function `module:function`, its module looked for as those of brains are.
+    """Name of a response → the function `module:function`, its module looked for like a brain's.
 
     Raises:
         TouchlineError: there is no such function.

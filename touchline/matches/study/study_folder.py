@@ -23,7 +23,7 @@ CSV, PARQUET, REPORT = "results.csv", "results.parquet", "report.html"
 
 @dataclass(frozen=True)
 class StoredStudy:
-    """A study that was played, as its folder has it."""
+    """A study that was played, read from its folder."""
 
     folder: Path
     plan: StudyPlan

@@ -19,9 +19,9 @@ from touchline.matches.study.result_table import result_table
 from touchline.matches.study.study_config import Study
 
 RECORDINGS = "recordings"
-"""The folder of the recordings, in that of a study."""
+"""The folder of the recordings, in a study's folder."""
 LOGS = "logs"
-"""The folder of the logs of matches that failed, in that of a study."""
+"""The folder of the logs of matches that failed, in a study's folder."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,7 +64,7 @@ def verify_study(
     """Check the files of a study, and simulate a random sample of its matches again, or all of them.
 
     Args:
-        folder: that of the study.
+        folder: the study's.
         executor: where matches are simulated.
         sample: number of matches; None for all.
         brain_folder: where brains and functions are looked for; None as then.
@@ -168,7 +168,7 @@ def _table_faults(stored: StoredStudy) -> Iterator[str]:
 
 
 def _figure_faults(match: StudyMatch, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
-    """The figures of a match are those of the table; its hash chain is not compared here."""
+    """The figures of a match are the table's; its hash chain is not compared here."""
     stored_row, new = _row(rows, match), _row(again, match)
     different = [name for name in new.index if name != "chain" and not _equal(stored_row.get(name), new[name])]
     if different:
