@@ -1,6 +1,6 @@
 """A push of one's own: the opponent that a robot leans on and drives ahead of itself, let go before it is a foul.
 
-The referee counts the way of both along the line between their centres (`contact.push_distance`). A robot does not
+The referee counts the distance of both along the line between their centres (`contact.push_distance`). A robot does not
 perceive contacts; it knows its own motion, and where the opponent is.
 """
 
@@ -20,7 +20,7 @@ TOUCH = 0.1
 APART = 0.2
 """s without contact after which a push is over, for the referee too."""
 LETS_GO = 0.5
-"""Part of the way allowed after which the robot lets go: it takes a moment to part."""
+"""Part of the allowed distance after which the robot lets go: it takes a moment to part."""
 PARTS = 0.5
 """m/s away from the opponent meanwhile."""
 
@@ -52,7 +52,7 @@ def push_limit(setup: Setup) -> float:
 
 
 def let_go_of_opponent(push: OwnPush, me: Body, wanted: Drive, setup: Setup, limits: DriveLimits) -> Drive:
-    """The same demand, away from an opponent that has been pushed half of the way allowed."""
+    """The same demand, away from an opponent that has been pushed half of the allowed distance."""
     if push.opponent is None or push.way < LETS_GO * push_limit(setup):
         return wanted
     c, s = math.cos(me.heading), math.sin(me.heading)

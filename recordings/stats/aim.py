@@ -40,7 +40,7 @@ def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
         return Aim.ELSEWHERE
     time = ahead / closing
     beside = abs(ball.y + ball.vy * time) - pitch.goal_width / 2
-    if beside > NEAR_MISS_M:  # first: a ball along the line has a way to it that is too long for any number
+    if beside > NEAR_MISS_M:  # first: for a ball along the line the distance to it exceeds any number
         return Aim.ELSEWHERE
     speed = math.hypot(ball.vx, ball.vy)
     slowed = Rolling.of(setup.ball) if ball.vz > _FLIES else Kicked.of(setup.ball, setup.kicker)

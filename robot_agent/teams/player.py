@@ -227,7 +227,7 @@ class Player(ABC):
         return math.dist(belief.me[:2], belief.ball.now[:2]) < reach
 
     def _carry_on(self, belief: WorldBelief, action: Action, carry: Carry) -> Action:
-        """Release the ball or brake before the dribbling circle ends; turn before the way backward is too long."""
+        """Release the ball or brake before the dribbling circle ends; turn before the distance backward is too long."""
         left = self._rule_limits.circle - carry.way
         if left < PASS_BEFORE:
             kick = let_go(belief.me, belief.opponents, self.setup) if belief.kicker_ready else None

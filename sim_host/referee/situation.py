@@ -93,7 +93,7 @@ def is_encroachment_judged(match: MatchConstants, state: RefereeState) -> bool:
 def crossed(
     match: MatchConstants, before: tuple[float, float, float], now: tuple[float, float, float]
 ) -> Crossing | None:
-    """The first line that the ball crossed on the straight way from `before` to `now`; None if it was out before."""
+    """The first line that the ball crossed on the straight line from `before` to `now`; None if it was out before."""
     first: tuple[float, Line] | None = None
     for axis, limit, line in ((0, match.out_x, Line.GOAL), (1, match.out_y, Line.TOUCH)):
         if abs(before[axis]) > limit:

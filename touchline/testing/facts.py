@@ -124,7 +124,7 @@ class Facts:
         return sum(self._inside(robot, area)) * tick
 
     def distance(self, robot: str) -> float:
-        """Length of the way of a robot."""
+        """Length of the path of a robot, in m."""
         steps = np.diff(self._way(robot)[:, :2], axis=0)
         return float(np.nansum(np.hypot(steps[:, 0], steps[:, 1])))
 

@@ -57,7 +57,7 @@ def front_of(pitch: Pitch, inset: float) -> float:
 
 
 def _guard(ball: Point, pitch: Pitch, front: float, parameters: Parameters) -> Point:
-    """Between the own goal and the ball, a share of the way, and not where others fight for the ball."""
+    """Between the own goal and the ball, a share of the distance, and not where others fight for the ball."""
     dx, dy = ball[0] + pitch.goal_line, ball[1]
     away = max(math.hypot(dx, dy), 1e-6)
     share = min(parameters.guard_share, parameters.guard_farthest / away)

@@ -52,7 +52,7 @@ class Parameters:
     support_apart: float = 3.0
     """m between two supporters, so that one opponent cannot cover both."""
     support_sticks: float = 0.1
-    """Value of a place a metre that a robot does not have to drive: keeps the way of a match short."""
+    """Value of a place a metre that a robot does not have to drive: keeps the distance of a match short."""
     support_ahead: float = 0.06
     """Value of a place a metre ahead of the ball: a goal needs a pass that is received in the other half."""
     support_inset: float = 0.65

@@ -1,4 +1,4 @@
-"""Pushes: robots of different sides that lean on each other, with the duration and the way of the push.
+"""Pushes: robots of different sides that lean on each other, with the duration and the distance of the push.
 
 The engine reports the contacts. One robot pushes the other as far as both move along the line between their centres.
 """

@@ -1,10 +1,10 @@
-"""Backward dribble: a robot may drive backward with the ball for a short way, and a long way only once.
+"""Backward dribble: a robot may drive backward with the ball for a short distance, and a long one only once.
 
 A movement longer than `backward_once` may not be repeated until the ball was visibly released, or a new struggle with
 an opponent has lasted long enough. The other side gets a free kick.
 
 Section: play, backward dribble.
-Measures: the way against the kick axis, integrated from the robot's velocity while it has the ball; half a second
+Measures: the distance against the kick axis, integrated from the robot's velocity while it has the ball; half a second
 without backward motion ends a movement.
 Not judged: driving sideways, and turning with the ball.
 """

@@ -6,7 +6,7 @@ makes no difference for how long a robot is too near. A robot that was too near 
 it, or that an opponent pushed there has time to retreat, and encroaches if it comes nearer again.
 
 Section: restarts.
-Measures: the distance between the ball's spot and the robot's hull, or the way of its hull into the other half, from
+Measures: the distance between the ball's spot and the robot's hull, or how far its hull is in the other half, from
 START until the ball is in play.
 Not judged: penalties, which have positions of their own; whether the encroachment helped.
 """

@@ -1,7 +1,7 @@
 """Ball over the touch line: a throw-in for the opponents of the robot that touched it last.
 
 Section: restarts, throw-in.
-Measures: the place where the whole ball had passed the line, in the air or on the ground, on the straight way between
+Measures: the place where the whole ball had passed the line, in the air or on the ground, on the straight line between
 two ticks; and the robot that touched it last, by time and force: in the same physics step the one that pressed harder.
 A ball that both sides touched at the same time and equally hard (ours), or no robot since START, is dropped.
 Not judged: which of two robots intended to play the ball.

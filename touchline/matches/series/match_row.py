@@ -23,7 +23,7 @@ class TeamRow:
     field_robots: int
     """Robots without the goalkeeper."""
     field_distance: float
-    """Sum of their ways while the game clock ran, in m."""
+    """Sum of their distances while the game clock ran, in m."""
 
 
 @dataclass(frozen=True, slots=True)
