@@ -4,11 +4,13 @@
 written, so that no build step is needed.
 """
 
-import json
 import re
 from importlib import resources
 from pathlib import Path
 from typing import Any
+
+from jinja2 import Environment, StrictUndefined
+from markupsafe import Markup
 
 from recordings.reading.recording import Recording
 from recordings.stats.figures import MatchFigures
@@ -54,17 +56,14 @@ def page_of(recording: Recording, navigation: str = "") -> tuple[MatchFigures, s
 
 def page(content: dict[str, Any], navigation: str = "") -> str:
     """Return the page with this content, as HTML; `navigation` is HTML above it."""
-    parts = {
-        "NAVIGATION": f"<nav>{navigation}</nav>\n" if navigation else "",
-        "TITLE": _escaped(content["title"]),
-        "STYLE": _text("page.css"),
-        "SCRIPT": "\n".join(_inlined(_text(name)) for name in SCRIPTS),
-        "CONTENT": json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace(
-            "<",
-            "\\u003c",  # so that no string in it can close the script element
-        ),
-    }
-    return re.sub(r"{{(\w+)}}", lambda found: parts[found[1]], _text("page.html"))
+    environment = Environment(autoescape=True, undefined=StrictUndefined, keep_trailing_newline=True)
+    environment.policies["json.dumps_kwargs"] = {"ensure_ascii": False, "separators": (",", ":"), "allow_nan": False}
+    return environment.from_string(_text("page.html")).render(
+        content=content,
+        navigation=Markup(navigation),
+        style=Markup(_text("page.css")),
+        script=Markup("\n".join(_inlined(_text(name)) for name in SCRIPTS)),
+    )
 
 
 def write_page(path: Path, text: str) -> None:
@@ -89,7 +88,3 @@ def _text(name: str) -> str:
 def _inlined(module: str) -> str:
     """Remove imports and exports of a module: in the joined script its imports precede it."""
     return re.sub(r"^export ", "", re.sub(r"^import .*;\n", "", module, flags=re.MULTILINE), flags=re.MULTILINE)
-
-
-def _escaped(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
