@@ -1,7 +1,6 @@
 """Script in names and texts: none runs, and none becomes an element, in the page and in a match's statistics."""
 
 import json
-import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,6 @@ from playwright.sync_api import Browser
 
 from coach_gateway.web.match_result import FILE
 from recordings.reading.recording import open_recording
-from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from recordings.stats.page import page_of
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
@@ -22,11 +18,10 @@ from schemas.messages.coach import CoachOrder
 from schemas.messages.game import GameEvent
 from schemas.messages.health import Health
 from schemas.messages.radio import Radio
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import EVENT, HEALTH
 from support.fake_host import FakeHost
-from support.page_gateway import SOON, Gateway
+from support.page_gateway import Gateway
 from support.page_match import Match
 from support.tab import Tab
 
@@ -109,20 +104,12 @@ def test_no_script_in_a_text_of_the_match_runs_in_the_page(
 @pytest.fixture
 def hostile_recording(tmp_path: Path) -> Path:
     """A recording of a match whose teams have script for names, and send it."""
-    path, clock, loss_counts = tmp_path / "match.mcap", WallClock(), LossCounts()
+    path = tmp_path / "match.mcap"
     shouting = "support.shouting:Shouting"
     teams = {
         side: {"name": SCRIPTS[2 + number], "brain": shouting, "size": 1} for number, side in enumerate(map(str, Side))
     }
-    match = Match(pace="lockstep", duration=2.0, teams=teams)
-    bus = match.medium.open_bus("friendly", clock)
-    sink = FileSink(path, clock, "friendly", loss_counts)
-    recorder = Recorder(bus, sink, loss_counts, config=match.config)
-    recording = threading.Thread(target=recorder.run, args=(lambda: False,))
-    recording.start()
-    match.wait_for_end()
-    match.close()
-    recording.join(SOON)
+    Match(pace="lockstep", duration=2.0, teams=teams).record(path)
     return path
 
 

@@ -3,9 +3,13 @@
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from coach_gateway.match.host_client import HostClient
+from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import FileSink
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
@@ -92,9 +96,16 @@ class Match:
         self.host.simulation.close()
         self._bus.close()
 
-    def wait_for_end(self) -> None:
-        """Until the match is over."""
+    def record(self, path: Path) -> None:
+        """Record the match to its end, and close it."""
+        clock, losses = WallClock(), LossCounts()
+        sink = FileSink(path, clock, "friendly", losses)
+        recorder = Recorder(self.medium.open_bus("friendly", clock), sink, losses, config=self.config)
+        recording = threading.Thread(target=recorder.run, args=(lambda: False,))
+        recording.start()
         self._hosting.join()
+        self.close()
+        recording.join(SOON)
 
     def close(self) -> None:
         self.stop()

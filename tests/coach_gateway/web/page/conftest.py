@@ -10,9 +10,6 @@ import pytest
 from playwright.sync_api import Browser
 
 from coach_gateway.web.settings import WebSettings
-from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.in_process_bus import SharedState
@@ -115,7 +112,7 @@ def record(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
 
     def recorded_match(**words: Any) -> Path:
         path = tmp_path_factory.mktemp("recorded") / "match.mcap"
-        record_to(path, Match(pace="lockstep", **words))
+        Match(pace="lockstep", **words).record(path)
         return path
 
     return recorded_match
@@ -125,19 +122,6 @@ def record(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
 def recorded(record: Callable[..., Path]) -> Path:
     """A recording of 12 s of play."""
     return record(duration=12.0)
-
-
-def record_to(path: Path, match: Match) -> None:
-    """Record a match to its end."""
-    clock = WallClock()
-    loss_counts = LossCounts()
-    bus = match.medium.open_bus("friendly", clock)
-    recorder = Recorder(bus, FileSink(path, clock, "friendly", loss_counts), loss_counts, config=match.config)
-    recording = threading.Thread(target=recorder.run, args=(lambda: False,))
-    recording.start()
-    match.wait_for_end()
-    match.close()
-    recording.join(SOON)
 
 
 class Replayed:
