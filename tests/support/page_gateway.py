@@ -45,26 +45,31 @@ class Gateway:
 
     async def _run(self) -> None:
         self._loop = asyncio.get_running_loop()
-        server = WebServer(self.binding, "friendly", self.logged.append, self._result)
-        self.pages = server.pages
+        self._server = WebServer(self.binding, "friendly", self.logged.append, self._result)
+        self.pages = self._server.pages
         if self._medium is not None:
-            self._met.set()
+            self._show(self._medium)
         self._ready.set()
-        await together([server, _Met(self, server)], self._stop)
+        await together([self._server, self], self._stop)
+
+    def _show(self, medium: SharedState) -> None:
+        self._bus = medium.open_bus("friendly", WallClock())
+        self._match = self._server.show(self._bus)
+        self._met.set()
 
     def meet(self, medium: SharedState) -> None:
         """A host is there from now on."""
-        self._medium = medium
-        self._loop.call_soon_threadsafe(self._met.set)
+        self._loop.call_soon_threadsafe(self._show, medium)
 
-    async def follow(self, server: WebServer, stop: asyncio.Event) -> None:
+    async def serve(self, stop: asyncio.Event) -> None:
         """Show the match as soon as there is one."""
         met, stopped = asyncio.create_task(self._met.wait()), asyncio.create_task(stop.wait())
         await asyncio.wait([met, stopped], return_when=asyncio.FIRST_COMPLETED)
         met.cancel()
-        if self._medium is not None:
-            with self._medium.open_bus("friendly", WallClock()) as bus:
-                await server.show(bus).serve(stop)
+        stopped.cancel()
+        if self._met.is_set():
+            with self._bus:
+                await self._match.serve(stop)
 
     @property
     def port(self) -> int:
@@ -87,13 +92,3 @@ class Gateway:
         self._thread.join(SOON)
         assert not self._thread.is_alive()
         self.binding.listener.close()
-
-
-class _Met:
-    """The match of a gateway as a service."""
-
-    def __init__(self, gateway: Gateway, server: WebServer) -> None:
-        self._gateway, self._server = gateway, server
-
-    async def serve(self, stop: asyncio.Event) -> None:
-        await self._gateway.follow(self._server, stop)

@@ -177,11 +177,15 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(listener, "UNREAD_S", 600.0)  # however long the other page takes, this one is let be
+    monkeypatch.setattr(uvicorn_server, "PING_S", 600.0)
     gateway = gateway_of()
     narrow = socket.socket()
     narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     narrow.connect(("127.0.0.1", gateway.port))
-    quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1, compression=None)
+    quick, slow = (
+        Visitor(gateway.origin),
+        Visitor(gateway.origin, sock=narrow, max_queue=1, compression=None, ping_interval=None),
+    )
     slow.hear("host", there=True)
     pillar = ObstacleTruth(x=1, y=2, heading=0, radius=0.5, height=1, shape="cylinder", size_x=1, size_y=1)
     full = make_world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})
