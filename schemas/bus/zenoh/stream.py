@@ -6,8 +6,6 @@ import zenoh
 from zenoh import ext
 
 from schemas.bus.contract import HEARTBEAT_S, BusError, Publisher, ReceivedMessage, Stamp
-from schemas.bus.gap_recovery import GapRecovery
-from schemas.bus.zenoh.cache_queries import CacheQueries
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.bus.zenoh.sample import NO_KEY, STAMP, is_wake_up, message_in
 from schemas.bus.zenoh.session import SessionContext, first_line
@@ -76,8 +74,6 @@ class ZenohSubscription(ZenohReader):
         self._kept: dict[str, ReceivedMessage] = {}
         self._known_keys: set[str] = set()
         """Keys of this topic on which messages have arrived."""
-        self._gaps: CacheQueries | None = None
-        born_ns = context.clock.unix_ns()
         every: Any = (
             zenoh.handlers.FifoChannel(_BACKLOG) if context.is_client else zenoh.handlers.RingChannel(_HOST_BACKLOG)
         )
@@ -87,8 +83,6 @@ class ZenohSubscription(ZenohReader):
             self._reader = ext.declare_advanced_subscriber(
                 context.session, self._full_key, every, history=past, recovery=settings
             )
-            recovery = GapRecovery(since_ns=0, lookback=topic.cache_size) if history else GapRecovery(since_ns=born_ns)
-            self._gaps = CacheQueries(context, recovery, self._read, self.wake)
         else:
             self._reader = context.session.declare_subscriber(self._full_key, every)
 
@@ -108,24 +102,18 @@ class ZenohSubscription(ZenohReader):
         return kept.pop(next(iter(kept))) if kept else None
 
     def _next(self, timeout: float | None) -> ReceivedMessage | None:
-        """The next message of this topic; a wake-up ends the wait at its deadline, or when a missing one arrives."""
-        reader, gaps, until = self._reader, self._gaps, self._deadline_of(timeout)
+        """The next message of this topic; a wake-up ends the wait at its deadline."""
+        reader, until = self._reader, self._deadline_of(timeout)
         try:
             while True:
-                received = gaps.next() if gaps is not None else None
-                if received is not None:
-                    return received
                 sample = reader.try_recv()
                 if sample is None:
                     if self._ended or self._clock.now() >= until:
                         return None
-                    sample = self._wait(until if gaps is None else min(until, gaps.due_at()))
+                    sample = self._wait(until)
                 received = self._read(sample)
-                if received is None or gaps is None or gaps.accept_if_next(received):
-                    if received is not None:
-                        return received
-                else:
-                    gaps.insert(received, sample)
+                if received is not None:
+                    return received
         except zenoh.ZError:
             return None  # the session was closed
 
