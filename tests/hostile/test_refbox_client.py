@@ -82,21 +82,6 @@ def test_a_box_that_floods_start_and_stop_is_forwarded_in_turn_and_neither_fills
     asyncio.run(play())
 
 
-def test_a_line_without_end_fills_no_memory_and_the_base_station_goes_on() -> None:
-    async def play() -> None:
-        async with stopped(BoxProtocol.JSON) as (bench, box, client):
-            box.send(b'{"command": "')
-            for _ in range(50):
-                box.send(b"x" * 1_000_000)
-                await box.links[0].drain()
-            box.send(b'"}\x00')
-            box.say("STOP")
-            await until(lambda: any(action.action is ActionName.STOP for action in bench.stage.asked))
-            assert client.counts["unreadable"] == 1
-
-    asyncio.run(play())
-
-
 @pytest.mark.parametrize("flood", [b"S", b"sS" * 10, b"?" * 100, b"Kk1\x00\r\n "])
 def test_characters_in_a_flood_leave_the_last_one_in_force(flood: bytes) -> None:
     async def play() -> None:

@@ -21,15 +21,14 @@ def eventually(holds: Callable[[], Any], what: str = "") -> None:
 
 
 class RawClient:
-    """One TCP connection from an address of loopback."""
+    """One TCP connection."""
 
-    def __init__(self, port: int, source: str = "127.0.0.1", room: int | None = None) -> None:
+    def __init__(self, port: int, room: int | None = None) -> None:
         """`room` is the size of its receive buffer, of a client that reads little."""
         self.socket = socket.socket()
         if room is not None:
             self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
         self.socket.settimeout(SOON)
-        self.socket.bind((source, 0))
         self.socket.connect(("127.0.0.1", port))
 
     def send(self, data: bytes) -> bool:
@@ -47,13 +46,6 @@ class RawClient:
         except ConnectionError:
             return b""
 
-    def receive_all(self) -> bytes:
-        """Everything up to the end of the connection."""
-        parts = []
-        while part := self.receive():
-            parts.append(part)
-        return b"".join(parts)
-
     @property
     def is_closed(self) -> bool:
         """Whether the other side has closed; what has come before is passed over."""
@@ -70,12 +62,12 @@ class RawClient:
                 self.socket.settimeout(SOON)
         return True
 
-    def upgrade(self, origin: str, path: str = "/ws", **headers: str) -> bytes:
+    def upgrade(self, origin: str, **headers: str) -> bytes:
         """The response to a WebSocket's handshake."""
         host = origin.partition("//")[2]
         more = "".join(f"{name.replace('_', '-')}: {value}\r\n" for name, value in headers.items())
         self.send(
-            f"GET {path} HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nUpgrade: websocket\r\n"
+            f"GET /ws HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nUpgrade: websocket\r\n"
             f"Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n{more}"
             f"Sec-WebSocket-Key: {base64.b64encode(bytes(16)).decode()}\r\n\r\n".encode()
         )

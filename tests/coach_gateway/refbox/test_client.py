@@ -82,21 +82,6 @@ def test_fragments_and_several_commands_in_one_packet_are_all_read(protocol: Box
     asyncio.run(play())
 
 
-def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any, until: Any) -> None:
-    async def play() -> None:
-        async with met() as (bench, box, client):
-            bench.stage.say(phase=Phase.STOPPED)
-            box.send(b"\xff\xfe{{{\x00[1]\x00" + b"x" * 100_000 + b"\x00")
-            box.say("DANCE")
-            box.say("CORNER", MAGENTA_AT)
-            await until(lambda: bench.stage.asked)
-            assert asked(bench) == ["corner magenta"]
-            await until(lambda: client.counts["unreadable"] == 5)  # a broken piece counts what is before its brace, too
-            assert any('"DANCE" is not a command' in line for line in bench.logged)
-
-    asyncio.run(play())
-
-
 def test_cards_repairs_and_substitutions_find_their_robot_by_its_number_or_else_their_side(
     met: Any, until: Any
 ) -> None:

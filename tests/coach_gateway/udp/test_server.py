@@ -290,33 +290,6 @@ def test_the_referees_program_acts_or_receives_the_reason_of_a_refusal(served: A
     asyncio.run(play())
 
 
-def test_a_datagram_sent_three_times_is_done_once_and_answered_each_time(served: Any, until: Any) -> None:
-    async def play() -> None:
-        async with served() as (bench, _, come):
-            program = await come("cyan")
-            asked = program.send("order", order={"mode": "hold"})
-            await until(lambda: program.acks(asked))
-            for _ in range(2):
-                program.send("order", asked, order={"mode": "hold"})
-            await until(lambda: len(program.acks(asked)) == 3)
-            assert [ack["duplicate"] for ack in program.acks(asked)] == [False, True, True]
-            assert len({ack["order"] for ack in program.acks(asked)}) == 1
-            assert [(side, order.mode) for side, order in bench.stage.given_orders] == [(Side.CYAN, CoachMode.HOLD)]
-
-    asyncio.run(play())
-
-
-def test_an_order_for_a_robot_that_does_not_play_is_refused_with_a_hint(served: Any, until: Any) -> None:
-    async def play() -> None:
-        async with served() as (_, _, come):
-            program = await come("cyan")
-            asked = program.send("order", order={"robot_a": "cyan9"})
-            await until(lambda: program.acks(asked))
-            assert 'robot_a is "cyan9", no robot of cyan; did you mean' in program.acks(asked)[0]["reason"]
-
-    asyncio.run(play())
-
-
 def test_garbage_and_a_program_that_never_reads_stop_no_other_program(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (_, server, come):
