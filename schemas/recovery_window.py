@@ -9,8 +9,6 @@ once, and the ticks between two of its reports, are a fraction of that.
 
 BATCH_TICKS = 8
 """Ticks in a batch: with five robots a side, a batch fits into one of Zenoh's batches of 64 KiB; more is split."""
-BATCH_S = 0.15
-"""Wall time after which a batch with fewer ticks is published; half a second later a recorder has it on its disk."""
 KEPT_BATCHES = 300
 """Batches that a host keeps, of at most `BATCH_TICKS` each: 2400 ticks, 48 s in real time."""
 KEPT_BYTES = 64 * 2**20
@@ -21,7 +19,3 @@ REST_TICKS = 60
 """Most ticks between two polls of a recorder."""
 REPORT_TICKS = 25
 """Ticks after which a recorder reports its progress at once."""
-GIVE_UP_S = 20.0
-"""Wall time without progress after which missing messages or batches are given up; a link recovers in less."""
-PARTING_S = 5.0
-"""Wall time for which a host or a replay waits at its end for its recorders to receive the last tick."""

@@ -11,7 +11,7 @@ from recordings.recorder.batch_sequence import BatchSequence
 from schemas.bus.contract import Bus, NoReplyError, PendingReply
 from schemas.messages.record_batch import Batch, RecordBatchesRequest, read_batch, read_reply
 from schemas.process.active_clock import ActiveClock
-from schemas.recovery_window import GIVE_UP_S
+from schemas.process.timing import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 from schemas.wire.message import BadMessageError
 

@@ -19,12 +19,13 @@ from recordings.recorder.setup_query import SetupQuery
 from recordings.recorder.sink import FileSink
 from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import Bus, PresenceKind
-from schemas.bus.host_watch import RECONNECT_S, HostWatch
+from schemas.bus.host_watch import HostWatch
 from schemas.config.match_config import MatchConfig
 from schemas.messages.record_batch import Batch
 from schemas.messages.recorder import RecorderProgress
 from schemas.messages.setup import Setup
 from schemas.process.idle_time import run_in_idle_time
+from schemas.process.timing import RECONNECT_S
 from schemas.recovery_window import REPORT_TICKS
 from schemas.topics import EVENT, RECORD_BATCH, RECORDER_PROGRESS, SETUP
 from schemas.wire.message import BadMessageError

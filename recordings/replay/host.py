@@ -14,7 +14,7 @@ from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply
 from schemas.messages.setup import Setup
-from schemas.recovery_window import PARTING_S
+from schemas.process.timing import PARTING_S
 from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 from schemas.wire.message import VERSION, BadMessageError, Message

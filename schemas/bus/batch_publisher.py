@@ -18,7 +18,8 @@ from schemas.messages.record_batch import (
     write_reply,
 )
 from schemas.process.large_blocks import mapped
-from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES, KEPT_BYTES
+from schemas.process.timing import BATCH_S
+from schemas.recovery_window import BATCH_TICKS, KEPT_BATCHES, KEPT_BYTES
 from schemas.topic import Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 from schemas.wire.message import BadMessageError

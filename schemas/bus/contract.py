@@ -20,11 +20,6 @@ from schemas.topic import Delivery, Topic
 from schemas.wire.message import VERSION, BadMessageError, WireMessage
 from schemas.wire.struct import encode
 
-LEASE_S = 2.0
-"""Wall time without any data after which a link counts as broken."""
-HEARTBEAT_S = 0.5
-"""Longest wall time until a subscriber of a `recovered` topic detects that it missed the newest message."""
-
 
 class BusError(TouchlineError):
     """The bus could not be opened, or is closed."""

@@ -6,6 +6,7 @@ import socket
 import sys
 
 from schemas.bus.contract import BusError
+from schemas.process.timing import PROBE_S
 
 DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
 """The first choice of a host without `--listen`: on loopback, reachable only from this machine."""
@@ -14,8 +15,6 @@ FREE_ENDPOINT = "tcp/127.0.0.1:0"
 ENCRYPTED = ("tls", "quic")
 """Protocols whose listener needs a certificate."""
 _CONNECTIONLESS = ("udp", "quic")
-_PROBE_S = 0.3
-"""Wall time in which a machine has to answer a probe."""
 
 
 def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
@@ -50,7 +49,7 @@ def is_cut_off(endpoint: str) -> bool:
     if protocol in _CONNECTIONLESS:
         return False
     try:
-        socket.create_connection((host, port), _PROBE_S).close()
+        socket.create_connection((host, port), PROBE_S).close()
     except ConnectionError:
         return False
     except OSError:  # no answer, or no way to the machine

@@ -3,19 +3,9 @@
 The token disappears with the link, and appears again a moment after the link is restored.
 """
 
-from schemas.bus.contract import LEASE_S, Bus, PresenceKind
+from schemas.bus.contract import Bus, PresenceKind
 from schemas.process.active_clock import ActiveClock
-
-LINK_GRACE_S = LEASE_S + 0.5
-"""Wall time for which watchers tolerate a broken link."""
-RECONNECT_S = 10.0
-"""Wall time for which agents and recorders wait for an unreachable host before they give up the match."""
-CUT_OFF_S = 3600.0
-"""The same where the network to the host is cut: the match goes on there, and lasts no longer."""
-_POLL_S = 0.02
-"""Wall time between two checks while waiting for a host."""
-_PROBE_EVERY_S = 1.0
-"""Wall time between two checks whether the network is cut."""
+from schemas.process.timing import CUT_OFF_S, LINK_GRACE_S, POLL_S, PROBE_EVERY_S
 
 
 class HostWatch:
@@ -68,7 +58,7 @@ class HostWatch:
         The wait begins again while the network is cut, for up to `CUT_OFF_S`.
         """
         now = self._now()
-        if now - self._probed_at >= _PROBE_EVERY_S and now - self._reached_at < CUT_OFF_S:
+        if now - self._probed_at >= PROBE_EVERY_S and now - self._reached_at < CUT_OFF_S:
             self._probed_at = now
             if self._bus.is_cut_off():
                 self._cut_off_at = now
@@ -88,7 +78,7 @@ class HostWatch:
         deadline = clock.now() + patience
         self.update()
         while not self.seen and clock.now() < deadline:
-            clock.sleep_until(clock.now() + _POLL_S)
+            clock.sleep_until(clock.now() + POLL_S)
             self.update()
         return self.seen
 

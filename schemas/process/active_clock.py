@@ -1,7 +1,6 @@
 """Wall time without the times in which the process was suspended."""
 
-LONGEST_S = 0.5
-"""Most wall time between two calls that counts; the rest is taken for suspension."""
+from schemas.process.timing import SUSPENDED_S
 
 
 class ActiveClock:
@@ -14,6 +13,6 @@ class ActiveClock:
 
     def look(self, now: float) -> float:
         """Advance to `now`, wall time in s; returns the active wall time so far, in s."""
-        self.passed += min(now - self._looked_at, LONGEST_S)
+        self.passed += min(now - self._looked_at, SUSPENDED_S)
         self._looked_at = now
         return self.passed

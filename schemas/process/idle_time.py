@@ -15,6 +15,7 @@ from contextlib import AbstractContextManager, contextmanager, suppress
 from queue import SimpleQueue
 
 from schemas.process.clock import WallClock
+from schemas.process.timing import CORE_WAIT_S, IDLE_AGAIN_S
 
 Step = Callable[[], bool]
 """Does a part of the work; returns whether that was the last."""
@@ -23,11 +24,6 @@ CoreWait = Callable[[], float | None]
 CoreWaitMeter = Callable[[], AbstractContextManager[CoreWait]]
 """Opens the core wait of the calling thread."""
 
-_MAX_WAIT_S = 0.25
-"""Longest wall time that a step may wait for a core; with a dozen processes of a match on two cores it waits a tenth of
-that."""
-_RETRY_S = 30.0
-"""Wall time after which idle time is tried again on a machine that was busy."""
 
 _now = WallClock.now
 _thread_state = threading.local()
@@ -58,7 +54,7 @@ def _waited_s(schedstat: bytes) -> float | None:
         return None
 
 
-def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, meter: CoreWaitMeter = core_wait) -> None:
+def run_in_idle_time(step: Step, *, retry_s: float = IDLE_AGAIN_S, meter: CoreWaitMeter = core_wait) -> None:
     """Run steps until the last: in idle time where this thread has the batch policy, otherwise in this thread.
 
     The error of a step ends the work and is raised here. Steps must not depend on the thread that runs them. Idle time
@@ -142,5 +138,5 @@ class _IdleWorker:
         while not self._done:
             self._done = self._step()
             before, waited = waited, waited_s() or 0.0
-            if waited - before > _MAX_WAIT_S:
+            if waited - before > CORE_WAIT_S:
                 break

@@ -7,13 +7,12 @@ from statistics import median
 from schemas.messages.health import MAX_FAULT, RobotHealth
 from schemas.messages.latency_counts import CLASSES, class_of, without_empty_end
 from sim_host.match.radio_use import NO_RADIO, RobotRadio
+from sim_host.timing import QUICK_S
 
 SILENT_TICKS = 3
 """A robot that has missed this many ticks in a row is not waited for until it sends a valid message."""
 MOST_TICKS_GIVEN_UP = 250
 """A robot that answers, but always too late, is waited for again after at most this many ticks."""
-QUICK_S = 0.1
-"""A late answer with a shorter latency was late for its tick, not for the time that the agent took."""
 LATENCY_SAMPLES = 50
 """Commands that the median latency is taken over: one second of ticks."""
 _REPEATED_COMMANDS = 100

@@ -9,11 +9,7 @@ from sim_host.match.radio_use import RadioUse
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import PresenceTracker
-
-_PERIOD_S = 0.25
-"""Wall time between two reports."""
-_AVERAGING_S = 1.0
-"""Wall time that the real-time factor is averaged over."""
+from sim_host.timing import AVERAGING_S, HEALTH_S
 
 
 class HealthReporter:
@@ -35,11 +31,11 @@ class HealthReporter:
         self._last_tick = now
         if now < self._next:
             return False
-        self._next = now + _PERIOD_S
+        self._next = now + HEALTH_S
         self._marks.append((now, time))
-        while now - self._marks[0][0] > _AVERAGING_S and len(self._marks) > 2:
+        while now - self._marks[0][0] > AVERAGING_S and len(self._marks) > 2:
             self._marks.popleft()
-        while self._tick_times and now - self._tick_times[0][0] > _AVERAGING_S:
+        while self._tick_times and now - self._tick_times[0][0] > AVERAGING_S:
             self._tick_times.popleft()
         return True
 

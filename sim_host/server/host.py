@@ -3,12 +3,12 @@
 from collections.abc import Callable, Sequence
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
+from schemas.bus.contract import Bus, PresenceKind, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
-from schemas.recovery_window import PARTING_S
+from schemas.process.timing import PARTING_S
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.account_limits import AccountLimits
@@ -26,13 +26,7 @@ from sim_host.server.pace import Lockstep, Pace, Realtime
 from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.referee_seat import RefereeSeat
 from sim_host.server.services import Services
-
-_FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
-"""Wall time that the host stays after full time for its watchers: missed messages of the end show with the bus's next
-heartbeat, half a second later, and can be fetched as long as the host is running."""
-
-_ACCOUNTS_S = 0.1
-"""Wall time between two updates of the accounts' limits."""
+from sim_host.timing import ACCOUNTS_S, FULL_TIME_GRACE_S
 
 
 class Host:
@@ -182,7 +176,7 @@ class Host:
             if not any(self.presence.recorder_lags(last).values()):
                 break
         if self.simulation.over and self.presence.has_watchers():
-            self._linger(self._clock.now() + _FULL_TIME_GRACE_S)
+            self._linger(self._clock.now() + FULL_TIME_GRACE_S)
 
     def _linger(self, until: float) -> None:
         """Refuse requests, since the match is over, until this wall time or until `stop` is called."""
@@ -220,7 +214,7 @@ class Host:
     def _update_accounts(self) -> None:
         """Count what the bus has refused, and allow all accounts the messages of the wall time that has passed."""
         now = self._clock.now()
-        if now - self._accounts_updated_at >= _ACCOUNTS_S:
+        if now - self._accounts_updated_at >= ACCOUNTS_S:
             self.accounts.add_refusals(self._bus.refusals.pop())
             self.accounts.pass_time(now - self._accounts_updated_at)
             self._accounts_updated_at = now

@@ -11,11 +11,7 @@ from schemas.recovery_window import RUN_AHEAD_TICKS
 from sim_host.server.agent_stats import SILENT_TICKS
 from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import PresenceTracker
-
-_RESEND_S = 0.05
-"""Wall time after which an unanswered sight is sent again: its command may have been lost."""
-_PRESENCE_CHECK_S = 0.005
-"""Wall time between two checks for agents that have joined or left."""
+from sim_host.timing import PRESENCE_S, RESEND_S
 
 Resend = Callable[[str], None]
 """Sends the newest sight of one robot again."""
@@ -110,7 +106,7 @@ class Lockstep:
         self._wait_for_recorders(tick)
         commands: dict[str, Command] = {}
         start = self._clock.now()
-        next_check, next_resend = start, start + _RESEND_S
+        next_check, next_resend = start, start + RESEND_S
         missing = self._missing(tick)
         while missing:
             answer = self._inbox.receive_command(tick, 0.0) or self._wait_for_answer(tick)
@@ -125,12 +121,12 @@ class Lockstep:
                 self.late_ticks += 1
                 break
             if now >= next_check:
-                next_check = now + _PRESENCE_CHECK_S
+                next_check = now + PRESENCE_S
                 self._while_waiting()
                 to_resend = [change.name for change in self._presence.update() if change.alive]
                 missing = self._missing(tick)
                 if now >= next_resend:
-                    next_resend = now + _RESEND_S
+                    next_resend = now + RESEND_S
                     to_resend = list(missing)
                 for name in to_resend:
                     resend(name)
@@ -144,7 +140,7 @@ class Lockstep:
         """The next command, or None after a short while."""
         if self.step_agents is not None:
             self.step_agents()
-        return self._inbox.receive_command(tick, 0.0 if self.step_agents else min(_RESEND_S, self._patience))
+        return self._inbox.receive_command(tick, 0.0 if self.step_agents else min(RESEND_S, self._patience))
 
     def _missing(self, tick: int) -> dict[str, None]:
         """Robots whose command the host waits for, in the order of the roster."""

@@ -7,18 +7,19 @@ from pathlib import Path
 
 import pytest
 
-from schemas.bus.contract import LEASE_S
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh import sample, session
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.messages.command import Command
+from schemas.process.timing import LEASE_S
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows, type_text
 from schemas.protocol.page import page
 from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
-from sim_host.server import agent_stats, pace
+from sim_host.server import agent_stats
+from sim_host.timing import RESEND_S
 from touchline.launch.process_table import ProcessKind
 from touchline.launch.processes import MatchPlan, client_processes
 from touchline.launch.supervisor import AFTER_THE_MATCH
@@ -105,6 +106,6 @@ def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:
     )
     assert watchdog == {0.2} and "(0.2 s of simulated time)" in said
     assert f"SIGKILL {kill:g} s later" in said
-    assert f"every {pace._RESEND_S * 1000:g} ms" in said
+    assert f"every {RESEND_S * 1000:g} ms" in said
     assert f"After {agent_stats.SILENT_TICKS} silent ticks in a row" in said
     assert f"longer than {Command.max_bytes} bytes" in said

@@ -4,14 +4,11 @@ import zenoh
 
 from schemas.bus.contract import BusError, PresenceKind
 from schemas.process.clock import Clock
+from schemas.process.timing import POLL_S, REPLY_S
 from schemas.topics import ALIVE, key_prefix
 
 _ALL_HOSTS = key_prefix("*") + ALIVE.fill(kind=PresenceKind.HOST)
 _START = len(key_prefix("")) - 1
-_REPLY_S = 1.0
-"""Wall time for the reply of the host."""
-_PAUSE_S = 0.05
-"""Wall time between two queries while the host prepares its match."""
 
 
 def match_at(session: zenoh.Session, connect: str, clock: Clock, deadline: float) -> str:
@@ -23,7 +20,7 @@ def match_at(session: zenoh.Session, connect: str, clock: Clock, deadline: float
     while not (names := hosts_of(session)):
         if clock.now() >= deadline:
             raise BusError(f"--connect {connect}: no match is played there; start one with `touchline match`")
-        clock.sleep_until(clock.now() + _PAUSE_S)
+        clock.sleep_until(clock.now() + POLL_S)
     if len(names) > 1:
         raise BusError(f"--connect {connect}: several matches are played there; choose one: --match {sorted(names)}")
     return names.pop()
@@ -37,6 +34,6 @@ def other_match(connect: str, match: str, played: set[str]) -> str:
 
 def hosts_of(session: zenoh.Session) -> set[str]:
     """The matches whose hosts are present."""
-    replies = session.liveliness().get(_ALL_HOSTS, timeout=_REPLY_S)
+    replies = session.liveliness().get(_ALL_HOSTS, timeout=REPLY_S)
     keys = [str(reply.ok.key_expr) for reply in replies if reply.ok is not None]
     return {key[_START:].partition("/")[0] for key in keys}

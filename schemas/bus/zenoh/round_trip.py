@@ -2,10 +2,8 @@
 
 from schemas.bus.contract import PresenceKind
 from schemas.bus.zenoh.bus import ZenohBus
+from schemas.process.timing import REPLY_S
 from schemas.topics import ALIVE, key_prefix
-
-_REPLY_S = 1.0
-"""Wall time after which a round trip is lost."""
 
 
 def round_trips_s(bus: ZenohBus, count: int) -> list[float]:
@@ -14,7 +12,7 @@ def round_trips_s(bus: ZenohBus, count: int) -> list[float]:
     times = []
     for _ in range(count):
         began = bus.clock.now()
-        replies = bus.session.liveliness().get(key, timeout=_REPLY_S)
+        replies = bus.session.liveliness().get(key, timeout=REPLY_S)
         if any(reply.ok is not None for reply in replies):
             times.append(bus.clock.now() - began)
     return times

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from itertools import product
 from typing import Any
 
+from schemas.process.timing import HALF_OPEN_MS
 from schemas.side import Side
 from schemas.topic import Delivery, Party, Topic
 from schemas.topics import COMMAND, TOPICS, key_prefix
@@ -33,8 +34,6 @@ _MAX_CONNECTIONS = 256
 """Most connections: a match has at most 22 robots, and some dozen pages, recorders and watchers."""
 _MAX_PENDING = 64
 """Most connections that have not finished their handshake."""
-_HANDSHAKE_MS = 2000
-"""Wall time for a handshake, in ms: half-open connections make room after that."""
 
 
 def router_limits(match: str, robots: Iterable[str]) -> dict[str, Any]:
@@ -43,7 +42,7 @@ def router_limits(match: str, robots: Iterable[str]) -> dict[str, Any]:
     return {
         "transport/unicast/max_sessions": _MAX_CONNECTIONS,
         "transport/unicast/accept_pending": _MAX_PENDING,
-        "transport/unicast/accept_timeout": _HANDSHAKE_MS,
+        "transport/unicast/accept_timeout": HALF_OPEN_MS,
         "transport/link/rx/max_message_size": _MAX_MESSAGE_BYTES,
         "low_pass_filter": _sizes(prefix),
         "downsampling": _rates(prefix, list(robots)),

@@ -12,12 +12,21 @@ import zenoh
 
 from schemas.access.credentials import Credentials
 from schemas.access.protection import Protection
-from schemas.bus.contract import LEASE_S, Bus, BusError, EndpointInUseError
+from schemas.bus.contract import Bus, BusError, EndpointInUseError
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, FREE_ENDPOINT, with_free_port, with_tls
 from schemas.bus.zenoh.protection_settings import client_settings, router_settings
 from schemas.bus.zenoh.unreachable import why_unreachable
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
+from schemas.process.timing import (
+    CONGESTION_US,
+    FIRST_ATTEMPT_S,
+    HANDSHAKE_S,
+    LEASE_S,
+    LONGEST_ATTEMPT_S,
+    RETRY_FROM_MS,
+    RETRY_TO_MS,
+)
 
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable with Zenoh's thread settings."""
@@ -37,17 +46,7 @@ that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876).
 
 The runtime `net` keeps its single thread: with several, two links that closed at the same time could end one of them by
 a panic in the routing tables (zenoh 1.10)."""
-_RETRY = {"period_init_ms": 20, "period_max_ms": 100, "period_increase_factor": 1.5}
-_ATTEMPT_S = 0.9
-"""Longest attempt to connect, after the first. A cut network answers nothing, and an attempt that has begun then
-repeats its packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the
-handshake of four round trips at 0.1 s of delay each way."""
-_TRY_S = (0.5, 2.0)
-"""Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
-at once. Ctrl-C takes effect between attempts."""
-_CONGESTION_TIMEOUT_US = 1_000_000
-"""Wall time in which a client has to make room for data that must not be dropped, in µs; then its link is closed, and
-it may connect again."""
+_RETRY = {"period_init_ms": RETRY_FROM_MS, "period_max_ms": RETRY_TO_MS, "period_increase_factor": 1.5}
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +99,7 @@ def _listen_on(listen: str, has_tls: bool, more: Mapping[str, object]) -> tuple[
         "router",
         {
             "listen/endpoints": [endpoint],
-            "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTION_TIMEOUT_US,
+            "transport/link/tx/queue/congestion_control/block/wait_before_close": CONGESTION_US,
             **more,
         },
     )
@@ -124,7 +123,7 @@ def open_connection(
         BusError: no host admits this client.
     """
     deadline = clock.now() + patience
-    lasts, longest = _TRY_S
+    lasts = FIRST_ATTEMPT_S
     while True:
         connect, credentials = find()
         if credentials is not None and credentials.root_certificate is not None:
@@ -133,7 +132,7 @@ def open_connection(
             "connect/endpoints": [connect],
             "connect/retry": _RETRY,
             "connect/timeout_ms": round(lasts * 1000),
-            "transport/unicast/open_timeout": round(1000 * max(lasts, _ATTEMPT_S)),
+            "transport/unicast/open_timeout": round(1000 * max(lasts, HANDSHAKE_S)),
             **client_settings(credentials),
         }
         try:
@@ -142,7 +141,7 @@ def open_connection(
             if clock.now() >= deadline:
                 raise BusError(why_unreachable(connect, credentials)) from error
             clock.sleep_until(clock.now() + 0.1)
-            lasts = min(2 * lasts, longest)
+            lasts = min(2 * lasts, LONGEST_ATTEMPT_S)
 
 
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:

@@ -5,10 +5,11 @@ from typing import Any
 import zenoh
 from zenoh import ext
 
-from schemas.bus.contract import HEARTBEAT_S, BusError, Publisher, ReceivedMessage, Stamp
+from schemas.bus.contract import BusError, Publisher, ReceivedMessage, Stamp
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.bus.zenoh.sample import NO_KEY, STAMP, is_wake_up, message_in
 from schemas.bus.zenoh.session import SessionContext, first_line
+from schemas.process.timing import HEARTBEAT_S
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS
 

@@ -7,9 +7,7 @@ import socket
 
 from schemas.access.credentials import Credentials
 from schemas.bus.endpoint import parse_endpoint
-
-_CONNECT_S = 1.0
-"""Wall time for a connection; longer than one packet that is lost and sent again takes."""
+from schemas.process.timing import CONNECT_S
 
 
 def why_unreachable(connect: str, credentials: Credentials | None = None) -> str:
@@ -24,7 +22,7 @@ def why_unreachable(connect: str, credentials: Credentials | None = None) -> str
         )
     if protocol in ("tcp", "tls", "ws"):
         try:
-            socket.create_connection((str(addresses[0][4][0]), port), timeout=_CONNECT_S).close()
+            socket.create_connection((str(addresses[0][4][0]), port), timeout=CONNECT_S).close()
         except TimeoutError:
             return (
                 f"--connect {connect}: nothing answers there, not even with a refusal; is the address right, and does "

@@ -5,9 +5,7 @@ import threading
 from typing import Protocol
 
 from schemas.process.clock import Clock
-
-_AGAIN_S = 0.05
-"""Time after which a reader that was woken and still waits is woken again, in s."""
+from schemas.process.timing import WAKE_AGAIN_S
 
 
 class Waiter(Protocol):
@@ -81,4 +79,4 @@ def _ended(reader: Waiter, now: float) -> float:
     if deadline > now:
         return deadline
     reader.wake()
-    return now + _AGAIN_S
+    return now + WAKE_AGAIN_S

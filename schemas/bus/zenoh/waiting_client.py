@@ -5,9 +5,7 @@ from collections.abc import Callable
 from schemas.bus.contract import BusError
 from schemas.bus.zenoh.bus import ZenohBus
 from schemas.process.clock import Clock
-
-_SLICE_S = 0.2
-"""Wall time after which `should_stop` is asked again."""
+from schemas.process.timing import SLICE_S
 
 
 def open_when_there(
@@ -28,7 +26,7 @@ def open_when_there(
     reported = False
     while not should_stop():
         try:
-            return open_client(min(_SLICE_S, patience) if reported else 0.0)
+            return open_client(min(SLICE_S, patience) if reported else 0.0)
         except BusError as error:
             if clock.now() >= deadline:
                 raise

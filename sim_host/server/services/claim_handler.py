@@ -7,15 +7,14 @@ second agent is refused.
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from schemas.bus.contract import LEASE_S, Bus, Query
+from schemas.bus.contract import Bus, Query
 from schemas.messages.claim import AgentClaim, AgentClaimReply
+from schemas.process.timing import LINK_GRACE_S
 from schemas.topics import CLAIM, ROBOT_CLAIM
 from schemas.wire.message import BadMessageError
 from sim_host.server.claims import Claims
 from sim_host.server.invalid_log import InvalidLog
 
-EXPIRY_S = LEASE_S + 0.5
-"""Wall time for which a claim waits for the end of an earlier agent, s."""
 _MOST = 200
 """Most claims that wait, and most refused sessions that are remembered."""
 _MOST_UNREADABLE = 20
@@ -65,7 +64,7 @@ class ClaimHandler:
             if len(self._waiting) >= _MOST:
                 query.reply(AgentClaimReply(accepted=False, reason="too many agents claim robots at the same time"))
                 continue
-            waiting = _Waiting(query, claim, self._clock.now() + EXPIRY_S)
+            waiting = _Waiting(query, claim, self._clock.now() + LINK_GRACE_S)
             if _is_on_its_key(query, claim):
                 self._waiting.append(waiting)
             else:

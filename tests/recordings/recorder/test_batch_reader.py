@@ -11,7 +11,7 @@ from schemas.bus.contract import Bus, Query
 from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.messages.record_batch import RecordBatchesRequest, write_batch, write_reply
 from schemas.process.clock import SteppedClock
-from schemas.recovery_window import GIVE_UP_S
+from schemas.process.timing import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 
 

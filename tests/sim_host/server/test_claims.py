@@ -10,8 +10,8 @@ from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
 from schemas.messages.claim import AgentClaim
 from schemas.messages.setup import SetupRequest
+from schemas.process.timing import LINK_GRACE_S
 from schemas.topics import CLAIM, EVENT, SETUP
-from sim_host.server.services.claim_handler import EXPIRY_S
 from support.host_rig import TEAMS, Agent, Forward, HostRig
 
 SECRET = "a secret of the launch"
@@ -89,7 +89,7 @@ def test_a_second_agent_of_a_robot_is_refused_by_name_on_both_ends(open_rig):
     second = Claimant(open_rig, "cyan1", 2)
     open_rig.ticks(1)
     assert second.reply is None
-    open_rig.pass_time(EXPIRY_S)
+    open_rig.pass_time(LINK_GRACE_S)
     open_rig.ticks(2)
     reason = "cyan1 has an agent already: process 1 on lab3"
     assert (second.reply.accepted, second.reply.reason) == (False, reason)
@@ -112,7 +112,7 @@ def test_a_claim_is_granted_as_soon_as_the_link_of_the_earlier_agent_expires(ope
     first = Claimant(open_rig, "cyan1", 1)
     open_rig.ticks(1)
     second = Claimant(open_rig, "cyan1", 2)
-    open_rig.pass_time(EXPIRY_S / 2)
+    open_rig.pass_time(LINK_GRACE_S / 2)
     open_rig.ticks(1)
     assert second.reply is None
     first.bus.close()
@@ -123,7 +123,7 @@ def test_a_claim_is_granted_as_soon_as_the_link_of_the_earlier_agent_expires(ope
 def test_of_two_agents_that_claim_a_robot_at_the_same_time_one_gets_it(open_rig):
     claimants = [Claimant(open_rig, "cyan1", number) for number in (1, 2)]
     open_rig.ticks(1)
-    open_rig.pass_time(EXPIRY_S)
+    open_rig.pass_time(LINK_GRACE_S)
     open_rig.ticks(1)
     assert [claimant.reply.accepted for claimant in claimants] == [True, False]
 
@@ -156,7 +156,7 @@ def test_an_agent_whose_robot_was_claimed_meanwhile_does_not_get_it_back(open_ri
     first.bus.declare_alive(PresenceKind.SESSION, first.session)
     first.claim()
     open_rig.ticks(1)
-    open_rig.pass_time(EXPIRY_S)
+    open_rig.pass_time(LINK_GRACE_S)
     open_rig.ticks(1)
     assert second.reply.accepted
     assert first.reply.reason == "cyan1 has an agent already: process 2 on lab3"
@@ -166,7 +166,7 @@ def test_a_claim_without_a_session_is_refused(open_rig):
     agent = Claimant(open_rig, "cyan1", 1)
     agent.bus.withdraw_alive(PresenceKind.SESSION, agent.session)
     open_rig.ticks(1)
-    open_rig.pass_time(EXPIRY_S)
+    open_rig.pass_time(LINK_GRACE_S)
     open_rig.ticks(1)
     assert agent.reply.reason == "the liveliness token alive/session/s1 is missing; declare it before the claim"
 
@@ -175,7 +175,7 @@ def test_a_robot_with_an_agent_that_makes_no_claims_is_not_given_to_another(open
     plain = open_rig.join("cyan1")
     agent = Claimant(open_rig, "cyan1", 1)
     open_rig.ticks(1)
-    open_rig.pass_time(EXPIRY_S)
+    open_rig.pass_time(LINK_GRACE_S)
     open_rig.ticks(1)
     assert agent.reply.reason == "cyan1 has an agent already, which has made no claim"
     assert plain.runner.answered == 2
