@@ -4,6 +4,7 @@ import os
 import secrets
 import socket
 
+from robot_agent.timing import CLAIM_REPLY_S
 from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, NoReplyError, PresenceKind, RefusedQueryError
 from schemas.errors import TouchlineError
@@ -13,9 +14,6 @@ from schemas.process.installed import installed_version
 from schemas.side import Side
 from schemas.tokens import SESSION_SEPARATOR
 from schemas.topics import ROBOT_CLAIM
-
-_REPLY_S = 4.0
-"""Wall time that one query stays open: the host replies at once, or after the link of an earlier agent has expired."""
 
 
 class Membership:
@@ -85,11 +83,11 @@ class Membership:
 
     def _ask(self, patience: float) -> AgentClaimReply:
         clock = self._bus.clock
-        deadline = clock.now() + max(patience, _REPLY_S)
+        deadline = clock.now() + max(patience, CLAIM_REPLY_S)
         while True:
             try:
-                query = self._bus.query(ROBOT_CLAIM, self._claim, timeout=_REPLY_S, robot=self._key)
-                reply: AgentClaimReply = query.result(_REPLY_S + 0.5)
+                query = self._bus.query(ROBOT_CLAIM, self._claim, timeout=CLAIM_REPLY_S, robot=self._key)
+                reply: AgentClaimReply = query.result(CLAIM_REPLY_S + 0.5)
             except RefusedQueryError as error:
                 raise TouchlineError(f"{self._claim.robot}: refused by the host: {error}") from None
             except NoReplyError as error:

@@ -8,6 +8,7 @@ from robot_agent.brain_reload import BrainReload
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain
 from robot_agent.settings import FIRST_SIGHT_FAILED
+from robot_agent.timing import IDLE_S, SETUP_REPLY_S
 from schemas.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
@@ -17,11 +18,6 @@ from schemas.messages.sight import Sight
 from schemas.process.process_log import Level, log_line
 from schemas.topics import COMMAND, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
-
-_IDLE = 0.25
-"""s without a sight after which the host is looked for."""
-_ASK = 1.0
-"""s that one query for the setup stays open."""
 
 
 class Runner:
@@ -122,7 +118,7 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
     deadline = clock.now() + patience
     while True:
         try:
-            setup: Setup = bus.query(SETUP, SetupRequest(), timeout=_ASK).result(_ASK + 0.5)
+            setup: Setup = bus.query(SETUP, SetupRequest(), timeout=SETUP_REPLY_S).result(SETUP_REPLY_S + 0.5)
         except (RefusedQueryError, BadMessageError) as error:
             raise TouchlineError(f"match {bus.match}: refused by the host: {error}") from None
         except NoReplyError as error:
@@ -170,7 +166,7 @@ def serve(
     gc.freeze()
     is_new_match = False
     while True:
-        sight = runner.next_sight(_IDLE)
+        sight = runner.next_sight(IDLE_S)
         is_new_match = host.update() or is_new_match
         if sight is not None and not is_new_match:
             changed = reload.before(sight, setup) if reload is not None else None

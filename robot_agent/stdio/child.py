@@ -16,15 +16,12 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 
 from robot_agent.stdio.lines import Line, LineSplitter
+from robot_agent.timing import OWN_SIGNAL_S, PROGRAM_ENDS_S
 from schemas.messages.command import Command
 from schemas.process import leash
 
 _CHUNK = 65_536
 """Bytes of one read."""
-_END_S = 0.5
-"""Wall time for the program to end after its input has ended, and again after SIGTERM."""
-_OWN_SIGNAL_S = 0.3
-"""Wall time in which a signal that has ended the program interrupts this process, too, where it was sent to both."""
 _NOT_PASSED = ("TOUCHLINE_CONNECT", "TOUCHLINE_LAUNCH_TOKEN", "TOUCHLINE_CREDENTIALS")
 """Variables of the environment that the program has no use for: secrets of the network among them."""
 
@@ -87,9 +84,9 @@ class Child:
 
     def ending(self) -> str:
         """How the program ended whose output has ended: `ended with status 3`."""
-        select.poll().poll(_OWN_SIGNAL_S * 1e3)
+        select.poll().poll(OWN_SIGNAL_S * 1e3)
         try:
-            status = self._popen.wait(_END_S)
+            status = self._popen.wait(PROGRAM_ENDS_S)
         except subprocess.TimeoutExpired:
             return "closed its standard output"
         if status < 0:
@@ -105,7 +102,7 @@ class Child:
             if number is not None:
                 self._popen.send_signal(number)
             with suppress(subprocess.TimeoutExpired):
-                self._popen.wait(_END_S if number is not signal.SIGKILL else None)
+                self._popen.wait(PROGRAM_ENDS_S if number is not signal.SIGKILL else None)
                 break
         self._out.close()
         self.has_ended = True

@@ -1,7 +1,7 @@
 """A robot that is a program of lines: a sight in, a command out, one at a time.
 
 The program has at most one sight that it has not answered, and then the newest: what it does not read in time is
-never sent. After `SILENCE_S` without an answer it gets the newest sight, if it has read the one before.
+never sent. After `PROGRAM_SILENT_S` without an answer it gets the newest sight, if it has read the one before.
 """
 
 import shlex
@@ -13,6 +13,7 @@ from robot_agent.contract import Briefing
 from robot_agent.stdio.answers import NOT_COMMANDS, AnswerFault, Expected, judge
 from robot_agent.stdio.child import Child
 from robot_agent.stdio.fault_counts import FaultCounts
+from robot_agent.timing import ACT_S, IDLE_S, PROGRAM_SILENT_S, REPORT_S
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
@@ -21,14 +22,6 @@ from schemas.process.process_log import Level, log_line
 from schemas.wire.message import VERSION
 from schemas.wire.struct import encode
 
-SILENCE_S = 1.0
-"""Wall time without an answer after which the program counts as silent, and may get a newer sight."""
-SLICE_S = 0.25
-"""Longest wait of one exchange: the caller polls its host between two."""
-ACT_PATIENCE_S = 30.0
-"""Wall time for an answer in a match in one process, which waits for each robot."""
-_REPORT_S = 0.05
-"""Wall time between two lines without a command that are sent to the host, which limits a flood of them."""
 _MOST_GIVEN_UP = 100
 """Newest sights without an answer that are remembered, to recognize a late answer."""
 
@@ -86,7 +79,7 @@ class StdioProgram:
         self._next_report = 0.0
         self._answered: int | None = None
 
-    def exchange(self, sight: Sight, wait: float = SLICE_S, patience: float = SILENCE_S) -> Exchange:
+    def exchange(self, sight: Sight, wait: float = IDLE_S, patience: float = PROGRAM_SILENT_S) -> Exchange:
         """Give the program a sight unless it still owes an answer; wait up to `wait` s for its answer.
 
         After `patience` s without an answer it counts as silent. An invalid answer to the awaited sight is replaced by
@@ -118,19 +111,19 @@ class StdioProgram:
         """The command for a sight, which is waited for.
 
         Raises:
-            TouchlineError: the program has ended, or does not answer for `ACT_PATIENCE_S`.
+            TouchlineError: the program has ended, or does not answer for `ACT_S`.
         """
-        deadline = self._clock.now() + ACT_PATIENCE_S
+        deadline = self._clock.now() + ACT_S
         while self._clock.now() < deadline:
             try:
-                found = self.exchange(sight, patience=ACT_PATIENCE_S)
+                found = self.exchange(sight, patience=ACT_S)
             except ProgramEndedError as error:
                 raise TouchlineError(f"{self._robot}: {error}") from None
             if found.answer is not None and found.tick == sight.tick:
                 return Command.decode(found.answer)
         raise TouchlineError(
             f"{self._robot}: the program `{self._name}` does not answer the sight of tick {sight.tick} "
-            f"within {ACT_PATIENCE_S:g} s"
+            f"within {ACT_S:g} s"
         )
 
     def close(self) -> None:
@@ -172,7 +165,7 @@ class StdioProgram:
             if verdict.fault is not None:
                 self._count(verdict.fault, f"wrote {verdict.reason}")
             if verdict.fault in NOT_COMMANDS and self._clock.now() >= self._next_report:
-                self._next_report = self._clock.now() + _REPORT_S
+                self._next_report = self._clock.now() + REPORT_S
                 others.append(line.content)
             if verdict.ends_wait and self._awaited is not None:
                 answer = (verdict.command or Command(answers_tick=self._awaited)).encode()

@@ -78,7 +78,7 @@ def test_its_figures_are_those_of_the_code(text: str) -> None:
     assert f"send {profile.radio.budget / 1e6:g} Mbit/s" in text
     assert (profile.radio.delay, profile.radio.jitter, profile.radio.loss) == (0.02, 0.02, 0.01)
     assert f"at most {Sight.max_bytes:,} bytes" in text
-    assert f"for {program.SILENCE_S:g} s; …" in text
+    assert f"for {program.PROGRAM_SILENT_S:g} s; …" in text
 
 
 def test_every_fault_of_a_program_stands_in_its_table(text: str) -> None:

@@ -149,7 +149,7 @@ def stage(setup, monkeypatch):
         return answer
 
     monkeypatch.setattr(robot, "query", query)
-    monkeypatch.setattr("robot_agent.runner._IDLE", 0.0)
+    monkeypatch.setattr("robot_agent.runner.IDLE_S", 0.0)
     return host, robot
 
 

@@ -3,6 +3,7 @@
 Brains are built in processes of their own, one for each team, as the robots of the match will build them.
 """
 
+import math
 import signal
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
@@ -24,13 +25,8 @@ from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.run_folder import RUNS
 from touchline.launch.supervisor import ending
 from touchline.launch.team_error import TeamError
+from touchline.timing import BUILD_NOTICE_S, BUILD_S
 
-NOTICE_S = 3.0
-"""Wall time after which a wait for brains is reported."""
-LEAST_PATIENCE_S = 10.0
-"""Wall time for a brain to be built where the match file allows less."""
-_END_S = 5.0
-"""Wall time for a killed process to end."""
 _FAULT = "touchline: brain is "
 """What the line of a faulty brain begins with."""
 
@@ -98,7 +94,7 @@ class _BuildCheck:
         self.side = side
         self._key = f"teams.{side.value}.brain"
         self._brain = config.team(side).brain
-        self._patience = max(config.patience.attendance, LEAST_PATIENCE_S) * max(len(config.robots(side)), 1)
+        self._patience = max(config.patience.attendance, BUILD_S) * max(len(config.robots(side)), 1)
         beside = brain_folder.absolute() if brain_folder is not None else None
         settings = BuildCheckSettings(config=config, side=side, brain_folder=beside, launch_folder=Path.cwd())
         file = folder / f"{side.value}.json"
@@ -124,7 +120,7 @@ class _BuildCheck:
         Raises:
             TouchlineError: a brain cannot be built, or takes too long.
         """
-        status = self._process.wait(NOTICE_S, self._clock)
+        status = self._process.wait(BUILD_NOTICE_S, self._clock)
         if status is None:
             report(f"waiting for {self._brain} to be built")
             status = self._process.wait(self._patience, self._clock)
@@ -146,4 +142,4 @@ class _BuildCheck:
     def end(self) -> None:
         """End the process and all it started."""
         self._process.send(signal.SIGKILL)
-        self._process.wait(_END_S, self._clock)
+        self._process.wait(math.inf, self._clock)

@@ -18,13 +18,12 @@ from schemas.process.process_log import message_of
 from touchline.launch.bubblewrap import run_as
 from touchline.launch.fork_server import ROBOTS
 from touchline.launch.process_table import Process
+from touchline.timing import WATCH_S
 
 if TYPE_CHECKING:
     from robot_agent.forks import ForkRequest
 
 _TAIL_BYTES = 8192
-_POLL_S = 0.01
-"""Wall time between two looks whether a process has ended."""
 _SIGNAL_IN_BUBBLEWRAP = 128
 """bwrap ends with this and the number of the signal that ended its program."""
 _SIGNALS_OF_LIMITS = {-signal.SIGXCPU: "cpu_time", -signal.SIGXFSZ: "file_size"}
@@ -57,7 +56,7 @@ class ChildProcess:
         """Exit status; None if it still runs after this wall time in s."""
         deadline = clock.now() + seconds
         while self.status() is None and clock.now() < deadline:
-            clock.sleep_until(clock.now() + _POLL_S)
+            clock.sleep_until(clock.now() + WATCH_S)
         return self.status()
 
     def status(self) -> int | None:

@@ -32,24 +32,16 @@ from touchline.launch.result import MatchResult
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.launch.team_error import TeamLeftError
+from touchline.timing import LAST_MESSAGES_S, PAGE_CLOSES_S, POLL_S, WATCH_S
 from touchline.watch.screen import Screen
 
 if TYPE_CHECKING:
     from coach_gateway.web.protocol import ResultUpdate
 
-_POLL = 0.05
-"""Wall time between polls of processes and bus, s."""
-_LOOK = 0.01
-"""Wall time between two looks for the announcement of a host that is starting, s."""
-_LAST_MESSAGES = 5.0
-"""Wall time for the host's last messages to arrive after its process has ended, s. They have all arrived when the link
-closes, and it closes with the process: only an overloaded machine takes long."""
 _WRONG_INPUT = 2
 _AFTER_THE_RESULT = frozenset({ProcessKind.PAGE})
 """Processes that go on after the match, until the page with its result is closed."""
 _NONE: frozenset[ProcessKind] = frozenset()
-_FIRST_LOOK = 1.0
-"""Wall time in which a page's server that has the result ends if no page is open, s."""
 
 
 class InterruptedMatchError(Exception):
@@ -137,9 +129,9 @@ class MatchRun:
         with StopSignals() as stop:
             for part in result:
                 write_result(self._plan.result_folder, part)
-                if not self._page_is_open(stop, _FIRST_LOOK):
+                if not self._page_is_open(stop, PAGE_CLOSES_S):
                     break
-            while self._page_is_open(stop, _POLL):
+            while self._page_is_open(stop, POLL_S):
                 pass
             self._supervisor.end(AT_ONCE)
 
@@ -167,7 +159,7 @@ class MatchRun:
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
                 return True
-            self._clock.sleep_until(self._clock.now() + _LOOK)
+            self._clock.sleep_until(self._clock.now() + WATCH_S)
         return False
 
     def _follow(self, stop: StopSignals) -> MatchFollower | None:
@@ -179,10 +171,10 @@ class MatchRun:
             follower = MatchFollower(bus)
             while self._poll_processes(stop):
                 self._match_screen.update(follower)
-                self._clock.sleep_until(self._clock.now() + _POLL)
-            deadline = self._clock.now() + _LAST_MESSAGES
+                self._clock.sleep_until(self._clock.now() + POLL_S)
+            deadline = self._clock.now() + LAST_MESSAGES_S
             while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
-                self._clock.sleep_until(self._clock.now() + _POLL / 10)
+                self._clock.sleep_until(self._clock.now() + WATCH_S)
             self._match_screen.update(follower)
         return follower
 
@@ -193,7 +185,7 @@ class MatchRun:
                 credentials = self._plan.credentials_of(Account.VIEWER)
                 return open_client(self._plan.config.name, self._clock, self._plan.connect, 0.0, credentials)
             except BusError:
-                self._clock.sleep_until(self._clock.now() + _POLL)
+                self._clock.sleep_until(self._clock.now() + POLL_S)
         return None
 
     def _poll_processes(self, stop: StopSignals) -> bool:

@@ -14,6 +14,7 @@ from schemas.config.settings_file import WRONG
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from touchline.launch.process_table import Process, ProcessKind
+from touchline.timing import WATCH_S
 
 
 class RunningProcess(Protocol):
@@ -81,7 +82,6 @@ AT_ONCE = (
 )
 """Interrupted: the host ends first, the recorder has most of the time to finish its file; two seconds in all."""
 
-_POLL = 0.02
 _LEFT_EARLY = "ended with status 0 before the match was over; a robot's program runs until it receives SIGTERM"
 
 
@@ -179,7 +179,7 @@ class Supervisor:
             waiting = [step for step in waiting if step not in due]
             for step in due:
                 self._signal(step, keep)
-            self._clock.sleep_until(self._clock.now() + _POLL)
+            self._clock.sleep_until(self._clock.now() + WATCH_S)
 
     def _still_running(self, keep: frozenset[ProcessKind]) -> bool:
         for name in self._running:

@@ -25,11 +25,9 @@ from touchline.launch.robot_process import robot_process
 from touchline.launch.stop_signals import StopSignals
 from touchline.launch.supervisor import AT_ONCE, Supervisor
 from touchline.launch.team_code import team_program
+from touchline.timing import POLL_S
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
-
-_POLL_S = 0.05
-"""Wall time between two polls of the processes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +89,7 @@ class TeamRun:
                 self._screen.event(f"{', '.join(self._robots)} started; logs are in {self._plan.folder}", notable=True)
                 while stop.received is None and not self._has_ended(follower):
                     self._show(follower)
-                    self._clock.sleep_until(self._clock.now() + _POLL_S)
+                    self._clock.sleep_until(self._clock.now() + POLL_S)
             finally:
                 self._supervisor.end(AT_ONCE)
         self._report_end(follower, interrupted=stop.received is not None)

@@ -1,0 +1,16 @@
+"""The times of the launcher, in s of wall time, each with its reason."""
+
+POLL_S = 0.05
+"""Between two looks at the processes of a match and at its bus: two and a half ticks."""
+WATCH_S = 0.01
+"""Between two looks for something that comes or ends at any moment, such as a host that starts."""
+LAST_MESSAGES_S = 5.0
+"""For the host's last messages after its process has ended: the link closes with them, but a busy machine is late."""
+PAGE_CLOSES_S = 1.0
+"""After which the server of a page ends if it has a result and no page is open."""
+BUILD_NOTICE_S = 3.0
+"""After which a wait for brains that are built is reported."""
+BUILD_S = 10.0
+"""For a brain to be built where the match file allows less."""
+BUBBLEWRAP_S = 20.0
+"""For bwrap to start a program that does nothing, on a busy machine."""
