@@ -15,10 +15,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from schemas.config.match_config import load_match
-from touchline.matches.engine.child_processes import cores
-from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
+from touchline.matches.engine.play_list import play_list
+from touchline.matches.series.match_row import FailedMatch, MatchRow, rows_of
 from touchline.matches.series.plan import SeriesPlan, plan_series
-from touchline.matches.series.play_series import play_series
 from touchline.matches.series.summary import summary_of
 from touchline.matches.series.table import figure_rows, longest_lines
 from touchline.matches.series.team_names import brain_of
@@ -87,8 +86,11 @@ def main() -> int:
     played = f"{options.matches} matches of {options.duration:g} s a pairing, sides swapped"
     print(f"{played}, rules {RULES}, default noise; in brackets: intervals of 95 %\n", flush=True)
     for name in options.pairings:
-        plan, ended = plan_of(PAIRINGS[name], options), list[Row]()
-        play_series(plan, options.jobs or cores(), ended.append)
+        plan = plan_of(PAIRINGS[name], options)
+        played = play_list(
+            [one.planned for one in plan.matches], options.jobs, name, lambda one, _: one.label, json=False
+        )
+        ended = rows_of(plan, played.outcomes)
         rows = [row for row in ended if isinstance(row, MatchRow)]
         for row in ended:
             if isinstance(row, FailedMatch):

@@ -27,13 +27,15 @@ from typing import Any
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.topics import APPLIED
-from touchline.matches.engine.child_processes import ChildProcesses, Poll, cores
+from sim_host.match.simulation import TickResult
+from touchline.matches.engine.fresh_process import FreshProcesses, cores
 from touchline.matches.engine.outcome import Outcome, Played
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.play import play
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import RunStore
+from touchline.play import InProcessMatch
 
 MOST_OVERHEAD_S = {Way.IN_PROCESS: 0.1, Way.PROCESSES: 1.5}
 LEAST_SPEED_UP = 1.8
@@ -75,7 +77,7 @@ class Log:
         self.memory.append(memory_mb())
 
 
-class TimedProcesses(ChildProcesses):
+class TimedProcesses(FreshProcesses):
     """Child processes that note the instants of their matches in a folder."""
 
     def __init__(self, jobs: int, folder: Path) -> None:
@@ -91,22 +93,26 @@ class TimedProcesses(ChildProcesses):
         return Timing(**json.loads((self.folder / planned.identity).read_text()))
 
 
-def timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMatch, poll: Poll) -> Any:
+def timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMatch, note: Path) -> Any:
     """Play a match, and note its instants."""
     first: list[float] = []
     last = [0.0, 0.0]
 
-    def tick() -> None:
+    step = InProcessMatch.step
+
+    def timed_step(match: InProcessMatch) -> TickResult:
+        tick = step(match)
         last[:] = time.time(), time.process_time()
         if not first:
             first[:] = last
-        poll()
+        return tick
 
-    delivery = play_planned(planned, tick)
+    InProcessMatch.step = timed_step  # type: ignore[assignment, method-assign]
+    outcome = play_planned(planned, note)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
     timing = Timing(first[0], last[0], first[1], last[1], time.process_time(), memory)
     (Path(folder) / planned.identity).write_text(json.dumps(asdict(timing)))
-    return delivery
+    return outcome
 
 
 def memory_mb() -> float:
@@ -158,12 +164,12 @@ class TreeTimedProcesses(TimedProcesses):
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call the function of a planned match."""
-        return ChildProcesses.submit(self, tree_timed, fn, str(self.folder), *args, **kwargs)
+        return FreshProcesses.submit(self, tree_timed, fn, str(self.folder), *args, **kwargs)
 
 
-def tree_timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMatch, poll: Poll) -> Any:
+def tree_timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMatch, note: Path) -> Any:
     """Play a match, and note the CPU time of all its processes."""
-    delivery = play_planned(planned, poll)
+    outcome = play_planned(planned, note)
     ended = resource.getrusage(resource.RUSAGE_CHILDREN)
     running = 0.0
     for child in Path("/proc/self/task").glob("*/children"):
@@ -171,7 +177,7 @@ def tree_timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMa
             fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
             running += sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")  # its own, and of its children
     (Path(folder) / planned.identity).write_text(str(time.process_time() + ended.ru_utime + ended.ru_stime + running))
-    return delivery
+    return outcome
 
 
 def _over_zenoh(config: MatchConfig, executor: TimedProcesses) -> tuple[float, float, float, float, float]:

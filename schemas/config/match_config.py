@@ -4,7 +4,6 @@
 is self-contained.
 """
 
-import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
@@ -35,7 +34,7 @@ from schemas.config.rule_book import RuleBook, load_rule_book, rule_book_of
 from schemas.config.scene import REMEDIES as SCENE_REMEDIES
 from schemas.config.scene import Scene, load_scene
 from schemas.config.settings import DEFAULT_MATCH
-from schemas.config.toml_file import validate_tables
+from schemas.config.toml_file import read_tables, validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import OfficiatingMode
 from schemas.side import Side
@@ -233,14 +232,7 @@ def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None)
         TouchlineError: one line that names file, key, value and remedy.
     """
     where = str(path) if path is not None else "match"
-    content: dict[str, Any] = {}
-    if path is not None:
-        try:
-            content = tomllib.loads(Path(path).read_text("utf-8"))
-        except OSError as error:
-            raise TouchlineError(f"{path}: {error.strerror}; give the path of a match file") from None
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise TouchlineError(f"{path}: not TOML: {error}") from None
+    content = read_tables(Path(path), "a match file") if path is not None else {}
     for key, value in (overrides or {}).items():
         _set_at_path(content, key.split("."), value)
         if value is True and key in _REMOTE_KEYS:

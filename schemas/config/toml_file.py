@@ -2,7 +2,9 @@
 
 import json
 import re
+import tomllib
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -11,6 +13,20 @@ from schemas.errors import TouchlineError
 from schemas.wire.faults import fault_of
 
 M = TypeVar("M", bound=BaseModel)
+
+
+def read_tables(path: Path, kind: str) -> dict[str, Any]:
+    """The content of a TOML file; `kind` says what it should be: `a match file`.
+
+    Raises:
+        TouchlineError: there is no such file, or it is not TOML.
+    """
+    try:
+        return tomllib.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise TouchlineError(f"{path}: {error.strerror}; give the path of {kind}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise TouchlineError(f"{path}: not TOML: {error}") from None
 
 
 def validate_tables(model: type[M], content: Mapping[str, Any], where: str, remedies: Mapping[str, str]) -> M:

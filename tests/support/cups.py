@@ -5,7 +5,7 @@ from pathlib import Path
 from touchline.matches.cup.cup_config import load_cup
 from touchline.matches.cup.cup_state import CupState
 from touchline.matches.cup.run_cup import CupRun
-from touchline.matches.engine.child_processes import ChildProcesses
+from touchline.matches.engine.fresh_process import FreshProcesses
 
 CUP = """
 name = "mini"
@@ -40,7 +40,7 @@ class ShownLines:
 
 def play(run: CupRun, jobs: int, progress: ShownLines | None = None) -> CupState:
     """Play a cup in processes of this machine."""
-    executor = ChildProcesses(jobs)
+    executor = FreshProcesses(jobs)
     try:
         return run.play(executor, progress or ShownLines())
     finally:

@@ -4,7 +4,6 @@ import dataclasses
 import json as json_text
 import signal
 from collections import Counter
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,10 +12,12 @@ import typer
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.errors import FAILED
-from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
-    from touchline.matches.drill.play_drill import DrillRow, PlannedDrill
+    from touchline.matches.engine.outcome import Outcome
+    from touchline.matches.engine.planned_match import PlannedMatch
+    from touchline.matches.judging.judge import Verdict
+    from touchline.matches.statistics.estimates import Estimate
 
 
 def drill(
@@ -45,36 +46,20 @@ def drill(
     Example: touchline drill one_against_keeper --brain simple --seeds 1-50
     """
     options.need_pybullet()
-    from touchline.matches.drill.play_drill import play_drills
-    from touchline.matches.engine.child_processes import cores
-    from touchline.matches.engine.progress import progress_of
+    from touchline.matches.engine.play_list import play_list
 
-    if jobs < 0:
-        raise TouchlineError(f"--jobs is {jobs}; give a number of drills at a time, or 0 for one per core")
     settings = {key: value for key, value in {"profile": profile, "rules": rules}.items() if value is not None}
     planned = _plan(scene, brain, opponents, seeds, settings | options.settings_of(change or []))
-    rows: list[DrillRow] = []
-    interrupted = False
-    try:
-        with (
-            sigterm_interrupts(),
-            closing(play_drills(planned, jobs or cores())) as played,
-            progress_of(len(planned), scene, at_once=jobs or cores(), json=json) as progress,
-        ):
-            for row in played:
-                rows.append(row)
-                progress.ended(_sentence(row), failed=row.verdict is None)
-    except KeyboardInterrupt:
-        interrupted = True
-    rows.sort(key=lambda row: row.seed)
-    _print(scene, rows, len(planned), json=json)
-    if interrupted:
+    played = play_list(planned, jobs, scene, _sentence, json=json)
+    ended = [(one, played.outcomes[one.identity]) for one in planned if one.identity in played.outcomes]
+    _print(scene, ended, len(planned), json=json)
+    if played.is_interrupted:
         raise typer.Exit(128 + signal.SIGINT)
-    if any(row.verdict is None for row in rows):
+    if any(_verdict(outcome) is None for _, outcome in ended):
         raise typer.Exit(FAILED)
 
 
-def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str, object]) -> "list[PlannedDrill]":
+def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str, object]) -> "list[PlannedMatch]":
     """One drill for each seed; the teams are built once, so that an error is reported before the first.
 
     Raises:
@@ -82,7 +67,7 @@ def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str
     """
     from schemas.config.scene import load_scene, shipped_scenes
     from touchline.matches.drill.drill_match import drill_match
-    from touchline.matches.drill.play_drill import PlannedDrill
+    from touchline.matches.engine.planned_match import PlannedMatch
     from touchline.matches.series.seeds import seeds_of
     from touchline.matches.series.team_names import brain_of
     from touchline.play import InProcessMatch
@@ -94,28 +79,46 @@ def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str
     side = loaded.drill.side
     teams = {side: brain_of(brain), side.opponent: brain_of(opponents)}
     folder = Path(scene).parent if scene.endswith(".toml") else None
-    planned = [PlannedDrill(drill_match(loaded, seed, teams, settings), folder) for seed in seeds_of(seeds)]
+    planned = [
+        PlannedMatch(drill_match(loaded, seed, teams, settings), brain_folder=folder, is_drill=True)
+        for seed in seeds_of(seeds)
+    ]
     InProcessMatch(planned[0].config, brain_folder=folder).close()
     return planned
 
 
-def _sentence(row: "DrillRow") -> str:
-    if row.verdict is None:
-        return f"seed {row.seed}: not played: {row.reason}"
-    kind = "success" if row.verdict.success else "failure"
-    return f"seed {row.seed}: {kind}, {row.verdict.because} after {row.verdict.time:.1f} s"
+def _verdict(outcome: "Outcome") -> "Verdict | None":
+    from touchline.matches.engine.outcome import Played
+
+    return outcome.verdict if isinstance(outcome, Played) else None
 
 
-def _print(scene: str, rows: "list[DrillRow]", planned: int, *, json: bool) -> None:
-    from touchline.matches.series.intervals import share
+def _reason(outcome: "Outcome") -> str:
+    """Why a drill was not played."""
+    return "" if _verdict(outcome) is not None else getattr(outcome, "reason", "the match ended before the drill")
 
-    verdicts = [row.verdict for row in rows if row.verdict is not None]
+
+def _sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
+    verdict = _verdict(outcome)
+    if verdict is None:
+        return f"seed {planned.seed}: not played: {_reason(outcome)}"
+    kind = "success" if verdict.success else "failure"
+    return f"seed {planned.seed}: {kind}, {verdict.because} after {verdict.time:.1f} s"
+
+
+def _print(scene: str, ended: "list[tuple[PlannedMatch, Outcome]]", planned: int, *, json: bool) -> None:
+    from touchline.matches.statistics.estimates import share
+
+    verdicts = [verdict for _, outcome in ended if (verdict := _verdict(outcome)) is not None]
     score = sum(verdict.success for verdict in verdicts)
     estimate = share(score, len(verdicts))
     if json:
-        drills = [dataclasses.asdict(row) for row in rows]
-        interval = dataclasses.asdict(estimate) if estimate is not None else None
-        typer.echo(json_text.dumps({"scene": scene, "planned": planned, "score": interval, "drills": drills}))
+        drills = [
+            {"seed": one.seed, "verdict": _plain(_verdict(outcome)), "reason": _reason(outcome)}
+            for one, outcome in ended
+        ]
+        content = {"scene": scene, "planned": planned, "score": _plain(estimate), "drills": drills}
+        typer.echo(json_text.dumps(content))
         return
     if estimate is not None and estimate.low is not None and estimate.high is not None:
         interval_text = f"{100 * estimate.value:.0f} % ({100 * estimate.low:.0f} to {100 * estimate.high:.0f} %)"
@@ -125,8 +128,12 @@ def _print(scene: str, rows: "list[DrillRow]", planned: int, *, json: bool) -> N
         times = [one.time for one in verdicts if one.because == because]
         mean = sum(times) / len(times)
         typer.echo(f"  {'failure' if failed else 'success'}  {because}  {count}, on average after {mean:.1f} s")
-    for row in rows:
-        if row.verdict is None:
-            typer.echo(_sentence(row), err=True)
-    if len(rows) < planned:
-        typer.echo(f"{planned - len(rows)} not played")
+    for one, outcome in ended:
+        if _verdict(outcome) is None:
+            typer.echo(_sentence(one, outcome), err=True)
+    if len(ended) < planned:
+        typer.echo(f"{planned - len(ended)} not played")
+
+
+def _plain(part: "Verdict | Estimate | None") -> dict[str, object] | None:
+    return dataclasses.asdict(part) if part is not None else None

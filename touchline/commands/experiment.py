@@ -19,7 +19,6 @@ from touchline.cli.interrupts import sigterm_interrupts
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome
     from touchline.matches.engine.planned_match import PlannedMatch
-    from touchline.matches.engine.verify import MatchCheck
 
 NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
 _DEFAULT = "run"
@@ -101,7 +100,7 @@ def run(
         _stoppable(folder),
     ):
         reporter = ProgressReporter(progress, _match_sentence)
-        result = run_study(plan, folder, chosen.executor, reporter, fresh=fresh, remote=chosen.remote)
+        result = run_study(plan, folder, chosen.executor, reporter, fresh=fresh, is_remote=chosen.is_remote)
     failed = result.failed
     stored = read_study(folder)
     responses = [name for name in study.responses if name in stored.table]
@@ -180,23 +179,13 @@ def _check(
 
     from touchline.matches.engine.executors.chosen_executor import chosen_executor
     from touchline.matches.engine.progress import progress_of
-    from touchline.matches.study.study_folder import read_study
     from touchline.matches.study.verify_study import verify_study
 
-    stored = read_study(folder)
-    planned = len({match.identity for match in stored.plan.matches(stored.seeds)})
     with (
         chosen_executor(jobs, None) as chosen,
-        progress_of(
-            planned if sample is None else min(sample, planned), folder.name, at_once=chosen.at_once, json=json
-        ) as progress,
+        progress_of(0, folder.name, at_once=chosen.at_once, json=json) as progress,
     ):
-
-        def checked(check: "MatchCheck") -> None:
-            sentence = "; ".join((check.label, *check.faults))
-            progress.ended(sentence, failed=bool(check.faults))
-
-        verdict = verify_study(folder, chosen.executor, sample, brains, checked, from_recordings=from_recordings)
+        verdict = verify_study(folder, chosen.executor, sample, brains, progress, from_recordings=from_recordings)
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:

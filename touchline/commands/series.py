@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
-from touchline.cli.interrupts import sigterm_interrupts
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
+    from touchline.matches.engine.outcome import Outcome
+    from touchline.matches.engine.planned_match import PlannedMatch
     from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
     from touchline.matches.series.plan import SeriesPlan
     from touchline.matches.series.summary import Summary
@@ -58,17 +58,13 @@ def series(
     """
     options.need_pybullet()
     options.need_scipy()
-    from touchline.matches.engine.child_processes import cores
-    from touchline.matches.engine.progress import progress_of
-    from touchline.matches.series.match_row import FailedMatch
+    from touchline.matches.engine.play_list import play_list
+    from touchline.matches.series.match_row import row_of, rows_of
     from touchline.matches.series.plan import plan_series, with_brains
-    from touchline.matches.series.play_series import play_series
     from touchline.matches.series.seeds import seeds_of
     from touchline.matches.series.table import sentence_of
     from touchline.matches.series.team_names import brain_of
 
-    if jobs < 0:
-        raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
     named = {"scene": scene, "profile": profile, "rules": rules, **changes}
     settings = {key.replace(".", "__"): value for key, value in options.settings_of(change or []).items()}
     config = options.read_match(file, **settings, **named)
@@ -81,23 +77,14 @@ def series(
         config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None, record=record
     )
     _check(plan)
-    rows: list[Row] = []
-    interrupted = False
-    try:
-        with (
-            sigterm_interrupts(),
-            progress_of(len(plan.matches), " – ".join(plan.teams), at_once=jobs or cores(), json=json) as progress,
-        ):
+    matches = {one.identity: one for one in plan.matches}
 
-            def add(row: "Row") -> None:
-                rows.append(row)
-                progress.ended(sentence_of(row, plan), failed=isinstance(row, FailedMatch))
+    def sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
+        return sentence_of(row_of(0, matches[planned.identity], outcome), plan)
 
-            play_series(plan, jobs or cores(), add)
-    except KeyboardInterrupt:
-        interrupted = True
-    failed = _print(plan, rows, json=json)
-    if interrupted:
+    played = play_list([one.planned for one in plan.matches], jobs, " – ".join(plan.teams), sentence, json=json)
+    failed = _print(plan, rows_of(plan, played.outcomes), json=json)
+    if played.is_interrupted:
         raise typer.Exit(128 + signal.SIGINT)
     if failed:
         raise typer.Exit(FAILED)
@@ -110,7 +97,7 @@ def _check(plan: "SeriesPlan") -> None:
     for swapped in (False, True):
         match = next((one for one in plan.matches if one.swapped is swapped), None)
         if match is not None:
-            InProcessMatch(match.config, brain_folder=match.planned.brain_folder).close()
+            InProcessMatch(match.planned.config, brain_folder=match.planned.brain_folder).close()
 
 
 def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
@@ -119,8 +106,8 @@ def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
     from touchline.matches.series.summary import summary_of
     from touchline.matches.series.table import sentence_of
 
-    rows = sorted((one for one in ended if isinstance(one, MatchRow)), key=lambda one: one.number)
-    failed = sorted((one for one in ended if isinstance(one, FailedMatch)), key=lambda one: one.number)
+    rows = [one for one in ended if isinstance(one, MatchRow)]
+    failed = [one for one in ended if isinstance(one, FailedMatch)]
     summary = summary_of(rows)
     if json:
         parts = {"summary": summary, "matches": rows, "failed": failed}

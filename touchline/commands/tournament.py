@@ -67,6 +67,7 @@ def tournament(
     Example: touchline tournament matches/cup.toml --web
     """
     options.need_pybullet()
+    options.need_scipy()
     if str(file) == VERIFY:
         if folder is None:
             raise TouchlineError("verify needs the folder of a cup: touchline tournament verify runs/cup")
@@ -100,7 +101,7 @@ def tournament(
                     len(state.due), cup.title or cup.name, at_once=chosen.at_once, failed=failed, json=json
                 ) as progress,
             ):
-                state = run.play(chosen.executor, progress, chosen.remote)
+                state = run.play(chosen.executor, progress, is_remote=chosen.is_remote)
         except KeyboardInterrupt:
             interrupted, state = True, run.state
     _print(state, place, json=json)
@@ -113,14 +114,11 @@ def tournament(
 
 def _cup_of(file: Path, until_significant: int | None) -> "CupConfig":
     from touchline.matches.cup.cup_config import SignificanceConfig, load_cup
-    from touchline.matches.cup.ratings import need_scipy
 
     cup = load_cup(file)
     if until_significant is not None:
         changes = {"until_significant": SignificanceConfig(budget=until_significant)}
         cup = type(cup).model_validate(cup.model_copy(update=changes).model_dump())
-    if cup.until_significant is not None:
-        need_scipy("until_significant")
     return cup
 
 

@@ -16,8 +16,8 @@ from schemas.messages.command import Command
 from schemas.messages.game import GameEvent
 from schemas.side import Side
 from sim_host.referee.areas import in_goal_area, in_penalty_area
-from touchline.matches.drill.judge import Verdict
-from touchline.matches.drill.occurrences import Occurrence
+from touchline.matches.judging.judge import Verdict
+from touchline.matches.judging.occurrences import Occurrence
 
 Rectangle = tuple[float, float, float, float]
 """Least x and y, greatest x and y, in m, in the field frame."""

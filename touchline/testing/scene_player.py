@@ -15,12 +15,12 @@ from schemas.messages.command import Command
 from schemas.messages.game import GameEvent
 from schemas.side import Side
 from touchline.matches.drill.drill_match import drill_match
-from touchline.matches.drill.occurrences import Occurrence, OccurrenceTracker
-from touchline.matches.drill.scene_run import run_scene
+from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
 from touchline.matches.series.team_names import brain_of
 from touchline.play import BrainSource, InProcessMatch
 from touchline.testing.facts import Facts
 from touchline.testing.runs import Runs
+from touchline.testing.scene_run import run_scene
 
 DEFAULT_SECONDS = 10.0
 """Time in s for which a scene is played that has no verdict, if none is given."""

@@ -6,7 +6,7 @@ import pytest
 from schemas.config.profile import load_profile
 from schemas.game import Score
 from schemas.side import Side
-from touchline.matches.drill.occurrences import Occurrence
+from touchline.matches.judging.occurrences import Occurrence
 from touchline.testing import Facts, Runs
 
 

@@ -1,6 +1,5 @@
 """The cup file: one frozen `CupConfig` from TOML, with errors that name file, key, value and remedy."""
 
-import tomllib
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
@@ -10,7 +9,7 @@ from pydantic import Field, field_validator, model_validator
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import DEFAULT_SIZE
 from schemas.config.roster import MAX_ROBOTS
-from schemas.config.toml_file import validate_tables
+from schemas.config.toml_file import read_tables, validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.message import Name, Part
 from touchline.matches.cup.formats.swiss import most_rounds
@@ -220,13 +219,7 @@ def load_cup(path: Path) -> CupConfig:
     Raises:
         TouchlineError: one line that names file, key, value and remedy.
     """
-    try:
-        content = tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise TouchlineError(f"{path}: {error.strerror}; give the path of a cup file") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise TouchlineError(f"{path}: not TOML: {error}") from None
-    cup = validate_tables(CupConfig, content, str(path), REMEDIES)
+    cup = validate_tables(CupConfig, read_tables(path, "a cup file"), str(path), REMEDIES)
     try:
         cup.match_config()
     except TouchlineError as error:

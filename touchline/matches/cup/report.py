@@ -5,23 +5,23 @@ from typing import Any
 
 from touchline.matches.cup.cup_state import CupMatch, CupState, MatchState
 from touchline.matches.cup.match_result import score_text
-from touchline.matches.cup.ratings import Ratings, is_available, rate
 from touchline.matches.cup.site import signed
 from touchline.matches.series.table import aligned
+from touchline.matches.statistics.ratings import rate
 
 
 def report_of(state: CupState) -> dict[str, Any]:
     """Tables, matches, ratings and winner."""
-    rated = _rated(state)
+    rated = rate(state.cup.names, state.results)
     return {
         "name": state.cup.name,
         "complete": state.is_complete,
         "winner": state.winner,
         "tables": {stage: [asdict(row) for row in rows] for stage, rows in state.schedule.tables.items()},
         "matches": [_match(one) for one in state.matches],
-        "ratings": [asdict(one) for one in rated.teams] if rated is not None else None,
-        "order": [asdict(one) for one in rated.order] if rated is not None else None,
-        "order_is_significant": rated.significant if rated is not None else None,
+        "ratings": [asdict(one) for one in rated.teams],
+        "order": [asdict(one) for one in rated.order],
+        "order_is_significant": rated.significant,
     }
 
 
@@ -38,19 +38,12 @@ def report_text(state: CupState) -> str:
     for one in state.matches:
         if one.state in (MatchState.FORFEITED, MatchState.FAILED) and one.ended is not None:
             lines.append(f"{one.slot.name} {one.state}: {one.ended.reason}")
-    rated = _rated(state)
-    if rated is not None:
-        cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]
-        sentence = "the order is significant" if rated.significant else "the order is not significant"
-        lines += [*aligned(("", "rating", "interval of 95 %"), cells), sentence, ""]
-    else:
-        lines.append("no ratings: they need scipy; pip install 'touchline[sim]'")
+    rated = rate(state.cup.names, state.results)
+    cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]
+    sentence = "the order is significant" if rated.significant else "the order is not significant"
+    lines += [*aligned(("", "rating", "interval of 95 %"), cells), sentence, ""]
     lines.append(f"winner  {state.winner}" if state.winner is not None else "the cup is not complete")
     return "\n".join(lines)
-
-
-def _rated(state: CupState) -> Ratings | None:
-    return rate(state.cup.names, state.results) if is_available() else None
 
 
 def _numbers(row: Any) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from touchline.matches.cup.site import Site
 from touchline.matches.engine.outcome import Failed, Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import Progress
-from touchline.matches.engine.run import Remote, run_plan
+from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import RunStore
 
 
@@ -52,15 +52,15 @@ class CupRun:
         """How far the cup is."""
         return self.plan.state(self._store.outcomes())
 
-    def play(self, executor: Executor, progress: Progress, remote: Remote | None = None) -> CupState:
+    def play(self, executor: Executor, progress: Progress, *, is_remote: bool = False) -> CupState:
         """Play all matches that have no outcome yet; pages are written after each.
 
-        `remote` is for executors whose workers do not see the folder of the cup.
+        `is_remote`: the workers do not see the folder of the cup.
         """
         reporter = _Reporter(self.plan, self._store.outcomes(), self._site, progress)
         self._site.write(reporter.state, running=True)
         try:
-            run_plan(self.plan, executor, self._store, reporter, remote=remote)
+            run_plan(self.plan, executor, self._store, reporter, is_remote=is_remote)
         finally:
             self._site.write(reporter.state, running=False)
             text = json.dumps(report_of(reporter.state), ensure_ascii=False, indent=1)

@@ -15,9 +15,9 @@ from touchline.matches.cup.cup_config import TeamEntry
 from touchline.matches.cup.cup_state import CupMatch, CupState, Ended, MatchState, Slot
 from touchline.matches.cup.formats.knock_out import name_of, stage_of
 from touchline.matches.cup.match_result import score_text
-from touchline.matches.cup.ratings import Ratings, is_available, rate
 from touchline.matches.cup.standings import Standing
 from touchline.matches.report import page_of, part_of
+from touchline.matches.statistics.ratings import Ratings, rate
 
 REFRESH_S = 4
 """Seconds after which a page of a running cup loads itself again."""
@@ -40,7 +40,7 @@ class Site:
         Raises:
             TouchlineError: the recording of a match is damaged.
         """
-        rated = rate(state.cup.names, state.results) if is_available() else None
+        rated = rate(state.cup.names, state.results)
         for match in state.matches:
             address = match_address(match.slot)
             if match.state is MatchState.DUE:
@@ -96,21 +96,21 @@ def _functions() -> dict[str, Any]:
     return {one.__name__: one for one in functions}
 
 
-def _index_page(state: CupState, rated: Ratings | None, *, running: bool) -> str:
-    """Where the cup stands, tables, bracket, ratings, and all matches; `rated` is None without scipy."""
+def _index_page(state: CupState, rated: Ratings, *, running: bool) -> str:
+    """Where the cup stands, tables, bracket, ratings, and all matches."""
     over = sum(one.state is not MatchState.DUE for one in state.matches)
     title = state.cup.title or state.cup.name
     return _page("index.html", title, running=running, state=state, rated=rated, over=over)
 
 
-def _team_page(state: CupState, team: TeamEntry, digest: str | None, rated: Ratings | None, *, running: bool) -> str:
+def _team_page(state: CupState, team: TeamEntry, digest: str | None, rated: Ratings, *, running: bool) -> str:
     """What a team is, how it stands, and its matches; `digest` is that of its files."""
     rows = [("program", program(team)), ("version", team.version), ("digest of its files", digest or "")]
     for stage, standings in state.schedule.tables.items():
         row = next((one for one in standings if one.team == team.name), None)
         if row is not None:
             rows.append((stage, f"place {row.place} of {len(standings)}, {row.points} points"))
-    rating = next((one for one in rated.teams if one.team == team.name), None) if rated is not None else None
+    rating = next((one for one in rated.teams if one.team == team.name), None)
     if rating is not None and rating.matches:
         rows.append(("rating", f"{signed(rating.value)} ({signed(rating.low)} to {signed(rating.high)})"))
     played = [one for one in state.matches if team.name in one.slot.fixture.teams]

@@ -75,13 +75,12 @@ def verify_cup(
     faults += code_faults
     ticks = 0
     ended = [one for one in matches if one.identity in outcomes]
-    if progress is not None:
-        progress.planned(0, len(ended))
-    for check in verify_run(ended, outcomes, folder, executor, lambda one: Depth(one.identity in again, code=False)):
+    checks = verify_run(
+        ended, outcomes, folder, executor, lambda one: Depth(one.identity in again, code=False), progress
+    )
+    for check in checks:
         faults += [f"{check.label}: {fault}" for fault in check.faults]
         ticks += check.ticks
-        if progress is not None:
-            progress.ended("; ".join((check.label, *check.faults)), failed=bool(check.faults))
     faults += _table_faults(state, folder)
     return CupVerdict(faults, notes, len(again), ticks)
 

@@ -1,7 +1,7 @@
 """A digest of a team's files: whether a team is the one that played before."""
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib.metadata import version
 from pathlib import Path
 
@@ -20,16 +20,18 @@ def code_digest(config: MatchConfig, side: Side, brain_folder: Path | None = Non
     A team that ships or is installed has the digest of this library's version: its files are a part of it.
     """
     team = config.team(side)
-    named = [team.brain or " ".join(team.program or ())]
-    digest = hashlib.blake2b("\0".join(named).encode(), digest_size=16)
+    named = team.brain or " ".join(team.program or ())
     own = team_code(config, side, brain_folder).own
-    if not own:
-        digest.update(version("touchline").encode())
-    for path in own:
+    return files_digest(own, named if own else named + version("touchline"))
+
+
+def files_digest(paths: Iterable[Path], name: str = "") -> str:
+    """One digest of a name, and of files and all that is in folders, with their names."""
+    digest = hashlib.blake2b(name.encode(), digest_size=16)
+    for path in paths:
         for file in _files(path):
             content = file.read_bytes()
-            name = file.relative_to(path.parent).as_posix()
-            digest.update(f"{name}\0{len(content)}\0".encode() + content)
+            digest.update(f"{file.relative_to(path.parent).as_posix()}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()
 
 

@@ -4,6 +4,7 @@ import signal
 import traceback
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, closing, nullcontext
+from dataclasses import replace
 from typing import Any
 
 from recordings.stats.match_tick import match_ticks
@@ -12,11 +13,12 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.match.simulation import Simulation
 from touchline.match_recording import MatchRecording
-from touchline.matches.engine.child_processes import DiedProcessError, Poll
-from touchline.matches.engine.hang_limit import HangLimit, HungError
+from touchline.matches.engine.fresh_process import DiedProcessError
+from touchline.matches.engine.hang_watch import HangWatch
 from touchline.matches.engine.measurement import Measurement
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.judging.judge import Judge
 from touchline.play import InProcessMatch, RobotNotStartedError
 from touchline.tick_messages import TickMessages
 
@@ -24,13 +26,15 @@ TRACEBACK = "traceback.txt"
 """The file with the traceback of a brain, in the folder of a match's logs."""
 _OWN_SIGNALS = frozenset({signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGXCPU})
 """Signals with which a process is ended for what it did itself."""
+_UNKNOWN_STATUS = 255
+"""What multiprocessing takes for the status of a process whose end two of its threads notice at the same time."""
 
 
 class _WatchedMatch(InProcessMatch):
     """A match in which each robot has the whole time of the limit to be built."""
 
-    def __init__(self, planned: PlannedMatch, limit: HangLimit) -> None:
-        self._limit = limit
+    def __init__(self, planned: PlannedMatch, watch: HangWatch) -> None:
+        self._watch = watch
         self._is_built = False
         super().__init__(planned.config, brain_folder=planned.brain_folder)
         self._is_built = True
@@ -38,43 +42,38 @@ class _WatchedMatch(InProcessMatch):
     @property
     def acting(self) -> str | None:
         """The robot whose brain is built or acts."""
-        return self._limit.robot
+        return self._acting
 
     @acting.setter
     def acting(self, robot: str | None) -> None:
-        self._limit.wait_for(robot)
+        self._acting = robot
+        self._watch.note(robot, is_built=self._is_built)
         if not self._is_built:
-            self._limit.restart()
+            self._watch.renew()
+
+    def step_watched(self) -> Any:
+        """One tick, after which the time begins anew."""
+        tick = self.step()
+        self._watch.renew()
+        return tick
 
 
-def play_in_process(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome:
-    """Play a match to its end; `poll` is called with each tick.
-
-    A brain that raises, or does not answer for `hang_s` s of wall time, makes it a failed match.
-    """
-    limit = HangLimit(planned.hang_s)
+def play_in_process(planned: PlannedMatch, watch: HangWatch) -> Outcome:
+    """Play a match to its end. A brain that raises makes it a failed match; one that hangs ends a watched process."""
     try:
-        with limit:
-            match = _WatchedMatch(planned, limit)
-    except (RobotNotStartedError, HungError) as error:
-        robot = error.robot if isinstance(error, RobotNotStartedError) else limit.robot
-        reason = str(error) if isinstance(error, RobotNotStartedError) else f"{robot} is not built: {error}"
+        match = _WatchedMatch(planned, watch)
+    except RobotNotStartedError as error:
         evidence = written_traceback(planned, "".join(traceback.format_exception(error)))
-        return Failed(planned.identity, FailureKind.DID_NOT_START, reason, side_of(planned, robot), evidence)
+        side = side_of(planned, error.robot)
+        return Failed(planned.identity, FailureKind.DID_NOT_START, str(error), side, evidence)
     except TouchlineError as error:
         return Failed(planned.identity, FailureKind.WORKER, str(error))
-
-    def tick() -> None:
-        limit.restart()
-        poll()
-
     try:
-        with limit:
-            return _measured(planned, match, tick)
-    except (Exception, SystemExit, HungError) as error:
-        kind = FailureKind.HUNG if isinstance(error, HungError) else FailureKind.CRASHED
+        return _measured(planned, match)
+    except (Exception, SystemExit) as error:
         evidence = written_traceback(planned, "".join(traceback.format_exception(error)))
-        return Failed(planned.identity, kind, reason_of(match, error), side_of(planned, match.acting), evidence)
+        side = side_of(planned, match.acting)
+        return Failed(planned.identity, FailureKind.CRASHED, reason_of(match, error), side, evidence)
     finally:
         match.close()
 
@@ -82,8 +81,7 @@ def play_in_process(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome
 def reason_of(match: InProcessMatch, error: BaseException) -> str:
     """One line for an exception in a match: robot, tick, file and line, as far as they are known."""
     who = f"{match.acting}, tick {match.simulation.now.tick}: " if match.acting is not None else ""
-    kind = "" if isinstance(error, HungError) else f"{type(error).__name__}: "
-    return f"{who}{kind}{' '.join(str(error).split())}{place_of(error)}"
+    return f"{who}{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
 
 
 def recording_of(planned: PlannedMatch, simulation: Simulation) -> AbstractContextManager[MatchRecording | None]:
@@ -98,14 +96,19 @@ def outcome_of_death(planned: PlannedMatch, error: DiedProcessError) -> Failed:
     """The outcome of a match whose process has died.
 
     It is the fault of the robot that acted if the process did not answer, or ended itself. A process that was killed
-    from outside is nobody's fault: the match can be played again.
+    from outside, or that was slow while no brain had control, is nobody's fault: the match can be played again.
     """
-    robot, stack = error.note.doing, error.note.stack
+    robot, stack = error.note.robot, error.note.stack
     side = side_of(planned, robot)
-    if side is None or not (stack or error.status > 0 or -error.status in _OWN_SIGNALS):
+    ended_itself = 0 < error.status < _UNKNOWN_STATUS or -error.status in _OWN_SIGNALS
+    if side is None or not (stack or ended_itself):
         return Failed(planned.identity, FailureKind.WORKER, str(error))
-    kind = FailureKind.HUNG if stack else FailureKind.CRASHED
-    reason = f"{robot}: no answer within {planned.hang_s:g} s" if stack else f"{robot}: {error}"
+    if not stack:
+        kind, reason = FailureKind.CRASHED, f"{robot}: {error}"
+    elif error.note.is_built:
+        kind, reason = FailureKind.HUNG, f"{robot}: no answer within {planned.hang_s:g} s"
+    else:
+        kind, reason = FailureKind.DID_NOT_START, f"{robot} is not built: no answer within {planned.hang_s:g} s"
     return Failed(planned.identity, kind, reason, side, written_traceback(planned, stack or reason))
 
 
@@ -124,21 +127,25 @@ def side_of(planned: PlannedMatch, robot: str | None) -> Side | None:
     return next((side for side in Side if robot in planned.config.robots(side)), None)
 
 
-def _measured(planned: PlannedMatch, match: InProcessMatch, poll: Poll) -> Played:
-    setup = match.simulation.setup()
+def _measured(planned: PlannedMatch, match: _WatchedMatch) -> Played:
+    setup, scene = match.simulation.setup(), planned.config.scene
     measurement = Measurement(setup)
+    drill = scene.drill if scene is not None and planned.is_drill else None
+    judge, verdict = Judge(drill, setup) if drill is not None else None, None
     with recording_of(planned, match.simulation) as recording:
-        for tick in match_ticks(setup, _messages(match, recording, poll)):
+        for tick in match_ticks(setup, _messages(match, recording)):
             measurement.update(tick)
-    return measurement.played(planned.identity, planned.recording)
+            verdict = judge.update(tick) if judge is not None else None
+            if verdict is not None:
+                break
+    return replace(measurement.played(planned.identity, planned.recording), verdict=verdict)
 
 
-def _messages(match: InProcessMatch, recording: MatchRecording | None, poll: Poll) -> Iterator[tuple[int, Any]]:
+def _messages(match: _WatchedMatch, recording: MatchRecording | None) -> Iterator[tuple[int, Any]]:
     messages = TickMessages(match.simulation)
     yield from messages.of(match.simulation.now)
     while not match.simulation.over:
-        tick = match.step()
+        tick = match.step_watched()
         if recording is not None:
             recording.add(tick, match.commands)
         yield from messages.of(tick)
-        poll()

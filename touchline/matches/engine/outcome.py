@@ -8,6 +8,7 @@ from pydantic import Field, TypeAdapter
 
 from recordings.stats.figures import MatchFigures
 from schemas.side import Side
+from touchline.matches.judging.judge import Verdict
 
 
 class FailureKind(StrEnum):
@@ -39,6 +40,8 @@ class Played:
     """The hash chain over all states: equal for equal matches."""
     recording: str | None = None
     """The file of its recording; relative to the folder of the run if it is in there."""
+    verdict: Verdict | None = None
+    """How a drill ended; None for a match, and for a drill that was over without a verdict."""
 
     @property
     def goals(self) -> dict[Side, int]:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.side import Side
-from touchline.matches.engine.hang_limit import HANG_S
+from touchline.matches.engine.hang_watch import HANG_S
 
 
 class Way(StrEnum):
@@ -39,6 +39,8 @@ class PlannedMatch:
     """The folder that gets the logs of its processes, or the traceback of a brain that raised; None for none."""
     hang_s: float = HANG_S
     """Wall time in s for a decision of a brain, or to build it, after which its team hangs: in one process."""
+    is_drill: bool = False
+    """It ends with the verdict of the scene that it starts from; only in one process."""
     label: str = ""
     """Its name for people."""
 
@@ -54,6 +56,7 @@ class PlannedMatch:
             "config": json.loads(self.config.model_dump_json(exclude={"record", "patience", "pace"})),
             "pace": self.config.pace if self.config.pace != LOCKSTEP else None,
             "code": {side.value: digest for side, digest in self.code.items()},
+            **({"drill": True} if self.is_drill else {}),
         }
         text = json.dumps(content, sort_keys=True, ensure_ascii=False)
         return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()

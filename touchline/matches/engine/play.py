@@ -1,21 +1,22 @@
 """Plays one planned match, in whichever way it is to be played."""
 
 import shutil
+from contextlib import closing
+from pathlib import Path
 
-from touchline.matches.engine.child_processes import Poll
 from touchline.matches.engine.code_digest import code_digest
+from touchline.matches.engine.hang_watch import HangWatch
 from touchline.matches.engine.in_process import play_in_process
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome
 from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.with_processes import play_with_processes
 
-_WAYS = {Way.IN_PROCESS: play_in_process, Way.PROCESSES: play_with_processes}
 
+def play(planned: PlannedMatch, note: Path | None = None) -> Outcome:
+    """Play a match. Files of a team that are not those of the plan are not played.
 
-def play(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome:
-    """Play a match; `poll` is called while it lasts. A team whose files differ from the plan's is not played.
-
-    What an earlier attempt has left of the recording and the logs is removed.
+    What an earlier attempt has left of the recording and the logs is removed. `note` is the folder in which a process
+    that plays nothing else notes who acts: it ends where a brain does not answer.
     """
     for side, digest in planned.code.items():
         if code_digest(planned.config, side, planned.brain_folder) != digest:
@@ -29,7 +30,10 @@ def play(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome:
         shutil.rmtree(planned.logs, ignore_errors=True)
         planned.logs.mkdir(parents=True, exist_ok=True)
     try:
-        return _WAYS[planned.way](planned, poll)
+        if planned.way is Way.PROCESSES:
+            return play_with_processes(planned)
+        with closing(HangWatch(note, planned.hang_s)) as watch:
+            return play_in_process(planned, watch)
     finally:
         if planned.logs is not None and not any(planned.logs.iterdir()):
             planned.logs.rmdir()

@@ -8,6 +8,7 @@ no such threads, and the same numbers as its siblings.
 import gc
 
 from schemas.config.match_config import MatchConfig
+from touchline.matches.engine import verify as verify
 from touchline.matches.engine import worker as worker
 from touchline.play import InProcessMatch
 

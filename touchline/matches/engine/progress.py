@@ -33,6 +33,8 @@ class ProgressReporter:
         """`sentence_of` is what is shown for a match that has ended."""
         self._progress = progress
         self._sentence_of = sentence_of
+        self.outcomes: dict[str, Outcome] = {}
+        """Identity → outcome of the matches that have ended since then."""
 
     def planned(self, done: int, due: int) -> None:
         """Show how many matches there are."""
@@ -40,6 +42,7 @@ class ProgressReporter:
 
     def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
         """Show a match."""
+        self.outcomes[planned.identity] = outcome
         self._progress.ended(self._sentence_of(planned, outcome), failed=isinstance(outcome, Failed))
 
 

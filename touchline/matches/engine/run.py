@@ -3,19 +3,20 @@
 from collections import Counter
 from collections.abc import Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
 
 from schemas.errors import TouchlineError
-from touchline.matches.engine.child_processes import DiedProcessError
+from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.in_process import outcome_of_death
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome
-from touchline.matches.engine.outcomes import Outcomes
 from touchline.matches.engine.plan import Plan
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.worker import Delivery, play_here, play_on_worker
+from touchline.matches.engine.play import play
+from touchline.matches.engine.store import RunStore
+from touchline.matches.engine.worker import play_in_fresh_process
 
 _ATTEMPTS = 3
 """How often a run begins a match whose process or machine is lost. One that is lost again is probably the reason."""
@@ -31,40 +32,15 @@ class Reporter(Protocol):
         """A match has ended."""
 
 
-class Store(Protocol):
-    """Where outcomes are kept."""
-
-    @property
-    def folder(self) -> Path:
-        """The folder of the run."""
-
-    def outcomes(self) -> Outcomes:
-        """Identity → outcome of all matches that have ended."""
-
-    def add(self, outcome: Outcome, wall_s: float, worker: str) -> None:
-        """Store an outcome."""
-
-    def forget_lost(self) -> None:
-        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
-
-
-@dataclass(frozen=True, slots=True)
-class Remote:
-    """The workers have other disks than this machine."""
-
-    keep: Path | None = None
-    """The folder on a worker's machine in which recordings stay; by default they are brought back."""
-
-
 def run_plan(
     plan: Plan,
     executor: Executor,
-    store: Store,
+    store: RunStore | None,
     report: Reporter,
     *,
-    remote: Remote | None = None,
+    is_remote: bool = False,
     at_once: int | None = None,
-) -> Outcomes:
+) -> dict[str, Outcome]:
     """Play due matches until none is left; returns all outcomes, including earlier ones.
 
     An interruption leaves what is stored: the next call goes on from there. It plays matches again that have failed
@@ -73,13 +49,15 @@ def run_plan(
     Args:
         plan: which matches are due.
         executor: where they are played.
-        store: the state of the run.
+        store: the state of the run; None for a run that nobody resumes.
         report: is told of each match that has ended.
-        remote: for executors whose workers do not see the folder of the run.
+        is_remote: the workers do not see the folder of the run.
         at_once: most matches that the executor is given at a time; None for all that are due.
     """
-    store.forget_lost()
-    outcomes = store.outcomes()
+    if store is not None:
+        store.forget_lost()
+    outcomes = store.outcomes() if store is not None else {}
+    folder = store.folder if store is not None else Path.cwd()
     running: dict[Future[Any], PlannedMatch] = {}
     lost: Counter[str] = Counter()
     while True:
@@ -88,43 +66,45 @@ def run_plan(
         report.planned(len(outcomes), len(due))
         waiting = (one for one in due if one.identity not in begun)
         for planned in islice(waiting, None if at_once is None else at_once - len(running)):
-            running[_submitted(planned, executor, store.folder, remote)] = planned
+            running[_submitted(planned, executor, folder if is_remote else None)] = planned
         if not running:
             return outcomes
         done = wait(running, return_when=FIRST_COMPLETED).done
         for future in [one for one in running if one in done]:
             planned = running.pop(future)
-            delivery = _delivered(future, planned)
-            outcome = _relative(delivery.outcome, store.folder)
+            outcome, files = _delivered(future, planned)
             if isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER:
                 lost[planned.identity] += 1
                 if lost[planned.identity] < _ATTEMPTS:
                     continue  # it is due still
-            _write(delivery.files, store.folder)
-            store.add(outcome, delivery.wall_s, delivery.worker)
+            _write(files, folder)
+            if store is not None:
+                outcome = _relative(outcome, folder)
+                store.add(outcome)
             outcomes[planned.identity] = outcome
             report.ended(planned, outcome)
 
 
-def _submitted(planned: PlannedMatch, executor: Executor, folder: Path, remote: Remote | None) -> "Future[Any]":
-    if remote is None:
-        return executor.submit(play_here, planned)
+def _submitted(planned: PlannedMatch, executor: Executor, folder: Path | None) -> "Future[Any]":
+    """Submit a match; `folder` is that of the run, given for workers that do not see it."""
+    if folder is None:
+        return executor.submit(play, planned)
     home = planned.brain_folder.absolute() if planned.brain_folder is not None else None
-    return executor.submit(play_on_worker, replace(planned, brain_folder=home), folder, remote.keep)
+    return executor.submit(play_in_fresh_process, replace(planned, brain_folder=home), folder)
 
 
-def _delivered(future: "Future[Any]", planned: PlannedMatch) -> Delivery:
-    """What an executor has returned; a match whose process or machine is lost has failed."""
+def _delivered(future: "Future[Any]", planned: PlannedMatch) -> tuple[Outcome, Mapping[str, bytes]]:
+    """The outcome, and files to be written; a match whose process or machine is lost has failed."""
     try:
-        delivery: Delivery = future.result()
+        delivered = future.result()
     except DiedProcessError as error:
-        return Delivery(outcome_of_death(planned, error))
+        return outcome_of_death(planned, error), {}
     except TouchlineError:
         raise
     except Exception as error:  # of any library that runs workers: Dask's KilledWorker, a broken pool, an import
         reason = f"its worker failed: {type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
-        return Delivery(Failed(planned.identity, FailureKind.WORKER, reason))
-    return delivery
+        return Failed(planned.identity, FailureKind.WORKER, reason), {}
+    return delivered if isinstance(delivered, tuple) else (delivered, {})
 
 
 def _relative(outcome: Outcome, folder: Path) -> Outcome:

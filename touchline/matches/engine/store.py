@@ -3,23 +3,19 @@
 import fcntl
 import os
 import sqlite3
-from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
 from schemas.errors import TouchlineError
-from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, to_json
-from touchline.matches.engine.outcomes import Outcomes
+from touchline.matches.engine.outcome import FailureKind, Outcome, from_json, to_json
 
 FILE = "run.sqlite"
 """The file of a run's state, in its folder."""
 _LOCK = "run.lock"
 _SCHEMA = """
 CREATE TABLE IF NOT EXISTS documents (name TEXT PRIMARY KEY, content TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS outcomes (
-    identity TEXT PRIMARY KEY, content BLOB NOT NULL, wall_s REAL NOT NULL, worker TEXT NOT NULL
-) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS outcomes (identity TEXT PRIMARY KEY, content BLOB NOT NULL) WITHOUT ROWID;
 """
 
 
@@ -65,19 +61,14 @@ class RunStore:
         """Store a text of the run."""
         self._database.execute("INSERT OR REPLACE INTO documents VALUES (?, ?)", (name, content))
 
-    def outcomes(self) -> Outcomes:
+    def outcomes(self) -> dict[str, Outcome]:
         """Identity → outcome of all matches that have ended."""
-        return Outcomes(self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity"))
+        rows = self._database.execute("SELECT identity, content FROM outcomes ORDER BY identity")
+        return {identity: from_json(content) for identity, content in rows}
 
-    def add(self, outcome: Outcome, wall_s: float = 0.0, worker: str = "") -> None:
-        """Store an outcome; it is on disk when this returns. `wall_s` is how long the match took on its worker."""
-        self._database.execute(
-            "INSERT OR REPLACE INTO outcomes VALUES (?, ?, ?, ?)", (outcome.identity, to_json(outcome), wall_s, worker)
-        )
-
-    def wall_times(self) -> Mapping[str, float]:
-        """Identity → wall time in s from the start of a match to its outcome."""
-        return dict(self._database.execute("SELECT identity, wall_s FROM outcomes"))
+    def add(self, outcome: Outcome) -> None:
+        """Store an outcome; it is on disk when this returns."""
+        self._database.execute("INSERT OR REPLACE INTO outcomes VALUES (?, ?)", (outcome.identity, to_json(outcome)))
 
     def forget_lost(self) -> None:
         """Remove the outcomes of matches whose worker was lost, so that they are played again."""
@@ -99,27 +90,3 @@ class RunStore:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-
-
-class MemoryStore:
-    """The state of a run that nobody resumes."""
-
-    def __init__(self, folder: Path) -> None:
-        """Paths of recordings in `folder` are stored relative to it."""
-        self.folder = folder
-        self._outcomes = Outcomes()
-
-    def outcomes(self) -> Outcomes:
-        """Identity → outcome of all matches that have ended."""
-        return self._outcomes.copy()
-
-    def add(self, outcome: Outcome, wall_s: float = 0.0, worker: str = "") -> None:
-        """Store an outcome."""
-        del wall_s, worker
-        self._outcomes[outcome.identity] = outcome
-
-    def forget_lost(self) -> None:
-        """Remove the outcomes of matches whose worker was lost, so that they are played again."""
-        for identity, outcome in self.outcomes().items():
-            if isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER:
-                del self._outcomes[identity]

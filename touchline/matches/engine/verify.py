@@ -1,7 +1,7 @@
 """Checks a finished run: simulates recordings again, and compares what its table says with them."""
 
 import random
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,13 +13,14 @@ from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.side import Side
 from schemas.topics import APPLIED
-from touchline.matches.engine.child_processes import DiedProcessError, Poll
 from touchline.matches.engine.code_digest import code_digest
+from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.inputs_only import has_inputs_only
 from touchline.matches.engine.measurement import measured
 from touchline.matches.engine.outcome import Failed, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play import play
+from touchline.matches.engine.progress import Progress
 from touchline.verify.resimulate import verify
 
 
@@ -71,28 +72,38 @@ class Depth:
     """The files of its teams are compared with their digests."""
     recordings: bool = False
     """A match that is played again leaves its recording where its plan says."""
+    failures: bool = False
+    """A match without an outcome has failed: it is played again, and fails again."""
 
 
 def verify_run(
-    matches: list[PlannedMatch],
+    matches: Sequence[PlannedMatch],
     outcomes: Mapping[str, Result | Failed],
     folder: Path,
     executor: Executor,
     depth_of: Callable[[PlannedMatch], Depth] = lambda _: Depth(),
+    progress: Progress | None = None,
 ) -> Iterator[MatchCheck]:
-    """Check each match on the executor; yields each check when it is there.
+    """Check each match on the executor; yields each check when it is there, and shows it.
 
     A match with a recording is simulated again from that. One without is played again, in the way it was planned.
     """
+    if progress is not None:
+        progress.planned(0, len(matches))
     futures = {
         executor.submit(check_match, one, outcomes.get(one.identity), folder, depth_of(one)): one for one in matches
     }
     for future in as_completed(futures):
+        planned = futures[future]
         try:
-            yield future.result()
+            check: MatchCheck = future.result()
         except DiedProcessError as error:
-            planned = futures[future]
-            yield MatchCheck(planned.identity, planned.label, (f"it could not be checked: {error}",))
+            fails_again = depth_of(planned).failures and planned.identity not in outcomes
+            faults = () if fails_again else (f"it could not be checked: {error}",)
+            check = MatchCheck(planned.identity, planned.label, faults)
+        if progress is not None:
+            progress.ended("; ".join((check.label, *check.faults)), failed=bool(check.faults))
+        yield check
 
 
 def check_match(
@@ -100,10 +111,14 @@ def check_match(
     outcome: Result | Failed | None,
     folder: Path,
     depth: Depth | None = None,
-    poll: Poll = lambda: None,
+    note: Path | None = None,
 ) -> MatchCheck:
-    """Check one match against its files; `poll` is called while it is played again."""
+    """Check one match against its files; `note` is that of `play`, for one that is played again."""
     depth = depth or Depth()
+    if outcome is None and depth.failures:
+        played = isinstance(play(replace(planned, logs=None), note), Played)
+        found = ("has no result, and was played to its end again",) if played else ()
+        return MatchCheck(planned.identity, planned.label, found)
     if outcome is None:
         return MatchCheck(planned.identity, planned.label, ("it was not played",))
     faults = [
@@ -119,7 +134,7 @@ def check_match(
         ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome, simulates=depth.again)
     elif depth.again and not faults:
         kept = planned if depth.recordings else replace(planned, recording=None)
-        ticks, more, again = _check_again(kept, outcome, poll)
+        ticks, more, again = _check_again(kept, outcome, note)
     else:
         return MatchCheck(planned.identity, planned.label, tuple(faults))
     return MatchCheck(planned.identity, planned.label, (*faults, *more), ticks, again)
@@ -161,9 +176,9 @@ def _simulated(path: Path) -> tuple[int, list[str]]:
     return verdict.ticks, []
 
 
-def _check_again(planned: PlannedMatch, outcome: Result, poll: Poll) -> tuple[int, list[str], Played | None]:
+def _check_again(planned: PlannedMatch, outcome: Result, note: Path | None) -> tuple[int, list[str], Played | None]:
     """Play a match again that has left no recording."""
-    again = play(replace(planned, logs=None), poll)
+    again = play(replace(planned, logs=None), note)
     if isinstance(again, Failed):
         return 0, [f"played again, it failed: {again.reason}"], None
     if again.chain == outcome.chain and again.goals == outcome.goals:

@@ -1,69 +1,51 @@
-"""Plays one match with processes, on an endpoint of its own.
+"""Plays one match with processes, on an endpoint of its own, in a process that plays nothing else."""
 
-A process that was forked for the match launches the others itself. In any other process, which may have threads and
-children of its own, a program does so and prints the outcome.
-"""
-
-import multiprocessing
 import os
-import subprocess
+import secrets
+import shutil
+import signal
 import sys
 import tempfile
-import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
-from schemas.process import leash
+from recordings.container.key_selection import KeySelection
+from recordings.editing.filtering import filter_recording
+from recordings.reading.recording import open_recording
+from schemas.bus.endpoint import FREE_ENDPOINT
+from schemas.config.match_parts import RecordingConfig
+from schemas.errors import MatchFailedError, TouchlineError
 from schemas.process.clock import WallClock
-from touchline.launch.python_process import PYTHON, module_path_environment
-from touchline.matches.engine.child_processes import FORKED, Poll
-from touchline.matches.engine.match_process import MatchProcessSettings, play
-from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, from_json
+from touchline.launch.check_brains import check_teams
+from touchline.launch.confinement import team_confinements
+from touchline.launch.match_files import losses_of, published_by
+from touchline.launch.match_run import InterruptedMatchError, MatchRun
+from touchline.launch.processes import CREDENTIALS, MatchPlan, check_robot_names
+from touchline.launch.run_folder import RECORDING, prepare_credentials
+from touchline.launch.team_error import TeamError, TeamLeftError
+from touchline.matches.engine.inputs_only import KEYS, has_inputs_only
+from touchline.matches.engine.measurement import measured
+from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.team_faults import fault_of, last_health
+from touchline.watch.screen import PlainScreen
 
-_POLL_S = 0.2
-"""Wall time between two looks whether the outcome is still wanted."""
 LOG = "match.log"
 """The log of a match, next to the logs of its processes."""
 
 
-class _PollingClock(WallClock):
-    """Polls with each wait."""
-
-    __slots__ = ("_poll",)
-
-    def __init__(self, poll: Poll) -> None:
-        super().__init__()
-        self._poll = poll
-
-    def sleep_until(self, moment: float) -> None:
-        """Poll, then sleep until `now()` reaches `moment`."""
-        self._poll()
-        super().sleep_until(moment)
-
-
-def play_with_processes(planned: PlannedMatch, poll: Poll = lambda: None) -> Outcome:
-    """Play a match to its end; `poll` is called while it lasts. All its processes end with this one."""
+def play_with_processes(planned: PlannedMatch) -> Outcome:
+    """Play a match to its end. All its processes end with this one."""
     with ExitStack() as stack:
         folder = planned.logs or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="touchline-")))
-        settings = MatchProcessSettings(
-            config=planned.config,
-            identity=planned.identity,
-            folder=folder.resolve(),
-            recording=planned.recording.resolve() if planned.recording is not None else None,
-            brain_folder=planned.brain_folder.resolve() if planned.brain_folder is not None else None,
-        )
-        if _is_for_one_match():
-            stack.enter_context(_log_into(folder / LOG))
-            return play(settings, _PollingClock(poll))
-        return _play_by_program(settings, folder, poll)
-
-
-def _is_for_one_match() -> bool:
-    """Whether this is a process of `ChildProcesses`: signals arrive in this thread, and no child is another's."""
-    is_main = threading.current_thread() is threading.main_thread()
-    return is_main and multiprocessing.current_process().name.startswith(FORKED)
+        stack.enter_context(_log_into(folder / LOG))
+        outcome = _outcome(planned, folder.resolve())
+        if isinstance(outcome, Failed):
+            sys.stderr.write(f"{outcome.reason}\n")
+        return outcome
 
 
 @contextmanager
@@ -81,27 +63,65 @@ def _log_into(path: Path) -> Iterator[None]:
         os.close(before)
 
 
-def _play_by_program(settings: MatchProcessSettings, folder: Path, poll: Poll) -> Outcome:
-    with (folder / LOG).open("ab") as log:
-        program = subprocess.Popen(
-            [
-                *(sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), "{}"),
-                *(*PYTHON, "-m", "touchline.matches.engine.match_process", "--settings", "-"),
-            ],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=log,
-            env={**os.environ, **module_path_environment()},
-        )
-    text: bytes | None = settings.model_dump_json().encode()
-    while True:
-        try:
-            out, _ = program.communicate(text, timeout=_POLL_S)
-            break
-        except subprocess.TimeoutExpired:
-            text = None
-            poll()
-    if program.returncode:
-        reason = f"the program of the match ended with status {program.returncode}"
-        return Failed(settings.identity, FailureKind.WORKER, reason, None, str(folder))
-    return from_json(out)
+def _outcome(planned: PlannedMatch, folder: Path) -> Outcome:
+    identity, logs = planned.identity, str(folder)
+    wanted = planned.recording.resolve() if planned.recording is not None else None
+    whole = wanted if wanted and not has_inputs_only(planned.config) else folder / RECORDING
+    plan = _plan(planned, folder, whole)
+    config, clock = plan.config, WallClock()
+    try:
+        check_robot_names(config)
+        confinements = team_confinements(config, plan.brain_folder, folder.parent)
+        plan = prepare_credentials(replace(plan, confinements=confinements), tls=False)
+        check = partial(check_teams, config, plan.brain_folder, confinements=confinements)
+        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by, check).play()
+    except TeamError as error:
+        return Failed(identity, FailureKind.DID_NOT_START, str(error), error.side, logs)
+    except TeamLeftError as error:
+        kind = FailureKind.CRASHED if error.has_begun else FailureKind.DID_NOT_START
+        return Failed(identity, kind, str(error), error.side, logs)
+    except (TouchlineError, MatchFailedError) as error:
+        return Failed(identity, FailureKind.WORKER, str(error), None, logs)
+    except InterruptedMatchError as error:
+        reason = f"it was interrupted by {signal.Signals(error.number).name}"
+        return Failed(identity, FailureKind.WORKER, reason, None, logs)
+    finally:
+        _keep_logs_alone(folder)
+    if result.recording.fault:
+        return Failed(identity, FailureKind.WORKER, result.recording.fault, None, logs)
+    found = fault_of(last_health(open_recording(whole)), config)
+    if found is not None:
+        kind, culprit, reason = found
+        return Failed(identity, kind, reason, culprit, logs)
+    return _kept(measured(whole, identity), whole, wanted)
+
+
+def _plan(planned: PlannedMatch, folder: Path, whole: Path) -> MatchPlan:
+    """The processes of the match; its recorder is waited for."""
+    config = planned.config
+    record = RecordingConfig(wait=True) if has_inputs_only(config) else config.record.model_copy(update={"wait": True})
+    return MatchPlan(
+        config.model_copy(update={"record": record}),
+        FREE_ENDPOINT,
+        folder,
+        whole,
+        brain_folder=planned.brain_folder.resolve() if planned.brain_folder is not None else None,
+        launch_token=secrets.token_hex(16),
+    )
+
+
+def _keep_logs_alone(folder: Path) -> None:
+    """Remove credentials and settings from the folder of the logs: that of a cup or a study is published."""
+    shutil.rmtree(folder / CREDENTIALS, ignore_errors=True)
+    for path in folder.glob("*.json"):
+        path.unlink()
+
+
+def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
+    """The outcome, with the recording that is to be kept in place of the whole one."""
+    if wanted == whole:
+        return played
+    if wanted is not None:
+        filter_recording(open_recording(whole), wanted, KeySelection(KEYS))
+    whole.unlink()
+    return replace(played, recording=str(wanted) if wanted is not None else None)

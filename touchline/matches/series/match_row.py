@@ -1,10 +1,11 @@
 """The result of one match of a series, as plain numbers."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from recordings.stats.figures import MatchFigures, SideFigures
 from touchline.matches.engine.outcome import Failed, Outcome, Played
-from touchline.matches.series.plan import SeriesMatch
+from touchline.matches.series.plan import SeedMatch, SeriesPlan
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,18 +63,24 @@ class FailedMatch:
 Row = MatchRow | FailedMatch
 
 
-def row_of(match: SeriesMatch, outcome: Outcome) -> Row:
-    """The row of a match that ended so."""
+def row_of(number: int, match: SeedMatch, outcome: Outcome) -> Row:
+    """The row of a match that ended so; `number` is its place in the series."""
     if isinstance(outcome, Failed):
-        return FailedMatch(match.number, outcome.identity, match.seed, match.swapped, outcome.reason)
-    return _played_row(match, outcome)
+        return FailedMatch(number, outcome.identity, match.seed, match.swapped, outcome.reason)
+    return _played_row(number, match, outcome)
 
 
-def _played_row(match: SeriesMatch, played: Played) -> MatchRow:
+def rows_of(plan: SeriesPlan, outcomes: Mapping[str, Outcome]) -> list[Row]:
+    """The rows of all matches that have ended, in the order of the plan."""
+    numbered = enumerate(plan.matches, start=1)
+    return [row_of(number, one, outcomes[one.identity]) for number, one in numbered if one.identity in outcomes]
+
+
+def _played_row(number: int, match: SeedMatch, played: Played) -> MatchRow:
     figures = played.figures
     first, second = (_team_row(figures, figures.sides[side]) for side in match.sides)
     return MatchRow(
-        number=match.number,
+        number=number,
         identity=played.identity,
         seed=match.seed,
         swapped=match.swapped,

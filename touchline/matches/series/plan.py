@@ -12,14 +12,14 @@ from touchline.matches.engine.planned_match import PlannedMatch
 
 
 @dataclass(frozen=True, slots=True)
-class SeriesMatch:
-    """One match of a series."""
+class SeedMatch:
+    """A match of a seed: of a series, or of a cell of a study."""
 
-    number: int
-    """Place in the series, from 1."""
     planned: PlannedMatch
-    sides: tuple[Side, Side]
-    """The sides that the first and the second team play on."""
+    swapped: bool = False
+    """Whether the teams have changed sides: the first plays in magenta."""
+    cell: int = 0
+    """Number of its cell, from 0."""
 
     @property
     def identity(self) -> str:
@@ -27,19 +27,14 @@ class SeriesMatch:
         return self.planned.identity
 
     @property
-    def config(self) -> MatchConfig:
-        """The whole match."""
-        return self.planned.config
-
-    @property
     def seed(self) -> int:
         """Seed of all random numbers of the match."""
         return self.planned.seed
 
     @property
-    def swapped(self) -> bool:
-        """Whether the teams have changed sides: the first plays in magenta."""
-        return self.sides[0] is Side.MAGENTA
+    def sides(self) -> tuple[Side, Side]:
+        """The sides that the first and the second team play on."""
+        return (Side.MAGENTA, Side.CYAN) if self.swapped else (Side.CYAN, Side.MAGENTA)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +43,7 @@ class SeriesPlan:
 
     teams: tuple[str, str]
     """Names of the first team, in cyan unless sides are swapped, and of the second."""
-    matches: tuple[SeriesMatch, ...]
-
-    @property
-    def by_identity(self) -> dict[str, SeriesMatch]:
-        """Identity → match."""
-        return {one.identity: one for one in self.matches}
+    matches: tuple[SeedMatch, ...]
 
 
 def plan_series(
@@ -78,21 +68,16 @@ def plan_series(
                 f"teams.{side} is {kind}; a series plays brains in Python and stdio programs: "
                 f"give --{side} module:Class"
             )
-    pairs = [(config, (Side.CYAN, Side.MAGENTA))]
-    if both_sides:
-        pairs.append((with_sides_swapped(config), (Side.MAGENTA, Side.CYAN)))
-    numbered = enumerate(((seed, one, sides) for seed in seeds for one, sides in pairs), start=1)
+    variants = {False: config, True: with_sides_swapped(config)} if both_sides else {False: config}
     matches = (
-        SeriesMatch(number, _planned(one.model_copy(update={"seed": seed}), sides, brain_folder, record), sides)
-        for number, (seed, one, sides) in numbered
+        SeedMatch(_planned(one.model_copy(update={"seed": seed}), swapped, brain_folder, record), swapped)
+        for seed in seeds
+        for swapped, one in variants.items()
     )
     return SeriesPlan(team_names(config), tuple(matches))
 
 
-def _planned(
-    config: MatchConfig, sides: tuple[Side, Side], brain_folder: Path | None, record: Path | None
-) -> PlannedMatch:
-    swapped = sides[0] is Side.MAGENTA
+def _planned(config: MatchConfig, swapped: bool, brain_folder: Path | None, record: Path | None) -> PlannedMatch:
     name = f"seed_{config.seed}{'_swapped' if swapped else ''}.mcap"
     return PlannedMatch(
         config,

@@ -8,8 +8,8 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from touchline.matches.series.intervals import Estimate, ratio, share
 from touchline.matches.series.match_row import MatchRow, TeamRow
+from touchline.matches.statistics.estimates import Estimate, ratio, share
 
 TEN_MINUTES = 600.0
 MINUTE = 60.0

@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
-from touchline.matches.series.intervals import Estimate
 from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
 from touchline.matches.series.plan import SeriesPlan
 from touchline.matches.series.summary import Figure, Longest, Summary, Value
+from touchline.matches.statistics.estimates import Estimate
 
 UNKNOWN = "–"
 """Stands for a figure without a sample, such as the share of completed passes without a pass."""

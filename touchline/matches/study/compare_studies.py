@@ -6,7 +6,8 @@ import pandas as pd
 from scipy import stats
 
 from schemas.errors import TouchlineError
-from touchline.matches.study.analysis import LEVEL, Comparison, Estimate, comparison_of, seed_means
+from touchline.matches.statistics.estimates import LEVEL
+from touchline.matches.statistics.paired import Comparison, MeanEstimate, comparison_of, seed_means
 from touchline.matches.study.study_folder import StoredStudy
 
 
@@ -63,7 +64,7 @@ def _compared(
     test = stats.ttest_ind(second, first, equal_var=False)
     interval = test.confidence_interval(LEVEL)
     value = float(second.mean() - first.mean())
-    estimate = Estimate(value, float(interval.low), float(interval.high), len(first) + len(second))
+    estimate = MeanEstimate(value, float(interval.low), float(interval.high), len(first) + len(second))
     matches = len(first) * (2 if one.plan.study.both_sides else 1) + len(second) * (
         2 if other.plan.study.both_sides else 1
     )

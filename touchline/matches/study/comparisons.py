@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pandas as pd
 
 from touchline.matches.series.plan import team_names
-from touchline.matches.study.analysis import Comparison, comparison_of, seed_means
+from touchline.matches.statistics.paired import Comparison, comparison_of, seed_means
 from touchline.matches.study.cells import level_text
 from touchline.matches.study.match_figures import DIFFERENCE
 from touchline.matches.study.study_plan import StudyPlan

@@ -11,6 +11,7 @@ from schemas.process.installed import installed_version
 from schemas.side import Side
 from schemas.wire.message import VERSION
 from touchline.launch.team_code import team_code
+from touchline.matches.engine.code_digest import code_digest, files_digest
 from touchline.matches.study.cells import Cell
 
 _PACKAGES = ("touchline", "pybullet", "numpy", "scipy", "pandas", "pyarrow", "matplotlib", "msgspec", "pydantic")
@@ -22,19 +23,9 @@ def file_digest(path: Path) -> str:
     return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest()
 
 
-def code_digest(paths: Iterable[Path]) -> str:
-    """One digest of files and of all Python files in folders, with their names."""
-    whole = hashlib.blake2b(digest_size=16)
-    for path in paths:
-        files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
-        for file in files:
-            whole.update(f"{file.relative_to(path.parent).as_posix()} {file_digest(file)}\n".encode())
-    return whole.hexdigest()
-
-
 def library_digest() -> str:
     """The digest of this library's code, shipped teams included."""
-    return code_digest(_LIBRARY / package for package in OWN_PACKAGES)
+    return files_digest(_LIBRARY / package for package in OWN_PACKAGES)
 
 
 def team_digests(cells: Iterable[Cell], brain_folder: Path | None) -> dict[str, str]:
@@ -42,9 +33,9 @@ def team_digests(cells: Iterable[Cell], brain_folder: Path | None) -> dict[str, 
     found = dict[str, str]()
     for cell in cells:
         for side in Side:
-            team, code = cell.config.team(side), team_code(cell.config, side, brain_folder)
-            if code.own:
-                found[team.brain or " ".join(team.program or ())] = code_digest(code.own)
+            team = cell.config.team(side)
+            if team_code(cell.config, side, brain_folder).own:
+                found[team.brain or " ".join(team.program or ())] = code_digest(cell.config, side, brain_folder)
     return dict(sorted(found.items()))
 
 

@@ -12,7 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from touchline.matches.study.analysis import Comparison, Estimate, estimate_of
+from touchline.matches.statistics.estimates import Estimate
+from touchline.matches.statistics.paired import Comparison, estimate_of
 from touchline.matches.study.cells import Cell, level_text
 from touchline.matches.study.match_figures import DIFFERENCE
 from touchline.matches.study.sentences import response_text

@@ -7,7 +7,7 @@ import pandas as pd
 
 from touchline.matches.engine.outcome import Failed
 from touchline.matches.report import page_of
-from touchline.matches.study.analysis import adjusted, estimate_of, seed_means, widest
+from touchline.matches.statistics.paired import adjusted, estimate_of, seed_means, widest
 from touchline.matches.study.comparisons import ComparisonGroup, answers, comparison_groups
 from touchline.matches.study.digests import as_text
 from touchline.matches.study.plots import plot_of_comparisons, plot_of_means

@@ -10,10 +10,9 @@ from typing import Any
 
 from schemas.errors import MatchFailedError, TouchlineError
 from touchline.matches.engine.outcome import Failed, Outcome, Played
-from touchline.matches.engine.outcomes import Outcomes
 from touchline.matches.engine.plan import Plan
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.run import Remote, Reporter, Store, run_plan
+from touchline.matches.engine.run import Reporter, run_plan
 from touchline.matches.engine.store import FILE, RunStore
 from touchline.matches.study.digests import as_text, library_digest, team_digests, versions
 from touchline.matches.study.recording_functions import load_functions, measure
@@ -43,7 +42,7 @@ def run_study(
     report: Reporter,
     *,
     fresh: bool = False,
-    remote: Remote | None = None,
+    is_remote: bool = False,
 ) -> StudyResult:
     """Play all matches of a study that have no outcome in its folder, and write what the folder is to have.
 
@@ -60,7 +59,7 @@ def run_study(
     (folder / VERSIONS).write_text(as_text(versions(engine)), "utf-8")
     with RunStore(folder) as store:
         _check_code(store, code)
-        outcomes = play_measured(plan, plan, store, executor, functions, report, remote)
+        outcomes = play_measured(plan, plan, store, executor, functions, report, is_remote=is_remote)
     seeds = plan.seeds_due(outcomes)
     failed = _failed(plan, seeds, outcomes)
     if len(failed) == len(plan.matches(seeds)):
@@ -75,12 +74,13 @@ def run_study(
 def play_measured(
     study: StudyPlan,
     due: Plan,
-    store: Store,
+    store: RunStore,
     executor: Executor,
     functions: Mapping[str, Callable[..., Any]],
     report: Reporter,
-    remote: Remote | None = None,
-) -> Outcomes:
+    *,
+    is_remote: bool,
+) -> dict[str, Outcome]:
     """Play all that is due, and apply the study's functions to each recording."""
 
     def add(outcome: Outcome) -> None:
@@ -105,7 +105,7 @@ def play_measured(
     if functions:
         for outcome in store.outcomes().values():
             add(outcome)
-    return run_plan(due, executor, store, Measuring(), remote=remote)
+    return run_plan(due, executor, store, Measuring(), is_remote=is_remote)
 
 
 def _check_code(store: RunStore, code: Mapping[str, str]) -> None:

@@ -2,7 +2,7 @@
 
 import math
 
-from touchline.matches.study.analysis import Comparison
+from touchline.matches.statistics.paired import Comparison
 from touchline.matches.study.match_figures import DIFFERENCE
 
 UNKNOWN = "–"

@@ -1,13 +1,12 @@
 """The study file: what is varied, what is measured, and how many matches are played."""
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from schemas.config.toml_file import validate_tables
+from schemas.config.toml_file import read_tables, validate_tables
 from schemas.errors import TouchlineError
 from schemas.wire.message import Name, Part
 from touchline.matches.engine.planned_match import Way
@@ -125,13 +124,7 @@ def load_study(path: Path, overrides: Mapping[str, Any] | None = None) -> Study:
     Raises:
         TouchlineError: one line that names file, key, value and remedy.
     """
-    try:
-        content = tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise TouchlineError(f"{path}: {error.strerror}; give the path of a study file") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise TouchlineError(f"{path}: not TOML: {error}") from None
-    content = {"name": path.stem} | content | dict(overrides or {})
+    content = {"name": path.stem} | read_tables(path, "a study file") | dict(overrides or {})
     return validate_tables(Study, content, str(path), REMEDIES)
 
 

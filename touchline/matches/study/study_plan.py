@@ -1,18 +1,17 @@
 """The plan of a study: which matches are due, as a pure function of the outcomes so far."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import count, islice
 from pathlib import Path
 
 from schemas.config.match_config import MatchConfig
-from schemas.side import Side
 from touchline.matches.engine.inputs_only import with_inputs_only
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.series.plan import with_sides_swapped
-from touchline.matches.study.analysis import is_narrow
+from touchline.matches.series.plan import SeedMatch, with_sides_swapped
+from touchline.matches.statistics.paired import is_narrow
 from touchline.matches.study.cells import Cell
 from touchline.matches.study.match_figures import Value
 from touchline.matches.study.result_table import result_table
@@ -22,30 +21,6 @@ RECORDINGS = "recordings"
 """The folder of the recordings, in a study's folder."""
 LOGS = "logs"
 """The folder of the logs of matches that failed, in a study's folder."""
-
-
-@dataclass(frozen=True, slots=True)
-class StudyMatch:
-    """One match of a study."""
-
-    cell: int
-    """Number of its cell, from 0."""
-    seed: int
-    swapped: bool
-    """Whether the first team plays in magenta."""
-    config: MatchConfig
-    identity: str
-    """A digest of the configuration: equal for matches that are played alike."""
-
-    @property
-    def sides(self) -> tuple[Side, Side]:
-        """The sides of the first and the second team."""
-        return (Side.MAGENTA, Side.CYAN) if self.swapped else (Side.CYAN, Side.MAGENTA)
-
-    @property
-    def title(self) -> str:
-        """Cell, seed and sides in a few words."""
-        return f"cell {self.cell + 1}, seed {self.seed}{', sides swapped' if self.swapped else ''}"
 
 
 @dataclass(frozen=True)
@@ -61,8 +36,7 @@ class StudyPlan:
     measured: dict[str, Mapping[str, Value]] = field(default_factory=dict, repr=False, compare=False)
     """Identity of a match → values of the study's functions."""
     _swapped: dict[int, MatchConfig] = field(init=False, default_factory=dict, repr=False, compare=False)
-    _of_seeds: dict[int, tuple[StudyMatch, ...]] = field(init=False, default_factory=dict, repr=False, compare=False)
-    _planned: dict[str, PlannedMatch] = field(init=False, default_factory=dict, repr=False, compare=False)
+    _of_seeds: dict[int, tuple[SeedMatch, ...]] = field(init=False, default_factory=dict, repr=False, compare=False)
     _narrow: dict[int, bool] = field(init=False, default_factory=dict, repr=False, compare=False)
     """Number of seeds, all of which were played → whether the interval is narrow enough."""
 
@@ -70,21 +44,7 @@ class StudyPlan:
         """All matches that can be played now and have no outcome; none when the study is complete."""
         matches = self.matches(self.seeds_due(outcomes))
         distinct = {one.identity: one for one in matches}
-        return [self.planned(one) for identity, one in distinct.items() if identity not in outcomes]
-
-    def planned(self, match: StudyMatch) -> PlannedMatch:
-        """The match as it is played."""
-        if match.identity not in self._planned:
-            wants = self.folder is not None and (self.study.record or self.study.functions)
-            self._planned[match.identity] = PlannedMatch(
-                with_inputs_only(match.config) if self.study.record == "inputs" else match.config,
-                way=self.study.way,
-                brain_folder=self.brain_folder,
-                recording=self.folder / recording_name(match.identity) if wants and self.folder is not None else None,
-                logs=self.folder / LOGS / match.identity if self.folder is not None else None,
-                label=match.title,
-            )
-        return self._planned[match.identity]
+        return [one.planned for identity, one in distinct.items() if identity not in outcomes]
 
     def seeds_due(self, outcomes: Mapping[str, Outcome]) -> list[int]:
         """The seeds to be played, in view of the outcomes so far.
@@ -108,18 +68,29 @@ class StudyPlan:
             number = min(most, number + len(first))
         return self._all_seeds[:number]
 
-    def matches(self, seeds: Sequence[int]) -> list[StudyMatch]:
+    def matches(self, seeds: Sequence[int]) -> list[SeedMatch]:
         """The matches of these seeds, seed by seed, so that pairs are complete early."""
         for seed in seeds:
             if seed not in self._of_seeds:
                 self._of_seeds[seed] = tuple(self._of_seed(seed))
         return [match for seed in seeds for match in self._of_seeds[seed]]
 
-    def _of_seed(self, seed: int) -> Iterator[StudyMatch]:
+    def _of_seed(self, seed: int) -> Iterator[SeedMatch]:
         for number, cell in enumerate(self.cells):
             for swapped in (False, True) if self.study.both_sides else (False,):
                 config = self._config(number, cell, swapped=swapped).model_copy(update={"seed": seed})
-                yield StudyMatch(number, seed, swapped, config, PlannedMatch(config).identity)
+                label = f"cell {number + 1}, seed {seed}{', sides swapped' if swapped else ''}"
+                yield SeedMatch(self._planned(config, label), swapped, number)
+
+    def _planned(self, config: MatchConfig, label: str) -> PlannedMatch:
+        """The match as it is played."""
+        study, folder = self.study, self.folder
+        kept = with_inputs_only(config) if study.record == "inputs" else config
+        planned = PlannedMatch(kept, way=study.way, brain_folder=self.brain_folder, label=label)
+        if folder is None:
+            return planned
+        recording = folder / recording_name(planned.identity) if study.record or study.functions else None
+        return replace(planned, recording=recording, logs=folder / LOGS / planned.identity)
 
     def _config(self, number: int, cell: Cell, *, swapped: bool) -> MatchConfig:
         if not swapped:

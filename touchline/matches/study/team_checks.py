@@ -1,11 +1,12 @@
 """Checks the teams of a study before any match is played."""
 
+from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.match.simulation import Simulation
 from touchline.launch.check_brains import check_teams
 from touchline.matches.engine.planned_match import Way
-from touchline.matches.study.study_plan import StudyMatch, StudyPlan
+from touchline.matches.study.study_plan import StudyPlan
 from touchline.play import InProcessMatch
 
 
@@ -18,19 +19,19 @@ def check_study_teams(plan: StudyPlan) -> dict[str, str]:
     engine: dict[str, str] = {}
     for match in plan.matches(plan.study.first_seeds[:1]):
         for side in Side:
-            _check_kind(match, side, plan.study.way)
+            _check_kind(match.planned.config, side, plan.study.way)
         if plan.study.way is Way.PROCESSES:
-            check_teams(match.config, plan.brain_folder)
+            check_teams(match.planned.config, plan.brain_folder)
         else:
-            InProcessMatch(match.config, brain_folder=plan.brain_folder).close()
-        simulation = Simulation(match.config)
+            InProcessMatch(match.planned.config, brain_folder=plan.brain_folder).close()
+        simulation = Simulation(match.planned.config)
         engine = simulation.setup().engine
         simulation.close()
     return engine
 
 
-def _check_kind(match: StudyMatch, side: Side, way: Way) -> None:
-    team = match.config.team(side)
+def _check_kind(config: MatchConfig, side: Side, way: Way) -> None:
+    team = config.team(side)
     if team.remote:
         raise TouchlineError(f"teams.{side} is remote; a study starts its teams itself: give brain, stdio or command")
     if team.command is not None and way is Way.IN_PROCESS:

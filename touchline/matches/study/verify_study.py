@@ -1,6 +1,6 @@
 """Checks a study that was played: digests, results and recordings, and matches that are simulated again."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,22 +10,16 @@ from typing import Any
 import pandas as pd
 
 from schemas.side import Side
-from touchline.matches.engine.outcome import Outcome, Played
-from touchline.matches.engine.outcomes import Outcomes
-from touchline.matches.engine.plan import ListPlan
-from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.run import run_plan
-from touchline.matches.engine.store import MemoryStore
-from touchline.matches.engine.verify import Depth, MatchCheck, sampled, verify_run
+from touchline.matches.engine.outcome import Outcome
+from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.verify import Depth, sampled, verify_run
+from touchline.matches.series.plan import SeedMatch
 from touchline.matches.study.digests import file_digest, library_digest, team_digests
 from touchline.matches.study.match_figures import FIRST, SECOND
 from touchline.matches.study.recording_functions import load_functions, measure
 from touchline.matches.study.result_table import result_table
 from touchline.matches.study.study_folder import CSV, DIGESTS, PARQUET, StoredStudy, csv_bytes, read_study
-from touchline.matches.study.study_plan import StudyMatch, recording_name
-
-Checked = Callable[[MatchCheck], None]
-"""Called with what was found about each match."""
+from touchline.matches.study.study_plan import recording_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +51,7 @@ def verify_study(
     executor: Executor,
     sample: int | None,
     brain_folder: Path | None,
-    checked: Checked,
+    progress: Progress | None = None,
     *,
     from_recordings: bool = True,
 ) -> Verdict:
@@ -68,7 +62,7 @@ def verify_study(
         executor: where matches are simulated.
         sample: number of matches; None for all.
         brain_folder: where brains and functions are looked for; None as then.
-        checked: is told of each match.
+        progress: shows each match that was checked.
         from_recordings: simulate a match from its recording, where there is one, instead of playing it again.
 
     Raises:
@@ -78,19 +72,18 @@ def verify_study(
     home = brain_folder or stored.plan.brain_folder
     functions = load_functions(stored.plan.study.functions, home)
     faults = [*_file_faults(stored), *_table_faults(stored)]
-    matches = {match.identity: match for match in stored.plan.matches(stored.seeds)}
-    rows = dict(_rows(stored, matches.values(), from_recordings=from_recordings))
+    depth, outcomes = Depth(recordings=bool(functions), failures=True), dict[str, Outcome]()
     with TemporaryDirectory() as scratch:
         plan = replace(stored.plan, brain_folder=home, folder=Path(scratch), measured={})
-        chosen = sampled([plan.planned(match) for match in matches.values()], sample)
-        outcomes = Outcomes()
-        for check in _checks(chosen, rows, folder, executor, Depth(recordings=bool(functions))):
+        matches = {match.identity: match for match in plan.matches(stored.seeds)}
+        rows = dict(_rows(stored, matches.values(), from_recordings=from_recordings))
+        chosen = sampled([match.planned for match in matches.values()], sample)
+        for check in verify_run(chosen, rows, folder, executor, lambda _: depth, progress):
             faults += [f"{check.label}: {fault}" for fault in check.faults]
             if check.again is not None:
                 outcomes[check.identity] = check.again
                 if functions and check.again.recording is not None:
                     plan.measured[check.identity] = measure(functions, Path(check.again.recording))
-            checked(check)
         again = result_table(plan, stored.seeds, outcomes)
     newer = [name for name in again.columns if name not in stored.table.columns]
     again = again.drop(columns=newer)
@@ -110,7 +103,7 @@ def verify_study(
 
 
 def _rows(
-    stored: StoredStudy, matches: Iterable[StudyMatch], *, from_recordings: bool
+    stored: StoredStudy, matches: Iterable[SeedMatch], *, from_recordings: bool
 ) -> Iterator[tuple[str, ResultRow]]:
     """The identities of the matches that have a row, and what it says."""
     known = set(stored.table["identity"])
@@ -122,29 +115,6 @@ def _rows(
         counted = dict(zip(match.sides, goals.fillna(-1).astype(int), strict=True))
         recorded = from_recordings and (stored.folder / path).exists()
         yield match.identity, ResultRow(str(row["chain"]), counted, path if recorded else None)
-
-
-def _checks(
-    chosen: Sequence[PlannedMatch], rows: Mapping[str, ResultRow], folder: Path, executor: Executor, depth: Depth
-) -> Iterator[MatchCheck]:
-    """Check matches with a row against it; a match without one has failed, and should fail again."""
-    yield from verify_run([one for one in chosen if one.identity in rows], rows, folder, executor, lambda _: depth)
-    failed = {one.identity: one for one in chosen if one.identity not in rows}
-
-    class Silent:
-        """Shows nothing."""
-
-        def planned(self, done: int, due: int) -> None:
-            """Nothing to show."""
-
-        def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-            """Nothing to show."""
-
-    with TemporaryDirectory() as scratch:
-        again = run_plan(ListPlan(tuple(failed.values())), executor, MemoryStore(Path(scratch)), Silent())
-    for identity, outcome in again.items():
-        faults = ("has no result, and was played to its end again",) if isinstance(outcome, Played) else ()
-        yield MatchCheck(identity, failed[identity].label, faults)
 
 
 def _file_faults(stored: StoredStudy) -> Iterator[str]:
@@ -167,17 +137,18 @@ def _table_faults(stored: StoredStudy) -> Iterator[str]:
             yield f"{CSV}: cell {row.cell}, seed {row.seed}: {row.identity} is no match of the plan"
 
 
-def _figure_faults(match: StudyMatch, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
-    """The figures of a match are the table's; its hash chain is not compared here."""
+def _figure_faults(match: SeedMatch, rows: pd.DataFrame, again: pd.DataFrame) -> Iterator[str]:
+    """The figures of a match are those of the table; its hash chain is not compared here."""
     stored_row, new = _row(rows, match), _row(again, match)
     different = [name for name in new.index if name != "chain" and not _equal(stored_row.get(name), new[name])]
     if different:
         name = different[0]
         more = f", and {len(different) - 1} more figures" if len(different) > 1 else ""
-        yield f"{match.title}: {name} is {stored_row.get(name)} in {CSV} and {new[name]} when simulated again{more}"
+        values = f"{stored_row.get(name)} in {CSV} and {new[name]} when simulated again{more}"
+        yield f"{match.planned.label}: {name} is {values}"
 
 
-def _row(table: pd.DataFrame, match: StudyMatch) -> "pd.Series[Any]":
+def _row(table: pd.DataFrame, match: SeedMatch) -> "pd.Series[Any]":
     is_row = (table["identity"] == match.identity) & (table["swapped"] == match.swapped)
     return table[is_row].iloc[0]
 

@@ -1,91 +1,28 @@
 """A cup that is played: resumed after it was killed, equal for any number of processes, and served by the command."""
 
 import json
-import os
-import random
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Mapping
-from concurrent.futures import Future
 from contextlib import closing
 from dataclasses import replace
-from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
 from schemas.errors import TouchlineError
-from support.cups import CUP, ShownLines, mini_cup, play
+from support.cups import CUP, mini_cup
 from touchline.command_line import app
 from touchline.matches.cup.cup_config import load_cup
 from touchline.matches.cup.report import report_of
 from touchline.matches.cup.run_cup import CupRun
-from touchline.matches.engine.executors.this_process import ThisProcess
-from touchline.matches.engine.outcome import Outcome, to_json
-from touchline.matches.engine.store import RunStore
-
-KILLS = 20
-
-
-def stored(folder: Path) -> dict[str, bytes]:
-    """Identity → outcome, byte for byte; empty before the state of the cup was made."""
-    try:
-        with RunStore(folder / "out", read_only=True) as store:
-            return bytes_of(store.outcomes())
-    except TouchlineError:
-        return {}
-
-
-def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
-    return {identity: to_json(outcome) for identity, outcome in outcomes.items()}
 
 
 def report_in(folder: Path) -> object:
     """The report on a stored cup."""
     with closing(mini_cup(folder, resume=True)) as run:
         return report_of(run.state)
-
-
-def test_one_worker_and_eight_give_the_same_bytes(undisturbed: Path, tmp_path: Path) -> None:
-    with closing(mini_cup(tmp_path)) as run:
-        play(run, 8)
-    assert stored(tmp_path) == stored(undisturbed)
-    assert (tmp_path / "out" / "result.json").read_bytes() == (undisturbed / "out" / "result.json").read_bytes()
-
-
-def _play_in_child(folder: Path) -> None:
-    """Play what is missing of the cup in this process, one match after the other."""
-    with closing(mini_cup(folder, resume=True)) as run, ThisProcess() as executor:
-        run.play(executor, ShownLines())
-
-
-def test_a_cup_that_is_killed_at_any_instant_and_resumed_has_the_table_of_the_undisturbed_one(
-    undisturbed: Path, tmp_path: Path
-) -> None:
-    """Killed 20 times, each time a random while after it has begun; a cup that has ended meanwhile begins anew."""
-    drawn, before, kills, ended = random.Random(5), dict[str, bytes](), 0, 0
-    context = get_context("fork")
-    while kills < KILLS:
-        folder = tmp_path / str(ended)
-        folder.mkdir(exist_ok=True)
-        child = context.Process(target=_play_in_child, args=(folder,))
-        child.start()
-        child.join(drawn.uniform(0.05, 0.5))
-        is_killed = child.is_alive() and child.pid is not None
-        if is_killed:
-            os.kill(child.pid or 0, signal.SIGKILL)
-        child.join()
-        now = stored(folder)
-        assert before.items() <= now.items(), "no finished match is lost or played again"
-        kills, before = kills + is_killed, now
-        if not is_killed:
-            assert (now, report_in(folder)) == (stored(undisturbed), report_in(undisturbed))
-            ended, before = ended + 1, {}
-    _play_in_child(folder)
-    assert (stored(folder), report_in(folder)) == (stored(undisturbed), report_in(undisturbed))
 
 
 @pytest.mark.processes
@@ -105,35 +42,6 @@ def test_ctrl_c_ends_a_cup_tidily_and_resume_finishes_it(undisturbed: Path, tmp_
     assert "the cup is not complete" in (tmp_path / "out" / "index.html").read_text()
     assert subprocess.run([*command, "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
     assert report_in(tmp_path) == report_in(undisturbed)
-
-
-class KilledWorkerError(Exception):
-    """As that of Dask."""
-
-
-class LosesWorkers(ThisProcess):
-    """Its workers are lost with each match."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
-        future: Future[Any] = Future()
-        future.set_exception(KilledWorkerError("lost"))
-        return future
-
-
-def test_a_match_whose_worker_was_lost_has_no_result_until_the_cup_is_resumed(
-    undisturbed: Path, tmp_path: Path
-) -> None:
-    with closing(mini_cup(tmp_path)) as run, LosesWorkers() as executor:
-        state = run.play(executor, ShownLines())
-    assert [one.slot.name for one in state.failed] == ["league 1", "league 2", "league 3"]
-    assert not state.is_complete
-    assert "KilledWorkerError" in (tmp_path / "out" / "matches" / "league_1.html").read_text("utf-8")
-    progress = ShownLines()
-    with closing(mini_cup(tmp_path, resume=True)) as run:
-        assert play(run, 2, progress).is_complete
-    assert len(progress.lines) == 3
-    assert report_in(tmp_path) == report_in(undisturbed)
-    assert 'id="pitch"' in (tmp_path / "out" / "matches" / "league_1.html").read_text("utf-8")
 
 
 def test_pages_and_recordings_of_all_matches_are_in_the_folder(undisturbed: Path) -> None:
@@ -192,14 +100,6 @@ def test_a_team_with_other_files_than_were_submitted_does_not_play(
         TouchlineError, match=f'the files of team "Three" have the digest .*, and {digest} was submitted'
     ):
         mini_cup(tmp_path)
-
-
-def test_two_processes_cannot_play_the_same_cup(undisturbed: Path) -> None:
-    with (
-        closing(mini_cup(undisturbed, resume=True)),
-        pytest.raises(TouchlineError, match="another process plays this run"),
-    ):
-        mini_cup(undisturbed, resume=True)
 
 
 def test_the_command_reports_a_finished_cup_as_json_and_plays_nothing(undisturbed: Path) -> None:

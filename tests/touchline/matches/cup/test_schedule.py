@@ -5,7 +5,6 @@ import pytest
 from support.cup_results import stronger_wins
 from touchline.matches.cup.cup_config import CupConfig, FormatConfig, SignificanceConfig, TeamEntry
 from touchline.matches.cup.match_result import FixtureResult
-from touchline.matches.cup.ratings import is_available
 from touchline.matches.cup.schedule import Schedule, look_level, schedule_of
 
 
@@ -51,14 +50,12 @@ def test_a_swiss_cup_ends_after_its_rounds() -> None:
     assert sum(row.byes for row in schedule.tables["swiss"]) == 3
 
 
-@pytest.mark.skipif(not is_available(), reason="ratings need scipy")
 def test_until_significant_adds_rounds_until_the_order_is_clear_and_no_further() -> None:
     cup = cup_of(2, until_significant=SignificanceConfig(budget=40))
     schedule, _ = play_out(cup, ["t1", "t0"])
     assert 6 < len(schedule.fixtures) < 40
 
 
-@pytest.mark.skipif(not is_available(), reason="ratings need scipy")
 def test_until_significant_never_plays_more_than_its_budget() -> None:
     cup = cup_of(3, until_significant=SignificanceConfig(budget=10))
     schedule, _ = play_out(cup, ["t0", "t1", "t2"])

@@ -3,6 +3,7 @@
 import json
 import shutil
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +15,6 @@ from support.cups import CUP, mini_cup
 from touchline.matches.cup.cup_config import load_cup
 from touchline.matches.cup.cup_plan import CupPlan, digests_of
 from touchline.matches.cup.verify_cup import CupVerdict, verify_cup
-from touchline.matches.engine.executors.this_process import ThisProcess
 from touchline.matches.engine.outcome import Failed, FailureKind, Played
 from touchline.matches.engine.store import RunStore
 
@@ -27,7 +27,7 @@ def cup(undisturbed: Path, tmp_path: Path) -> Iterator[Path]:
 
 
 def verified(folder: Path, sample: int | None = 1) -> CupVerdict:
-    with ThisProcess() as executor:
+    with ThreadPoolExecutor(1) as executor:
         return verify_cup(folder, executor, sample)
 
 

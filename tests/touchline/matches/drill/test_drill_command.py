@@ -1,8 +1,6 @@
 """`touchline drill`, with a scene and brains of its own."""
 
-import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 from typer.testing import CliRunner, Result
@@ -63,15 +61,6 @@ def test_a_keeper_that_leaves_lets_every_ball_in(scene: Path) -> None:
     assert result.exit_code == 0
     assert "0 of 3, 0 % (0 to 56 %)" in result.stdout
     assert "failure  goal:magenta  3, on average after " in result.stdout
-
-
-def test_drills_do_not_depend_on_the_number_of_jobs(scene: Path) -> None:
-    words = (scene, "--brain", "brains_of_a_drill:Leaves", "--seeds", "1-4", "--json")
-    one, two = (drill(*words, "--jobs", jobs) for jobs in ("1", "2"))
-    assert one.stdout == two.stdout
-    found: dict[str, Any] = json.loads(one.stdout)
-    assert [row["seed"] for row in found["drills"]] == [1, 2, 3, 4]
-    assert all(row["verdict"]["because"] == "goal:magenta" for row in found["drills"])
 
 
 def test_a_brain_that_raises_is_named_with_its_line(scene: Path) -> None:

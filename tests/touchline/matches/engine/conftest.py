@@ -37,16 +37,6 @@ class Raises(Still):
         return super().act(sight)
 
 
-class Hangs(Still):
-    def act(self, sight):
-        while sight.tick == 10:
-            try:
-                time.sleep(60.0)
-            except Exception:
-                pass
-        return super().act(sight)
-
-
 class CatchesAll(Still):
     def act(self, sight):
         while sight.tick == 10:

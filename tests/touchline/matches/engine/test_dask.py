@@ -1,6 +1,7 @@
 """A run on a Dask scheduler with real workers, on loopback."""
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -9,12 +10,10 @@ from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from support.dask_cluster import Cluster
 from touchline.matches.engine.executors import dask_cluster
-from touchline.matches.engine.executors.this_process import ThisProcess
 from touchline.matches.engine.outcome import Outcome, to_json
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.run import Remote, run_plan
-from touchline.matches.engine.store import MemoryStore
+from touchline.matches.engine.run import run_plan
 
 pytest.importorskip("distributed", reason='needs Dask: pip install "touchline[cluster]"')
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(240)]
@@ -50,9 +49,9 @@ def test_a_run_on_two_workers_of_which_one_is_killed_ends_with_the_same_outcomes
     plan = ListPlan(tuple(PlannedMatch(match_of(seed=seed), brain_folder=folder) for seed in range(1, 9)))
     log = LosesWorker(cluster)
     with dask_cluster.DaskCluster(cluster.address) as executor:
-        there = run_plan(plan, executor, MemoryStore(tmp_path), log, remote=Remote())
-    with ThisProcess() as executor:
-        here = run_plan(plan, executor, MemoryStore(tmp_path), LosesWorker(cluster))
+        there = run_plan(plan, executor, None, log, is_remote=True)
+    with ThreadPoolExecutor(1) as executor:
+        here = run_plan(plan, executor, None, LosesWorker(cluster))
     assert {name: to_json(one) for name, one in there.items()} == {name: to_json(one) for name, one in here.items()}
     assert log.ended_matches == 8
 

@@ -1,7 +1,6 @@
 """How planned matches end, and whose fault it is if they do not."""
 
 import os
-import signal
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,19 +10,37 @@ import pytest
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
 from support.process_story import descendants, is_running, wait_for
-from touchline.matches.engine.child_processes import ChildProcesses, DiedProcessError
 from touchline.matches.engine.code_digest import code_digest
-from touchline.matches.engine.hang_limit import HangLimit, HungError
-from touchline.matches.engine.in_process import outcome_of_death, play_in_process
+from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
+from touchline.matches.engine.hang_watch import Note
+from touchline.matches.engine.in_process import outcome_of_death
 from touchline.matches.engine.inputs_only import with_inputs_only
 from touchline.matches.engine.measurement import measured
-from touchline.matches.engine.outcome import Failed, FailureKind, Played, from_json, to_json
+from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played, from_json, to_json
+from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.play import play
-from touchline.matches.engine.worker import play_here
+from touchline.matches.engine.run import run_plan
 from touchline.verify.resimulate import verify
 
 MatchOf = Callable[..., MatchConfig]
+
+
+class Silent:
+    """Shows nothing."""
+
+    def planned(self, done: int, due: int) -> None:
+        del done, due
+
+    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+        del planned, outcome
+
+
+def in_fresh_process(planned: PlannedMatch) -> Outcome:
+    """Play a match in a process of its own."""
+    with FreshProcesses(1) as executor:
+        outcome: Outcome = executor.submit(play, planned).result()
+        return outcome
 
 
 def test_a_match_has_the_same_outcome_each_time_and_as_json(match_of: MatchOf, folder: Path) -> None:
@@ -48,17 +65,13 @@ def test_the_identity_depends_on_configuration_and_code_alone(match_of: MatchOf,
     ("brain", "kind", "words"),
     [
         ("Raises", FailureKind.CRASHED, "magenta1, tick 10: ValueError: no idea"),
-        ("Hangs", FailureKind.HUNG, "no answer within 0.5 s"),
         ("NotBuilt", FailureKind.DID_NOT_START, "raised RuntimeError: no plan"),
-        ("HangsAtFirst", FailureKind.DID_NOT_START, "magenta1 is not built: no answer within 0.5 s"),
     ],
 )
 def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
     match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, words: str
 ) -> None:
-    outcome = play_in_process(
-        PlannedMatch(match_of(magenta=brain), brain_folder=folder, logs=tmp_path / "logs", hang_s=0.5)
-    )
+    outcome = play(PlannedMatch(match_of(magenta=brain), brain_folder=folder, logs=tmp_path / "logs"))
     assert isinstance(outcome, Failed)
     assert (outcome.kind, outcome.culprit) == (kind, Side.MAGENTA)
     assert words in outcome.reason
@@ -66,35 +79,32 @@ def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
     assert "planned_brains.py" in Path(outcome.evidence).read_text()
 
 
-def test_a_brain_that_nothing_interrupts_is_named_with_its_stack(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    brains = ("CatchesAll", "HoldsTheLock")
-    with ChildProcesses(2) as children:
-        futures = [
-            children.submit(
-                play_here, PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5)
-            )
-            for brain in brains
-        ]
-        errors = [future.exception() for future in futures]
-    for brain, error in zip(brains, errors, strict=True):
-        assert isinstance(error, DiedProcessError)
-        planned = PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5)
-        outcome = outcome_of_death(planned, error)
-        assert (outcome.kind, outcome.culprit) == (FailureKind.HUNG, Side.CYAN)
-        assert outcome.reason == "cyan1: no answer within 0.5 s"
+def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    """Also one that catches every exception, that holds the interpreter's lock, or that is never built."""
+    hung, silent = FailureKind.HUNG, "cyan1: no answer within 0.5 s"
+    ends = {
+        "CatchesAll": (hung, silent),
+        "HoldsTheLock": (hung, silent),
+        "HangsAtFirst": (FailureKind.DID_NOT_START, "cyan1 is not built: no answer within 0.5 s"),
+    }
+    planned = [
+        PlannedMatch(match_of(brain), brain_folder=folder, logs=tmp_path / brain, hang_s=0.5, label=brain)
+        for brain in ends
+    ]
+    with FreshProcesses(2) as executor:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, None, Silent())
+    for one in planned:
+        outcome = outcomes[one.identity]
+        assert isinstance(outcome, Failed)
+        assert (outcome.kind, outcome.reason, outcome.culprit) == (*ends[one.label], Side.CYAN)
         assert outcome.evidence is not None
         assert "planned_brains.py" in Path(outcome.evidence).read_text()
 
 
-def test_time_in_which_no_brain_has_control_is_not_counted() -> None:
-    with HangLimit(0.05) as limit:
-        limit.wait_for(None)
-        signal.raise_signal(signal.SIGALRM)
-        limit.wait_for("cyan1")
-        with pytest.raises(HungError, match=r"no answer within 0\.05 s"):
-            signal.raise_signal(signal.SIGALRM)
+def test_a_process_that_is_slow_while_no_brain_has_control_is_nobodys_fault(match_of: MatchOf) -> None:
+    error = DiedProcessError("its process ended with status 1", 1, Note(robot="", stack="in step"))
+    outcome = outcome_of_death(PlannedMatch(match_of()), error)
+    assert (outcome.kind, outcome.culprit) == (FailureKind.WORKER, None)
 
 
 def test_what_an_earlier_attempt_has_left_is_removed(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
@@ -163,7 +173,7 @@ def test_what_tools_leave_in_the_folder_of_a_team_is_no_part_of_its_digest(match
 def test_processes_and_one_process_play_the_same_match(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     planned = PlannedMatch(match_of(), brain_folder=folder)
     over_zenoh = replace(planned, way=Way.PROCESSES, recording=tmp_path / "match.mcap", logs=tmp_path / "logs")
-    here, there = play(planned), play(over_zenoh)
+    here, there = play(planned), in_fresh_process(over_zenoh)
     assert isinstance(here, Played)
     assert isinstance(there, Played), there
     assert there.chain == here.chain
@@ -172,27 +182,11 @@ def test_processes_and_one_process_play_the_same_match(match_of: MatchOf, folder
 
 
 @pytest.mark.processes
-def test_a_forked_process_launches_the_others_of_its_match_itself(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    planned = PlannedMatch(match_of(), way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
-    with ChildProcesses(1) as executor:
-        played = executor.submit(play_here, planned).result().outcome
-        not_built = replace(planned, config=match_of(magenta="NotBuilt"), logs=tmp_path / "failed")
-        failed = executor.submit(play_here, not_built).result().outcome
-    assert isinstance(played, Played), played
-    assert played.chain == play(PlannedMatch(match_of(), brain_folder=folder)).chain
-    assert (failed.kind, failed.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
-    assert "full time" in (tmp_path / "logs" / "match.log").read_text()
-    assert failed.reason in (tmp_path / "failed" / "match.log").read_text()
-
-
-@pytest.mark.processes
 def test_a_match_that_is_cancelled_leaves_no_process(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     long = match_of(duration=600.0)
     planned = PlannedMatch(long, way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
-    executor = ChildProcesses(1)
-    future = executor.submit(play_here, planned)
+    executor = FreshProcesses(1)
+    future = executor.submit(play, planned)
     wait_for((tmp_path / "logs" / "cyan1.log").exists, "a robot")
     programs = [pid for pid in descendants(os.getpid()) if "logs/host.json" in command_line(pid)]
     assert len(programs) == 1
@@ -213,10 +207,11 @@ def command_line(pid: int) -> str:
 def test_a_team_that_does_not_start_is_named_with_processes_too(
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
-    outcome = play(
+    outcome = in_fresh_process(
         PlannedMatch(match_of(magenta="NotBuilt"), way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
     )
     assert isinstance(outcome, Failed)
     assert (outcome.kind, outcome.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
     assert outcome.evidence == str(tmp_path / "logs")
+    assert outcome.reason in (tmp_path / "logs" / "match.log").read_text()
     assert not (tmp_path / "logs" / "credentials").exists()

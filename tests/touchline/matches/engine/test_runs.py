@@ -16,14 +16,13 @@ import pytest
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.matches.engine.child_processes import ChildProcesses
 from touchline.matches.engine.code_digest import code_digest
-from touchline.matches.engine.executors.this_process import ThisProcess
+from touchline.matches.engine.fresh_process import FreshProcesses
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played, to_json
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.run import Remote, run_plan
-from touchline.matches.engine.store import MemoryStore, RunStore
+from touchline.matches.engine.run import run_plan
+from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.verify import Depth, verify_run
 
 MatchOf = Callable[..., MatchConfig]
@@ -66,34 +65,26 @@ def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
 def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     plan = ListPlan(tuple(matches(match_of, folder, 4)))
     results = []
-    executors: list[tuple[Executor, Remote | None]] = [
-        (ThisProcess(), None),
-        (ChildProcesses(1), None),
-        (ChildProcesses(8), None),
-        (ThreadPoolExecutor(2), Remote()),
+    executors: list[tuple[Executor, bool]] = [
+        (ThreadPoolExecutor(1), False),
+        (FreshProcesses(1), False),
+        (FreshProcesses(8), False),
+        (ThreadPoolExecutor(2), True),
     ]
-    for number, (executor, remote) in enumerate(executors):
+    for number, (executor, is_remote) in enumerate(executors):
         with executor, RunStore(tmp_path / str(number)) as store:
-            results.append(bytes_of(run_plan(plan, executor, store, Log(), remote=remote, at_once=8)))
+            results.append(bytes_of(run_plan(plan, executor, store, Log(), is_remote=is_remote, at_once=8)))
     assert all(result == results[0] for result in results)
     assert len(results[0]) == 4
 
 
-def test_recordings_of_other_machines_come_back_or_stay(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    run, far = tmp_path / "run", tmp_path / "far"
-    plan = ListPlan(tuple(matches(match_of, folder, 1, run / "recordings")))
-    with ThreadPoolExecutor(1) as executor:
-        with RunStore(run) as store:
-            (outcome,) = run_plan(plan, executor, store, Log(), remote=Remote()).values()
-        assert isinstance(outcome, Played)
-        assert outcome.recording == "recordings/1.mcap"
-        assert (run / "recordings" / "1.mcap").stat().st_size > 1000
-        with RunStore(tmp_path / "second") as store:
-            moved = ListPlan(tuple(matches(match_of, folder, 1, tmp_path / "second" / "recordings")))
-            (stays,) = run_plan(moved, executor, store, Log(), remote=Remote(keep=far)).values()
-    assert isinstance(stays, Played)
-    assert stays.recording == str(far / "recordings" / "1.mcap")
-    assert Path(stays.recording).exists()
+def test_recordings_of_other_machines_come_back(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    plan = ListPlan(tuple(matches(match_of, folder, 1, tmp_path / "recordings")))
+    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path) as store:
+        (outcome,) = run_plan(plan, executor, store, Log(), is_remote=True).values()
+    assert isinstance(outcome, Played)
+    assert outcome.recording == "recordings/1.mcap"
+    assert (tmp_path / "recordings" / "1.mcap").stat().st_size > 1000
 
 
 @dataclass(frozen=True)
@@ -111,15 +102,15 @@ class Final:
 def test_a_plan_may_depend_on_outcomes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     first, second = matches(match_of, folder, 2)
     log = Log()
-    with ThisProcess() as executor:
-        run_plan(Final(first, second), executor, MemoryStore(tmp_path), log)
+    with ThreadPoolExecutor(1) as executor:
+        run_plan(Final(first, second), executor, None, log)
     assert log.ended_labels == ["seed 1", "seed 2"]
 
 
 def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     few, all_of_them = (ListPlan(tuple(matches(match_of, folder, number))) for number in (2, 4))
     log = Log()
-    with ThisProcess() as executor:
+    with ThreadPoolExecutor(1) as executor:
         with RunStore(tmp_path) as store:
             run_plan(few, executor, store, Log())
         with RunStore(tmp_path) as store:
@@ -139,10 +130,8 @@ def test_a_match_whose_process_ends_costs_itself_alone(
     match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, culprit: Side | None, reason: str
 ) -> None:
     lost = PlannedMatch(match_of(magenta=brain), brain_folder=folder, label="lost")
-    with ChildProcesses(2) as executor:
-        outcomes = run_plan(
-            ListPlan((lost, *matches(match_of, folder, 2))), executor, MemoryStore(tmp_path), Log(), at_once=2
-        )
+    with FreshProcesses(2) as executor:
+        outcomes = run_plan(ListPlan((lost, *matches(match_of, folder, 2))), executor, None, Log(), at_once=2)
     assert [isinstance(one, Played) for one in outcomes.values()].count(True) == 2
     failed = outcomes[lost.identity]
     assert isinstance(failed, Failed)
@@ -157,7 +146,7 @@ def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
         store.add(Failed(one.identity, FailureKind.WORKER, "no disk"))
         store.add(Failed(other.identity, FailureKind.CRASHED, "no idea", Side.CYAN))
         log = Log()
-        with ThisProcess() as executor:
+        with ThreadPoolExecutor(1) as executor:
             outcomes = run_plan(ListPlan((one, other)), executor, store, log)
         assert store.outcomes() == outcomes
     assert log.ended_labels == ["seed 1"]
@@ -174,23 +163,21 @@ def test_teams_whose_files_have_the_same_name_do_not_meet(
         PlannedMatch(match_of(), {Side.CYAN: code_digest(match_of(), Side.CYAN, home)}, brain_folder=home)
         for home in (folder, tmp_path)
     )
-    with ChildProcesses(1) as executor:
-        outcomes = run_plan(
-            ListPlan((forward, backward, *matches(match_of, folder, 1))), executor, MemoryStore(tmp_path), Log()
-        )
+    with FreshProcesses(1) as executor:
+        outcomes = run_plan(ListPlan((forward, backward, *matches(match_of, folder, 1))), executor, None, Log())
     chains = [one.chain for one in outcomes.values() if isinstance(one, Played)]
     assert len(chains) == 3, outcomes[backward.identity]
     assert chains[0] != chains[1]
     assert chains[0] == chains[2]
 
 
-def _loaded_modules(poll: Callable[[], None]) -> set[str]:
-    poll()
+def _loaded_modules(note: Path) -> set[str]:
+    assert note.is_dir()
     return set(sys.modules)
 
 
 def test_a_process_of_a_match_begins_with_the_modules_of_a_match(match_of: MatchOf) -> None:
-    with ChildProcesses(1) as executor:
+    with FreshProcesses(1) as executor:
         loaded = executor.submit(_loaded_modules).result()
     assert {"pybullet", "robot_agent.teams.simple.team", "recordings.stats.match_statistics"} <= loaded
 
@@ -214,7 +201,7 @@ def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(
 ) -> None:
     plan = ListPlan(tuple(matches(match_of, folder, 2)))
     with LostWorkers(1) as executor:
-        outcomes = run_plan(plan, executor, MemoryStore(tmp_path), Log())
+        outcomes = run_plan(plan, executor, None, Log())
     assert len(outcomes) == 2
     for outcome in outcomes.values():
         assert isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER and outcome.culprit is None
@@ -235,7 +222,7 @@ def test_two_processes_do_not_play_the_same_run(tmp_path: Path) -> None:
 
 def _play_in_child(plan: ListPlan, folder: Path) -> None:
     os.setpgrp()
-    with ThisProcess() as executor, RunStore(folder) as store:
+    with ThreadPoolExecutor(1) as executor, RunStore(folder) as store:
         run_plan(plan, executor, store, Log(), at_once=1)
 
 
@@ -244,7 +231,7 @@ def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
 ) -> None:
     """Killed 20 times, each time a random while after it has begun, and resumed."""
     plan = ListPlan(tuple(matches(match_of, folder, 6)))
-    with ThisProcess() as executor, RunStore(tmp_path / "undisturbed") as store:
+    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path / "undisturbed") as store:
         wanted = bytes_of(run_plan(plan, executor, store, Log()))
     draw = random.Random(7)
     context = multiprocessing.get_context("fork")
@@ -255,7 +242,7 @@ def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
         if child.pid is not None and child.is_alive():
             os.kill(child.pid, signal.SIGKILL)
         child.join()
-    with ThisProcess() as executor, RunStore(tmp_path / "killed") as store:
+    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path / "killed") as store:
         assert bytes_of(run_plan(plan, executor, store, Log(), at_once=1)) == wanted
 
 
@@ -263,7 +250,7 @@ def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
     planned = matches(match_of, folder, 3, tmp_path / "recordings")
-    with ThisProcess() as executor, RunStore(tmp_path) as store:
+    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path) as store:
         outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
         assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
         (tmp_path / "recordings" / "2.mcap").write_bytes((tmp_path / "recordings" / "3.mcap").read_bytes())
@@ -276,7 +263,7 @@ def test_a_match_without_a_recording_is_verified_by_playing_it_again(
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
     planned = matches(match_of, folder, 1)
-    with ThisProcess() as executor, RunStore(tmp_path) as store:
+    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path) as store:
         outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
         assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
         (identity, played) = next(iter(outcomes.items()))
@@ -290,8 +277,8 @@ def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found_with
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
     planned = matches(match_of, folder, 1, tmp_path / "recordings")
-    with ThisProcess() as executor:
-        outcomes = run_plan(ListPlan(tuple(planned)), executor, MemoryStore(tmp_path), Log())
+    with ThreadPoolExecutor(1) as executor:
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, None, Log())
         ((identity, played),) = outcomes.items()
         assert isinstance(played, Played)
         forged = {identity: replace(played, figures=replace(played.figures, sides=swapped(played.figures.sides)))}

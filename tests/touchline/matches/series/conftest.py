@@ -6,7 +6,6 @@ import pytest
 
 BRAINS = '''"""Brains for tests of series."""
 
-import os
 from touchline import Command, Drive
 
 built = 0
@@ -33,11 +32,6 @@ class RaisesInMagenta(Still):
         if self.briefing.side == "magenta" and sight.tick == 20:
             raise ValueError("no idea")
         return super().act(sight)
-
-
-class Dies(Still):
-    def act(self, sight):
-        os._exit(7)
 
 
 class OnceOnly(Still):

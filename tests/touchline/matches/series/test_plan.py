@@ -13,7 +13,7 @@ def test_each_seed_is_one_match_that_differs_in_its_seed_alone() -> None:
     config = load_match(None)
     plan = plan_series(config, [3, 9])
     assert [one.seed for one in plan.matches] == [3, 9]
-    assert [one.config for one in plan.matches] == [config.model_copy(update={"seed": seed}) for seed in (3, 9)]
+    assert [one.planned.config for one in plan.matches] == [config.model_copy(update={"seed": seed}) for seed in (3, 9)]
 
 
 def test_with_both_sides_each_seed_is_a_pair_with_the_teams_on_each_others_side() -> None:
@@ -21,7 +21,10 @@ def test_with_both_sides_each_seed_is_a_pair_with_the_teams_on_each_others_side(
     one, other = plan.matches
     assert (one.seed, one.swapped, other.seed, other.swapped) == (5, False, 5, True)
     assert other.sides == (Side.MAGENTA, Side.CYAN)
-    assert (other.config.teams.cyan, other.config.teams.magenta) == (one.config.teams.magenta, one.config.teams.cyan)
+    assert (other.planned.config.teams.cyan, other.planned.config.teams.magenta) == (
+        one.planned.config.teams.magenta,
+        one.planned.config.teams.cyan,
+    )
 
 
 def test_types_of_robots_move_with_the_team() -> None:
@@ -64,7 +67,7 @@ def test_each_shipped_team_is_known_by_its_name() -> None:
 
 def test_a_team_of_lines_plays_a_series() -> None:
     config = load_match(None, {"teams.cyan.stdio": ["node", "robot.js"]})
-    assert [match.config.seed for match in plan_series(config, [1, 2]).matches] == [1, 2]
+    assert [match.seed for match in plan_series(config, [1, 2]).matches] == [1, 2]
 
 
 def test_a_brain_replaces_the_program_of_the_file_and_its_robots_stay() -> None:

@@ -40,14 +40,6 @@ def test_without_scipy_the_extra_that_brings_it_is_named(match_file: Path, monke
     assert "intervals need scipy, which is not installed; pip install 'touchline[sim]'" in output
 
 
-def test_figures_do_not_depend_on_the_number_of_jobs(match_file: Path) -> None:
-    one, two = (series(match_file, "--seeds", "1-3", "--both-sides", "--jobs", jobs) for jobs in ("1", "2"))
-    assert (one.exit_code, two.exit_code) == (0, 0)
-    assert one.stdout == two.stdout
-    assert "Forward – Still   6 matches" in one.stdout
-    assert rows(match_file, "--seeds", "1-2", "--jobs", "1") == rows(match_file, "--seeds", "1-2", "--jobs", "2")
-
-
 def test_a_match_of_a_series_is_the_match_of_its_seed(match_file: Path) -> None:
     (row,) = rows(match_file, "--seeds", "5")["matches"]
     alone = play_match(load_match(match_file, {"seed": 5}), brain_folder=match_file.parent)
@@ -63,11 +55,6 @@ def test_a_brain_that_raises_costs_its_match_only(match_file: Path) -> None:
     found = rows(*words)
     assert [(row["seed"], row["swapped"]) for row in found["matches"]] == [(2, True)]
     assert [(row["seed"], row["swapped"]) for row in found["failed"]] == [(2, False)]
-
-
-def test_a_process_that_dies_costs_its_match_only(match_file: Path) -> None:
-    (failed,) = rows(match_file, "--seeds", "4", "--cyan", "few_brains:Dies")["failed"]
-    assert failed["reason"] == "cyan1: its process ended with status 7"
 
 
 def test_brains_keep_nothing_from_one_match_to_the_next(match_file: Path) -> None:

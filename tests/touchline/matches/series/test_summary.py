@@ -2,9 +2,9 @@
 
 from pytest import approx
 
-from touchline.matches.series.intervals import Estimate
 from touchline.matches.series.match_row import MatchRow, TeamRow
 from touchline.matches.series.summary import Figure, Summary, summary_of
+from touchline.matches.statistics.estimates import Estimate
 
 
 def team(goals: int = 0, **figures: float) -> TeamRow:

@@ -1,6 +1,7 @@
 """Studies of constructed results and of short matches."""
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,6 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from support.short_study import Run
-from touchline.matches.engine.executors.this_process import ThisProcess
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
 
@@ -113,6 +113,6 @@ def run(tmp_path: Path, home: Path) -> Run:
         path.write_text(text)
         study = load_study(path)
         plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
-        return run_study(plan, home, ThisProcess(), Labels(played if played is not None else []), fresh=fresh)
+        return run_study(plan, home, ThreadPoolExecutor(1), Labels(played if played is not None else []), fresh=fresh)
 
     return play

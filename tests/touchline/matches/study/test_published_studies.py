@@ -7,7 +7,8 @@ import pytest
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 
-from touchline.matches.engine.executors.this_process import ThisProcess
+from concurrent.futures import ThreadPoolExecutor
+
 from touchline.matches.study.cells import cells_of
 from touchline.matches.study.study_config import load_study
 from touchline.matches.study.study_folder import read_plan
@@ -26,4 +27,4 @@ def test_a_published_study_has_the_plan_of_its_file_and_all_files_fit_their_dige
     stored = read_plan(file.with_suffix(""))
     assert stored.study == study
     assert [cell.levels for cell in stored.cells] == [cell.levels for cell in cells_of(study, file.parent)]
-    assert verify_study(file.with_suffix(""), ThisProcess(), 0, None, lambda check: None).faults == []
+    assert verify_study(file.with_suffix(""), ThreadPoolExecutor(1), 0, None).faults == []

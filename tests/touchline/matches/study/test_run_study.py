@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,6 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.matches.engine.executors.this_process import ThisProcess  # noqa: E402
 from touchline.matches.study import study_plan  # noqa: E402
 from touchline.matches.study.compare_studies import compare_studies  # noqa: E402
 from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
@@ -85,9 +85,9 @@ def test_a_function_of_a_recording_is_a_response(run: Run, home: Path, tmp_path:
     table = pd.read_csv(home / "results.csv")
     assert (table["worlds"] > 50).all()
     assert "Worlds" in (home / "report.html").read_text()
-    sample = verify_study(home, ThisProcess(), 1, None, lambda check: None)
+    sample = verify_study(home, ThreadPoolExecutor(1), 1, None)
     assert sample.faults == []
-    again = verify_study(home, ThisProcess(), None, None, lambda check: None, from_recordings=False)
+    again = verify_study(home, ThreadPoolExecutor(1), None, None, from_recordings=False)
     assert (again.faults, again.byte_identical) == ([], True)
 
 
@@ -146,10 +146,8 @@ def test_a_team_on_the_network_is_refused_in_one_process_before_any_match(run: R
 
 
 @pytest.mark.processes
-@pytest.mark.parametrize("program", ["", 'teams.cyan.stdio = ["python3", "robot.py"]'], ids=["brains", "lines"])
-def test_processes_and_one_process_give_the_same_table_to_the_byte(
-    run: Run, home: Path, tmp_path: Path, program: str
-) -> None:
+def test_processes_and_one_process_give_the_same_table_to_the_byte(run: Run, home: Path, tmp_path: Path) -> None:
+    program = 'teams.cyan.stdio = ["python3", "robot.py"]'
     (tmp_path / "robot.py").write_text(LINES)
     short = SHORT.replace('"1-2"', '"1"').replace("[0, 0.4]", "[0.4]").replace("[settings]", f"[settings]\n{program}")
     run(short)

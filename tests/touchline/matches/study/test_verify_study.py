@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,6 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.matches.engine.executors.this_process import ThisProcess  # noqa: E402
 from touchline.matches.study import study_folder  # noqa: E402
 from touchline.matches.study.verify_study import Verdict, verify_study  # noqa: E402
 
@@ -30,7 +30,7 @@ class Still:
 
 
 def verdict_of(home: Path, sample: int | None = None, *, from_recordings: bool = True) -> Verdict:
-    return verify_study(home, ThisProcess(), sample, None, lambda check: None, from_recordings=from_recordings)
+    return verify_study(home, ThreadPoolExecutor(1), sample, None, from_recordings=from_recordings)
 
 
 def check(home: Path, sample: int | None = None) -> list[str]:

@@ -6,8 +6,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from schemas.errors import TouchlineError
-from touchline.matches.engine.child_processes import ChildProcesses, cores
-from touchline.matches.engine.run import Remote
+from touchline.matches.engine.fresh_process import FreshProcesses, cores
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,8 +16,8 @@ class ChosenExecutor:
     executor: Executor
     at_once: int
     """Most matches that it plays at a time."""
-    remote: Remote | None = None
-    """Given if its workers do not see the folder of the run."""
+    is_remote: bool = False
+    """Whether its workers do not see the folder of the run."""
 
 
 @contextmanager
@@ -46,11 +45,11 @@ def chosen_executor(jobs: int, dask: str | None) -> Iterator[ChosenExecutor]:
 
 
 def _local(jobs: int) -> ChosenExecutor:
-    return ChosenExecutor(ChildProcesses(jobs), jobs)
+    return ChosenExecutor(FreshProcesses(jobs), jobs)
 
 
 def _cluster(address: str) -> ChosenExecutor:
     from touchline.matches.engine.executors.dask_cluster import DaskCluster
 
     cluster = DaskCluster(address)
-    return ChosenExecutor(cluster, cluster.threads, Remote())
+    return ChosenExecutor(cluster, cluster.threads, is_remote=True)

@@ -5,7 +5,7 @@ import random
 import pytest
 
 from touchline.matches.cup.match_result import MatchResult
-from touchline.matches.cup.ratings import SCALE, holm, rate
+from touchline.matches.statistics.ratings import SCALE, holm, rate
 
 pytest.importorskip("scipy", reason="ratings need scipy")
 

@@ -6,7 +6,7 @@ from recordings.stats.match_tick import match_ticks
 from schemas.game import EventKind, Score
 from schemas.side import Side
 from support.match_script import MatchScript
-from touchline.matches.drill.occurrences import Occurrence, OccurrenceTracker
+from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
 
 
 @pytest.fixture

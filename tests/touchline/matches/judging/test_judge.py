@@ -5,8 +5,8 @@ import pytest
 from schemas.config.drill import OCCURRENCES, Drill, DrillResult
 from schemas.config.scene import load_scene, shipped_scenes
 from schemas.side import Side
-from touchline.matches.drill.judge import Verdict, verdict_of
-from touchline.matches.drill.occurrences import Occurrence
+from touchline.matches.judging.judge import Verdict, verdict_of
+from touchline.matches.judging.occurrences import Occurrence
 
 DRILL = Drill(seconds=5.0, success=["goal:cyan"], failure=["ball_out", "held_by:magenta"])
 GOAL = Occurrence("goal", 2.0, "cyan2", Side.CYAN)

@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.matches.study.analysis import adjusted, estimate_of, is_narrow, seed_means  # noqa: E402
+from touchline.matches.statistics.paired import adjusted, estimate_of, is_narrow, seed_means  # noqa: E402
 from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
 from touchline.matches.study.sentences import rounded_up, sentence_of  # noqa: E402
 from touchline.matches.study.study_plan import StudyPlan  # noqa: E402

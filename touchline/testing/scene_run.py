@@ -5,8 +5,8 @@ from typing import Any
 
 from recordings.stats.match_tick import MatchTick, match_ticks
 from schemas.config.drill import Drill
-from touchline.matches.drill.judge import Verdict, verdict_of
-from touchline.matches.drill.occurrences import Occurrence, OccurrenceTracker
+from touchline.matches.judging.judge import Verdict, verdict_of
+from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
 from touchline.play import InProcessMatch
 from touchline.tick_messages import TickMessages
 

@@ -19,6 +19,16 @@ class Estimate:
     low: float | None = None
     high: float | None = None
 
+    @property
+    def width(self) -> float | None:
+        """`high` less `low`."""
+        return None if self.low is None or self.high is None else self.high - self.low
+
+    @property
+    def contains_zero(self) -> bool | None:
+        """Whether 0 is in the interval; None without an interval."""
+        return None if self.low is None or self.high is None else self.low <= 0 <= self.high
+
     def scaled(self, factor: float) -> "Estimate":
         """The same in another unit."""
         low, high = (None if one is None else one * factor for one in (self.low, self.high))

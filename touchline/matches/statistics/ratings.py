@@ -5,17 +5,17 @@ and draws in proportion to ν exp((θ + φ) / 2). A weak prior keeps the strengt
 finite. The scale is Elo's: 400 points are odds of ten to one, and the mean of all teams is 0.
 """
 
-import importlib.util
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from statistics import NormalDist
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import minimize
+from scipy.special import ndtri
+from scipy.stats import chi2
 
-from schemas.errors import TouchlineError
 from touchline.matches.cup.match_result import MatchResult
 
 SCALE = 400 / math.log(10)
@@ -69,21 +69,6 @@ class Ratings:
         return all(one.significant for one in self.order)
 
 
-def is_available() -> bool:
-    """Whether the library that estimates ratings is installed."""
-    return importlib.util.find_spec("scipy") is not None
-
-
-def need_scipy(what: str) -> None:
-    """Refuse what needs ratings where they cannot be estimated.
-
-    Raises:
-        TouchlineError: scipy is not installed.
-    """
-    if not is_available():
-        raise TouchlineError(f"{what} needs scipy; install it with: pip install 'touchline[sim]'")
-
-
 def rate(teams: Sequence[str], results: Iterable[MatchResult], level: float = LEVEL) -> Ratings:
     """Ratings from the goals of all matches that were played; a shoot-out counts as a draw, a forfeit not at all."""
     played = [one for one in results if one.forfeited_by is None]
@@ -93,7 +78,7 @@ def rate(teams: Sequence[str], results: Iterable[MatchResult], level: float = LE
     values = centring @ x[:-1]
     covariance = centring @ np.linalg.inv(model.information(x))[:-1, :-1] @ centring.T
     order = sorted(range(len(teams)), key=lambda place: (-round(float(values[place]), 6), teams[place]))
-    z = NormalDist().inv_cdf((1 + level) / 2)
+    z = float(ndtri((1 + level) / 2))
 
     def rating(place: int) -> Rating:
         half = z * math.sqrt(max(0.0, covariance[place, place]))
@@ -136,7 +121,6 @@ class _Model:
 
     def fit(self, subspace: Array) -> tuple[Array, float]:
         """The x of least loss among the combinations of the columns of `subspace`, and that loss."""
-        from scipy.optimize import minimize
 
         def loss(y: Array) -> tuple[float, Array]:
             value, gradient = self._loss(subspace @ y)
@@ -150,8 +134,6 @@ class _Model:
 
         Wald's test fails where a team has won all its matches: its standard error grows with the difference.
         """
-        from scipy.stats import chi2
-
         equal = np.eye(self._rows.shape[2])
         equal[:, above] += equal[:, below]
         _, loss = self.fit(np.delete(equal, below, axis=1))

@@ -1,4 +1,4 @@
-"""Estimates with intervals, paired differences and effect sizes, by scipy.
+"""Means of seeds, paired differences and effect sizes, by scipy.
 
 The unit is a seed: a seed's matches in a cell, one or both sides, are averaged first, because they share all random
 numbers. Cells are compared seed by seed.
@@ -7,35 +7,22 @@ numbers. Cells are compared seed by seed.
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import pandas as pd
 from scipy import stats
 
-from touchline.matches.study.study_config import Study
+from touchline.matches.statistics.estimates import LEVEL, Estimate
 
-LEVEL = 0.95
-"""Share of intervals that contain the true value."""
+if TYPE_CHECKING:
+    from touchline.matches.study.study_config import Study
 
 
 @dataclass(frozen=True, slots=True)
-class Estimate:
-    """A mean over seeds, and its interval by Student's t."""
+class MeanEstimate(Estimate):
+    """A mean over seeds, and its interval by Student's t; none with fewer than two seeds, or equal values in all."""
 
-    value: float
-    low: float | None
-    """None where there is no interval: fewer than two seeds, or equal values in all of them."""
-    high: float | None
-    seeds: int
-
-    @property
-    def width(self) -> float | None:
-        """`high` less `low`."""
-        return None if self.low is None or self.high is None else self.high - self.low
-
-    @property
-    def contains_zero(self) -> bool | None:
-        """Whether 0 is in the interval; None without an interval."""
-        return None if self.low is None or self.high is None else self.low <= 0 <= self.high
+    seeds: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +33,7 @@ class Comparison:
     """What is compared."""
     reference: str
     """What it is compared with."""
-    estimate: Estimate
+    estimate: MeanEstimate
     effect_size: float | None
     """Mean difference divided by the standard deviation of the seeds' differences (Cohen's d_z)."""
     p: float | None
@@ -55,18 +42,18 @@ class Comparison:
     """Matches that were compared."""
 
 
-def estimate_of(values: "pd.Series[float]") -> Estimate:
+def estimate_of(values: "pd.Series[float]") -> MeanEstimate:
     """The mean of independent values with its interval."""
     values = values.dropna()
     if values.empty:
-        return Estimate(float("nan"), None, None, 0)
+        return MeanEstimate(float("nan"), None, None, 0)
     if values.nunique() < 2:
-        return Estimate(float(values.mean()), None, None, len(values))
+        return MeanEstimate(float(values.mean()), None, None, len(values))
     interval = stats.ttest_1samp(values, 0.0).confidence_interval(LEVEL)
-    return Estimate(float(values.mean()), float(interval.low), float(interval.high), len(values))
+    return MeanEstimate(float(values.mean()), float(interval.low), float(interval.high), len(values))
 
 
-def seed_means(table: pd.DataFrame, response: str, study: Study) -> pd.DataFrame:
+def seed_means(table: pd.DataFrame, response: str, study: "Study") -> pd.DataFrame:
     """One row a seed, one column a cell: the mean of the matches of the seed in the cell.
 
     A seed of which a match is missing in a cell, or does not show the response, has no value in it.
@@ -96,7 +83,7 @@ def adjusted(comparisons: Sequence[Comparison]) -> list[float | None]:
     return [None if one.p is None else next(each) for one in comparisons]
 
 
-def widest(table: pd.DataFrame, study: Study) -> float | None:
+def widest(table: pd.DataFrame, study: "Study") -> float | None:
     """Width of the widest interval of the primary response: of the differences, or of the mean of the only cell.
 
     None if one of them has no interval.
@@ -111,7 +98,7 @@ def widest(table: pd.DataFrame, study: Study) -> float | None:
     return max(widths) if len(widths) == len(estimates) else None
 
 
-def is_narrow(table: pd.DataFrame, study: Study, limit: float) -> bool:
+def is_narrow(table: pd.DataFrame, study: "Study", limit: float) -> bool:
     """Whether the widest interval of the primary response is at most this wide."""
     width = widest(table, study)
     return width is not None and width <= limit

@@ -5,7 +5,7 @@ import math
 import pytest
 from pytest import approx
 
-from touchline.matches.series.intervals import ratio, share, student_t
+from touchline.matches.statistics.estimates import ratio, share, student_t
 
 
 @pytest.mark.parametrize(("freedom", "t"), [(1, 12.706), (2, 4.303), (3, 3.182), (9, 2.262), (30, 2.042), (100, 1.984)])

@@ -1,0 +1,120 @@
+"""Calls functions in fresh processes: nothing that a brain leaves in its modules reaches another match.
+
+A process that dies or hangs costs its own match only.
+"""
+
+import multiprocessing
+import os
+import signal
+import tempfile
+import threading
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
+from functools import partial
+from multiprocessing.context import ForkServerContext
+from pathlib import Path
+from typing import Any
+
+from pebble import ProcessExpired, concurrent
+
+from robot_agent.brain_folders import added_folders, remove_folders
+from touchline.matches.engine.hang_watch import Note, read_note
+
+_PRELOAD = "touchline.matches.engine.preload"
+"""What the fork server imports once for all processes; not imported here."""
+
+
+class DiedProcessError(Exception):
+    """The process ended before it had a result; one line."""
+
+    def __init__(self, reason: str, status: int = 0, note: Note | None = None) -> None:
+        """`status` is that of the process, negative for the signal that ended it; `note` is what it has left."""
+        super().__init__(reason)
+        self.status = status
+        self.note = note or Note()
+
+
+def cores() -> int:
+    """The number of cores that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+class FreshProcesses(Executor):
+    """An executor that calls each function in a fresh process, with a folder for its note as its last argument.
+
+    A process that ends without a result raises `DiedProcessError`.
+    """
+
+    def __init__(self, jobs: int) -> None:
+        """`jobs` is the number of processes at a time."""
+        self._threads = ThreadPoolExecutor(jobs, "match")
+        self._lock = threading.Lock()
+        self._running: set[Future[Any]] = set()
+        self._is_closed = False
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        """Call the function as soon as fewer than `jobs` processes run."""
+        call = partial(_without_folders, added_folders(), partial(fn, *args, **kwargs))
+        return self._threads.submit(self._call, call, fn.__module__)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End the executor; with `cancel_futures` the processes that run are ended, too."""
+        if cancel_futures:
+            with self._lock:
+                self._is_closed = True
+                for process in self._running:
+                    process.cancel()
+        self._threads.shutdown(wait, cancel_futures=cancel_futures)
+
+    def _call(self, call: Callable[[Path], Any], module: str) -> Any:
+        context = multiprocessing.get_context("forkserver")
+        context.set_forkserver_preload([_PRELOAD, module])
+        with tempfile.TemporaryDirectory(prefix="touchline-") as folder:
+            with self._lock:
+                if self._is_closed:
+                    raise DiedProcessError("it was not started any more")
+                process = _in_process(context)(call, Path(folder))
+                self._running.add(process)
+            try:
+                return process.result()
+            except ProcessExpired as error:
+                status = error.exitcode or 0
+                raise DiedProcessError(_end_of(status), status, read_note(Path(folder))) from None
+            except CancelledError:
+                raise DiedProcessError("it was ended with the run") from None
+            finally:
+                with self._lock:
+                    self._running.discard(process)
+
+
+def _in_process(context: ForkServerContext) -> "Callable[..., Future[Any]]":
+    """Calls `_run` in a process, which may start others: it is no daemon."""
+    options: dict[str, Any] = {"daemon": False, "context": context}  # stubs of pebble name the context differently
+    decorated: Callable[..., Callable[..., Future[Any]]] = concurrent.process(**options)
+    return decorated(_run)
+
+
+def _end_of(status: int) -> str:
+    how = f"was ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
+    return f"its process {how}"
+
+
+def _run(call: Callable[[Path], Any], folder: Path) -> Any:
+    """What the process does."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    os.dup2(2, 1)  # what brains print is no part of the result
+    return call(folder)
+
+
+def _end_with_parent() -> None:
+    """End this process when those who wait for its result are gone."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
+
+
+def _without_folders(folders: tuple[str, ...], call: Callable[[Path], Any], note: Path) -> Any:
+    """Call the function without the folders of brains that the process which waits has on its module path."""
+    remove_folders(folders)
+    return call(note)

@@ -1,0 +1,49 @@
+"""Plays a list of matches that nobody resumes, with progress, until they have ended or are interrupted."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from touchline.cli.interrupts import sigterm_interrupts
+from touchline.matches.engine.executors.chosen_executor import chosen_executor
+from touchline.matches.engine.outcome import Outcome
+from touchline.matches.engine.plan import ListPlan
+from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.progress import ProgressReporter, progress_of
+from touchline.matches.engine.run import run_plan
+
+
+@dataclass(frozen=True, slots=True)
+class PlayedList:
+    """What came of the matches."""
+
+    outcomes: dict[str, Outcome]
+    """Identity → outcome of all that have ended."""
+    is_interrupted: bool
+    """Whether Ctrl-C or SIGTERM came before the last one had ended."""
+
+
+def play_list(
+    matches: Sequence[PlannedMatch],
+    jobs: int,
+    title: str,
+    sentence_of: Callable[[PlannedMatch, Outcome], str],
+    *,
+    json: bool,
+) -> PlayedList:
+    """Play matches on this machine, `jobs` at a time; 0 for one per core. `sentence_of` is shown for each.
+
+    Raises:
+        TouchlineError: two matches are the same, or `jobs` is negative.
+    """
+    plan = ListPlan(tuple(matches))
+    with (
+        chosen_executor(jobs, None) as chosen,
+        progress_of(len(matches), title, at_once=chosen.at_once, json=json) as progress,
+    ):
+        reporter = ProgressReporter(progress, sentence_of)
+        try:
+            with sigterm_interrupts():
+                run_plan(plan, chosen.executor, None, reporter)
+        except KeyboardInterrupt:
+            return PlayedList(reporter.outcomes, is_interrupted=True)
+        return PlayedList(reporter.outcomes, is_interrupted=False)
