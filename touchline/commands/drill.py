@@ -60,7 +60,7 @@ def drill(
 
 
 def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str, object]) -> "list[PlannedMatch]":
-    """One drill for each seed; the teams are built once, so that an error is reported before the first.
+    """One drill for each seed.
 
     Raises:
         TouchlineError: the scene has no drill, or an option is invalid.
@@ -70,7 +70,6 @@ def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str
     from touchline.matches.engine.planned_match import PlannedMatch
     from touchline.matches.series.seeds import seeds_of
     from touchline.matches.series.team_names import brain_of
-    from touchline.play import InProcessMatch
 
     loaded = load_scene(scene)
     if loaded.drill is None:
@@ -79,12 +78,10 @@ def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str
     side = loaded.drill.side
     teams = {side: brain_of(brain), side.opponent: brain_of(opponents)}
     folder = Path(scene).parent if scene.endswith(".toml") else None
-    planned = [
+    return [
         PlannedMatch(drill_match(loaded, seed, teams, settings), brain_folder=folder, is_drill=True)
         for seed in seeds_of(seeds)
     ]
-    InProcessMatch(planned[0].config, brain_folder=folder).close()
-    return planned
 
 
 def _verdict(outcome: "Outcome") -> "Verdict | None":

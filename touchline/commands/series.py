@@ -76,7 +76,6 @@ def series(
     plan = plan_series(
         config, seeds_of(seeds), both_sides=both_sides, brain_folder=file.parent if file else None, record=record
     )
-    _check(plan)
     matches = {one.identity: one for one in plan.matches}
 
     def sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
@@ -88,16 +87,6 @@ def series(
         raise typer.Exit(128 + signal.SIGINT)
     if failed:
         raise typer.Exit(FAILED)
-
-
-def _check(plan: "SeriesPlan") -> None:
-    """Build the teams once, on each side that they play on, so that an error is reported before the first match."""
-    from touchline.play import InProcessMatch
-
-    for swapped in (False, True):
-        match = next((one for one in plan.matches if one.swapped is swapped), None)
-        if match is not None:
-            InProcessMatch(match.planned.config, brain_folder=match.planned.brain_folder).close()
 
 
 def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:

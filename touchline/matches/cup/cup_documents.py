@@ -1,25 +1,22 @@
 """What the state of a run has on a cup, besides the outcomes of its matches."""
 
-import json
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
+from schemas.wire.message import Part
 from touchline.matches.cup.cup_config import CupConfig
 from touchline.matches.engine.store import RunStore
 
-CUP, DIGESTS, CODE_FOLDER, VERSION = "cup", "digests", "code folder", "version"
-"""Names of documents."""
+_CUP = "cup"
+"""Name of the document."""
 RESULT = "result.json"
 """The file of tables, matches, ratings and winner, in the folder of a cup."""
 
 
-@dataclass(frozen=True, slots=True)
-class StoredCup:
+class StoredCup(Part):
     """A cup that has begun."""
 
     cup: CupConfig
-    digests: Mapping[str, str]
+    digests: dict[str, str]
     """Team → digest of its files when the cup began."""
     code_folder: Path
     """Where brains and programs were looked for first."""
@@ -29,8 +26,10 @@ class StoredCup:
 
 def stored_cup(store: RunStore) -> StoredCup | None:
     """The cup of a folder; None before it has begun."""
-    texts = [store.document(name) for name in (CUP, DIGESTS, CODE_FOLDER, VERSION)]
-    cup, digests, code_folder, version = (text or "" for text in texts)
-    if not all(texts):
-        return None
-    return StoredCup(CupConfig.model_validate_json(cup), json.loads(digests), Path(code_folder), version)
+    text = store.document(_CUP)
+    return StoredCup.model_validate_json(text) if text is not None else None
+
+
+def store_cup(store: RunStore, cup: StoredCup) -> None:
+    """Store a cup that begins."""
+    store.set_document(_CUP, cup.model_dump_json())

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from schemas.errors import TouchlineError
 from touchline.matches.cup.cup_config import CupConfig
-from touchline.matches.cup.cup_documents import CODE_FOLDER, CUP, DIGESTS, RESULT, VERSION, stored_cup
+from touchline.matches.cup.cup_documents import RESULT, StoredCup, store_cup, stored_cup
 from touchline.matches.cup.cup_plan import CupPlan, check_submitted, digests_of, match_config
 from touchline.matches.cup.cup_state import CupState, state_of
 from touchline.matches.cup.match_result import score_text
@@ -76,13 +76,7 @@ class CupRun:
         plan, store = self.plan, self._store
         stored = stored_cup(store)
         if stored is None:
-            for name, content in (
-                (CUP, plan.cup.model_dump_json()),
-                (DIGESTS, json.dumps(dict(plan.digests))),
-                (CODE_FOLDER, str(plan.code_folder)),
-                (VERSION, version("touchline")),
-            ):
-                store.set_document(name, content)
+            store_cup(store, _begun(plan))
             return
         if not resume:
             raise TouchlineError(f"{folder}: has a cup already; add --resume to go on, or give another --out")
@@ -94,6 +88,12 @@ class CupRun:
                     f'the files of team "{team}" have changed since the cup began; restore them, or give another --out'
                 )
         store.forget_lost()
+
+
+def _begun(plan: CupPlan) -> StoredCup:
+    return StoredCup(
+        cup=plan.cup, digests=dict(plan.digests), code_folder=plan.code_folder, version=version("touchline")
+    )
 
 
 class _Reporter:

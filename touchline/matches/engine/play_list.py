@@ -10,6 +10,7 @@ from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import ProgressReporter, progress_of
 from touchline.matches.engine.run import run_plan
+from touchline.play import InProcessMatch
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +33,14 @@ def play_list(
 ) -> PlayedList:
     """Play matches on this machine, `jobs` at a time; 0 for one per core. `sentence_of` is shown for each.
 
+    Each pair of teams is built once before, so that an error in a team is reported before the first match.
+
     Raises:
-        TouchlineError: two matches are the same, or `jobs` is negative.
+        TouchlineError: two matches are the same, a team cannot be built, or `jobs` is negative.
     """
     plan = ListPlan(tuple(matches))
+    for one in {one.config.teams.model_dump_json(): one for one in reversed(matches)}.values():
+        InProcessMatch(one.config, brain_folder=one.brain_folder).close()
     with (
         chosen_executor(jobs, None) as chosen,
         progress_of(len(matches), title, at_once=chosen.at_once, json=json) as progress,
