@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from recordings.container.key_selection import KeySelection
-from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import PresenceKind
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
+from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command
 from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, SETUP
@@ -35,9 +35,8 @@ class MatchRecording:
         self._simulation = simulation
         self._clock = WallClock()
         host, recorder = (medium.open_bus(config.name, clock) for clock in (self._clock, WallClock()))
-        loss_counts = LossCounts()
         wanted = config.record
-        self._sink = FileSink(path, recorder.clock, config.name, loss_counts, viz=wanted.viz)
+        self._sink = PartSink(path, recorder.clock, RecordOptions(viz=wanted.viz))
         host.declare_alive(PresenceKind.HOST, "host")
         setup = host.serve(SETUP)
         self._batches = BatchPublisher(host)
@@ -48,7 +47,6 @@ class MatchRecording:
         self._recorder = Recorder(
             recorder,
             self._sink,
-            loss_counts,
             selection=KeySelection(tuple(wanted.include), tuple(wanted.exclude)),
             config=config,
         )

@@ -2,9 +2,9 @@
 
 from datetime import UTC, datetime
 from enum import StrEnum
-from typing import Any, Self
+from typing import Any
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -49,10 +49,12 @@ class Manifest(Part):
     """Key expressions of the recorded keys; empty if all keys were recorded."""
     exclude: list[str] = []
     """Key expressions of the keys that were left out."""
+    host: int = 0
+    """The host's `stream`, as in its record batches; 0 if it is not known."""
     part: int = 1
-    """Number of this file in a split recording, from 1."""
-    latched_count: int = Field(default=0, alias="standing")
-    """Number of latched messages at the beginning of the file, which are in the files before it, too."""
+    """Number of this part of the recording, from 1."""
+    begins_ns: int = 0
+    """Simulated time in ns before which messages of this file are only repeated: they show the state at that time."""
     attached: dict[str, str] = {}
     """Attachment → blake2b of its content, hex."""
     made: str = "recorded"
@@ -73,8 +75,8 @@ class EndReason(StrEnum):
     """The host left, crashed, or stayed unreachable before full time."""
     STOPPED = "stopped"
     """The recorder was stopped before full time."""
-    SPLIT = "split"
-    """The recording continues in the next file."""
+    CONTINUED = "continued"
+    """The recording continues in the next part."""
 
 
 class KeyCount(Part):
@@ -94,16 +96,6 @@ class KeyCount(Part):
     """How often a sender restarted its sequence numbers, or another sender began to count its own."""
     unstamped: int = 0
     """Messages without a sequence number, from a sender that does not use this library: their losses are unknown."""
-
-    def plus(self, other: "KeyCount") -> "KeyCount":
-        """The counts of both."""
-        return KeyCount(**{name: getattr(self, name) + getattr(other, name) for name in KeyCount.model_fields})
-
-    def since(self, before: "KeyCount") -> Self:
-        """The counts since `before`. None of them is negative, although a late message reduces the losses."""
-        return type(self)(
-            **{name: max(0, getattr(self, name) - getattr(before, name)) for name in KeyCount.model_fields}
-        )
 
 
 class Result(Part):
@@ -150,6 +142,7 @@ def make_manifest(
     *,
     sights: bool,
     selection: KeySelection = EVERYTHING,
+    host: int = 0,
 ) -> Manifest:
     """The manifest of a recording that begins now, on this machine."""
     return Manifest(
@@ -164,6 +157,7 @@ def make_manifest(
         config=config,
         include=list(selection.include),
         exclude=list(selection.exclude),
+        host=host,
     )
 
 

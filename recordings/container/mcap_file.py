@@ -128,7 +128,7 @@ def open_mcap_file(path: Path) -> McapFile:
     """
     try:
         with path.open("rb") as file:
-            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+            if not MCAP0_MAGIC.startswith(file.read(len(MCAP0_MAGIC))):
                 raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
             return _from_summary(path, file) or _from_records(path, file)
     except OSError as error:

@@ -74,36 +74,12 @@ def examine(path: Path) -> tuple[Findings, RepairPlan | None]:
     """Examine a file and plan its repair; the plan is None if the file is intact."""
     with path.open("r+b") as file:
         if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
-            raise TouchlineError(f"{path}: not a recording; give an *.mcap or *.mcap.part file")
+            raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
             repair = _Repair(path, content)
             found = repair.examine()
             note = {"cut_bytes": str(found.cut), DAMAGED_RECORDS: str(found.damaged), "library": library()}
             return found, None if found.was_intact else repair.plan(found, {RECOVERED: sealed(note)})
-
-
-def cut_to_intact(path: Path) -> bool:
-    """Cut a file that its writer did not finish to its intact records, so that another writer can append to it.
-
-    Returns whether there is anything to append to; a finished file is left as it is.
-    """
-    if path.stat().st_size <= len(MCAP0_MAGIC):
-        return False
-    with path.open("r+b") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
-        repair = _Repair(path, content)
-        found = repair.examine()
-        messages, plan = found.messages, RepairPlan(found.patches, found.end, found.indexes, repair.rest(found))
-    if not found.was_intact and messages:
-        execute(path, plan)
-    return bool(messages)
-
-
-def add_summary(path: Path) -> None:
-    """Add the summary of all its records to a file that several writers have written."""
-    with path.open("r+b") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
-        repair = _Repair(path, content)
-        plan = repair.plan(repair.examine(), {})
-    execute(path, plan)
 
 
 def execute(path: Path, plan: RepairPlan) -> None:

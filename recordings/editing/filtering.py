@@ -1,7 +1,6 @@
 """Copies a part of a recording. Each message keeps its payload, times and sequence number."""
 
-from collections.abc import Iterable, Iterator
-from itertools import islice
+from collections.abc import Iterator
 from pathlib import Path
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -12,6 +11,7 @@ from recordings.reading.recording import RecordedMessage, Recording
 from recordings.recorder.latched_messages import LatchedMessages
 from schemas.bus.contract import ReceivedMessage
 from schemas.errors import TouchlineError
+from schemas.process.whole_file import written_whole
 
 
 def filter_recording(
@@ -34,68 +34,61 @@ def filter_recording(
         raise TouchlineError(f"{out}: would overwrite the recording that is read; give another name for --out")
     if not any(selection.includes(channel.key) for channel in recording.channels):
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
-    start_ns, end_ns = _ns(start), _ns(end)
-    entries = _copies(recording, selection, end_ns)
-    if start_ns is None:
-        repeated = islice(entries, recording.manifest.latched_count)
-        latched, rest = [entry for entry in repeated if selection.includes(entry.channel.key)], entries
-    else:
-        latched, rest = _latched_at(recording, selection, start_ns), _from(entries, start_ns)
-    manifest = _manifest_of_copy(recording.manifest, selection)
-    with CopyWriter(out) as writer:
-        writer.begin(manifest, recording.attachments, len(latched), viz=bool(recording.drawn))
-        for entry in latched:
-            writer.add(entry, counted=False)
-        selected = 0
-        for entry in rest:
-            if selection.includes(entry.channel.key):
+    manifest = _manifest_of_copy(recording.manifest, selection, _ns(start))
+    try:
+        with written_whole(out) as draft, draft.open("wb") as file:
+            writer = CopyWriter(file)
+            writer.begin(manifest, recording.attachments, viz=bool(recording.drawn))
+            for entry in _latched_at(recording, selection, start) if start is not None else ():
                 writer.add(entry)
-                selected += 1
-        if not selected:
-            begin = min(channel.start for channel in recording.channels)
-            finish = max(channel.end for channel in recording.channels)
-            raise TouchlineError(
-                f"{recording.path}: has no message of the selected keys and times; "
-                f"it lasts from {begin:.2f} to {finish:.2f} s of simulated time"
-            )
-        return writer.finish(recording.result)
+            latched = writer.messages
+            for entry in _copies(recording, selection, _ns(start), _ns(end)):
+                writer.add(entry)
+            if writer.messages == latched:
+                raise TouchlineError(
+                    f"{recording.path}: has no message of the selected keys and times; {_lasts(recording)}"
+                )
+            writer.finish(recording.result)
+            return writer.messages
+    except OSError as error:
+        raise TouchlineError(f"{out}: {error.strerror}; make room, or give another path") from None
 
 
-def _copies(recording: Recording, selection: KeySelection, end_ns: int | None) -> Iterator[MessageCopy]:
-    """Yield the messages of a recording.
+def _lasts(recording: Recording) -> str:
+    begin = min(channel.start for channel in recording.channels)
+    end = max(channel.end for channel in recording.channels)
+    return f"it lasts from {begin:.2f} to {end:.2f} s of simulated time"
 
-    The latched messages at its beginning are not filtered, as callers count them.
-    """
+
+def _copies(
+    recording: Recording, selection: KeySelection, start_ns: int | None, end_ns: int | None
+) -> Iterator[MessageCopy]:
     channels = {
-        channel.key: channel for channel in recording.mcap_file.channels.values() if not is_derived(channel.metadata)
+        channel.key: channel
+        for channel in recording.mcap_file.channels.values()
+        if not is_derived(channel.metadata) and selection.includes(channel.key)
     }
-    wanted = (
-        {key for key in channels if selection.includes(key)} if not recording.manifest.latched_count else set(channels)
-    )
-    for key, message in recording.mcap_file.messages(wanted, None, end_ns):
+    for key, message in recording.mcap_file.messages({*channels}, start_ns, end_ns):
         yield MessageCopy(message.log_time, channels[key], message.data, message.publish_time, message.sequence)
 
 
-def _manifest_of_copy(manifest: Manifest, selection: KeySelection) -> Manifest:
+def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start_ns: int | None) -> Manifest:
     """The manifest of a copy: part 1, whatever the original was."""
     return manifest.model_copy(
         update={
             "made": "filtered",
             "part": 1,
+            "begins_ns": manifest.begins_ns if start_ns is None else max(0, start_ns),
             "include": [*manifest.include, *selection.include],
             "exclude": [*manifest.exclude, *selection.exclude],
         }
     )
 
 
-def _from(entries: Iterable[MessageCopy], start_ns: int) -> Iterator[MessageCopy]:
-    return (entry for entry in entries if entry.log_ns >= start_ns)
-
-
-def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) -> list[MessageCopy]:
+def _latched_at(recording: Recording, selection: KeySelection, start: float) -> list[MessageCopy]:
     """The latched messages at a time, as copies."""
     latched = LatchedMessages()
-    latched.update((recorded.log_ns, _as_recorded(recorded)) for recorded in recording.messages(end=start_ns / 1e9))
+    latched.update((recorded.log_ns, _as_recorded(recorded)) for recorded in recording.messages(end=start))
     channels = {channel.key: channel for channel in recording.mcap_file.channels.values()}
     entries = []
     for log_ns, received in latched.messages():

@@ -7,7 +7,7 @@ chunk is kept only if its checksum is right.
 from dataclasses import dataclass
 from pathlib import Path
 
-from recordings.container.partial_file import locked
+from recordings.container.parts import locked
 from recordings.container.repair import examine, execute
 from schemas.errors import TouchlineError
 
@@ -17,7 +17,6 @@ class RecoverySummary:
     """The result of a repair."""
 
     path: Path
-    """Current name of the file."""
     repaired: bool
     """False if the file was undamaged."""
     messages: int
@@ -31,7 +30,7 @@ class RecoverySummary:
 
 
 def recover(path: Path) -> RecoverySummary:
-    """Repair a file in place. A `*.mcap.part` is renamed to `*.mcap`, unless that file exists.
+    """Repair a file in place.
 
     Raises:
         TouchlineError: the file cannot be read or written, is being recorded, is not MCAP, or has no intact record.
@@ -41,9 +40,8 @@ def recover(path: Path) -> RecoverySummary:
             done, plan = examine(path)
             if plan is not None:
                 execute(path, plan)
-            name = _finished_name(path)
         return RecoverySummary(
-            path=name,
+            path=path,
             repaired=plan is not None,
             messages=done.messages,
             cut=done.cut,
@@ -52,10 +50,3 @@ def recover(path: Path) -> RecoverySummary:
         )
     except OSError as error:
         raise TouchlineError(f"{path}: {error.strerror}; give the path of a recording that can be written") from None
-
-
-def _finished_name(path: Path) -> Path:
-    """Rename a `*.part` to its final name if that is free; returns the name of the file."""
-    if path.suffix != ".part" or path.with_suffix("").exists():
-        return path
-    return path.rename(path.with_suffix(""))

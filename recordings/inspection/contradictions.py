@@ -2,7 +2,6 @@
 
 from collections import deque
 from collections.abc import Iterator
-from itertools import islice
 from typing import Any
 
 from pydantic_core import from_json
@@ -53,7 +52,7 @@ def record_faults(recording: Recording) -> list[str]:
     trackers: dict[str, SequenceTracker] = {}
     found: list[str] = []
     log_ns, before = -1, ""
-    for recorded in islice(recording.messages(), recording.manifest.latched_count, None):
+    for recorded in recording.messages(start=recording.manifest.begins_ns / 1e9):
         if recorded.log_ns < log_ns and not found:
             found.append(
                 f"{recorded.key} {recorded.sequence} at {recorded.time:.9g} s follows {before} at {log_ns / 1e9:.9g} s"
@@ -64,18 +63,14 @@ def record_faults(recording: Recording) -> list[str]:
             tracker = trackers[recorded.key] = SequenceTracker()
         tracker.add(recorded.stamp, len(recorded.payload))
     result = recording.result
-    if result is None or not result.keys:
-        return found
+    if result is None or not result.keys or recording.manifest.part > 1:
+        return found  # the counts of a later part are those of the whole recording
     for key in sorted({*trackers, *result.keys}, key=natural_order):
         count = trackers[key].count() if key in trackers else KeyCount()
         sealed = result.keys.get(key, KeyCount())
-        # a later file of a split recording, or a copy, does not show what was lost before its first message
-        names = ["messages", "bytes"]
-        if not sealed.lost or recording.manifest.part == 1:
-            names += ["lost", "duplicates"]
         found += [
             f"{key}: {getattr(count, name)} {name} in the file, {getattr(sealed, name)} in the result"
-            for name in names
+            for name in ("messages", "bytes", "lost", "duplicates")
             if getattr(count, name) != getattr(sealed, name)
         ]
     return found
@@ -127,8 +122,8 @@ def _of_setup(recording: Recording) -> Iterator[str]:
 
 def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
     """The counts in the result, and the counts of the file."""
-    if not result.keys or recording.manifest.latched_count:
-        return  # of a repaired file, or with latched messages at its beginning, which are in no count
+    if not result.keys or recording.manifest.begins_ns:
+        return  # of a repaired file, or with messages from before its beginning, which are in no count
     there = {channel.key: channel.messages for channel in recording.channels if channel.messages}
     for key in sorted({*there, *result.keys}, key=natural_order):
         sealed = result.keys.get(key, KeyCount()).messages

@@ -104,9 +104,8 @@ def _messages(
     """Yield the messages on these keys, without the latched ones at the beginning and repeated commands."""
     last: dict[str, bytes] = {}
     start, end = span
-    latched_count = recording.manifest.latched_count
-    for number, recorded in enumerate(recording.messages(start=start if not latched_count else None, end=end)):
-        if recorded.key not in keys or number < latched_count or (start is not None and recorded.time < start):
+    for recorded in recording.messages(start=max(start or 0.0, recording.manifest.begins_ns / 1e9), end=end):
+        if recorded.key not in keys:
             continue
         if recorded.topic.key == COMMAND.key and not everything:
             if last.get(recorded.key) == recorded.payload:

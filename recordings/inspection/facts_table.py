@@ -35,7 +35,7 @@ def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
         "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
         "made": facts.made if facts.made != "recorded" else None,
-        "part": f"{facts.part}, begins with {facts.latched_count} repeated messages" if facts.latched_count else None,
+        "part": str(facts.part) if facts.part > 1 else None,
         "for viewers": " ".join(facts.drawn) or None,
         "damaged": ", ".join(facts.damaged) or None,
         "events": str(facts.events),

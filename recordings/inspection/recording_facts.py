@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
 from typing import Any
 
 from recordings.container.manifest import EndReason, KeyCount
@@ -57,7 +56,7 @@ class RecordingFacts:
     duration: float
     """Simulated time from the first to the last message, in s."""
     start: float
-    """Simulated time of the first message, in s, without latched messages repeated at the beginning."""
+    """Simulated time of the first message, in s, without messages that are repeated at the beginning."""
     end: float
     """Simulated time of the last message, in s."""
     tick: int
@@ -72,9 +71,7 @@ class RecordingFacts:
     lost: int
     missed_before_start: int
     part: int
-    """Number of this file in a split recording, from 1."""
-    latched_count: int
-    """Number of latched messages repeated at the beginning of the file."""
+    """Number of this part of the recording, from 1."""
     made: str
     """`recorded`, or how it was made from other recordings."""
     include: list[str]
@@ -128,7 +125,6 @@ def facts_of(recording: Recording) -> RecordingFacts:
         lost=sum(count.lost for count in ending.keys.values()),
         missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
         part=manifest.part,
-        latched_count=manifest.latched_count,
         made=manifest.made,
         include=manifest.include,
         exclude=manifest.exclude,
@@ -144,9 +140,9 @@ def _extent(recording: Recording) -> tuple[float, float]:
     """Simulated times of the first and the last message, in s."""
     channels = [channel for channel in recording.channels if channel.messages]
     start = min((channel.start for channel in channels), default=0.0)
-    latched_count = recording.manifest.latched_count
-    if latched_count:
-        start = next((recorded.time for recorded in islice(recording.messages(), latched_count, None)), start)
+    begins = recording.manifest.begins_ns / 1e9
+    if begins:
+        start = next((recorded.time for recorded in recording.messages(start=begins)), start)
     return start, max(start, max((channel.end for channel in channels), default=0.0))
 
 
@@ -162,18 +158,18 @@ class _Ending:
 
 def _ending(recording: Recording) -> _Ending:
     result = recording.result
-    if result is not None and result.keys:
+    if result is not None and result.keys and recording.manifest.part == 1:  # others have the counts of all parts
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
     progress = MatchProgress()
     trackers: dict[str, SequenceTracker] = {}
-    for number, recorded in enumerate(recording.messages()):
+    for recorded in recording.messages():
         received = recorded.received()
         progress.update([received])
-        if number >= recording.manifest.latched_count:
+        if recorded.log_ns >= recording.manifest.begins_ns:
             trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
     keys = {key: tracker.count() for key, tracker in trackers.items()}
-    if result is not None:  # of a repaired file, whose recorder counted messages that are lost
+    if result is not None:  # of a repaired file, or a later part
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, keys)
     state, applied = progress.state, progress.applied
     return _Ending(

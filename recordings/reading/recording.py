@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from recordings.container.manifest import DAMAGED_RECORDS, MANIFEST, RECOVERED, RESULT, Manifest, Result
-from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived, open_mcap_file
-from recordings.container.numbering import unfinished_at
+from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived
+from recordings.container.parted_file import open_parts
 from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
-from recordings.container.split_file import open_split_file
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.natural_order import natural_order
@@ -156,17 +155,12 @@ class Recording:
 
 
 def open_recording(path: Path, *, whole: bool = False) -> Recording:
-    """Open a recording. A truncated file is read up to its end, unless it has to be `whole`.
-
-    The name that was given to the recorder of a split recording stands for all its numbered files.
+    """Open a recording, with all its parts. A truncated file is read up to its end, unless it has to be `whole`.
 
     Raises:
         TouchlineError: no such file, not a recording, truncated before its manifest, or of another major version.
     """
-    split = open_split_file(path) if not path.exists() else None
-    if split is None and not path.exists() and (left := unfinished_at(path)):
-        raise TouchlineError(f"{path}: No such file or directory, but {left[0]} is there; give that, or recover it")
-    mcap_file = split or open_mcap_file(path)
+    mcap_file = open_parts(path)
     if whole and not mcap_file.complete:
         raise TouchlineError(f"{path}: truncated file, its recorder did not finish it; recover it first")
     if MANIFEST not in mcap_file.metadata:

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
-from itertools import islice
 from typing import Any, NamedTuple
 
 from pydantic_core import from_json
@@ -111,7 +110,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
     changes: list[Applied] = []
     began, kick_offs = _kick_offs(recording), 0
     worlds = {recorded.log_ns for recorded in recording.messages(WORLD.key)}
-    latched = _latched_ticks(recording)
+    begins_ns = recording.manifest.begins_ns
     before: _AppliedSummary | None = None
     for recorded in recording.messages(APPLIED.key):
         summary = _summary_of(recorded)
@@ -120,7 +119,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
             continue
         tick = summary.tick
         is_next = before is not None and tick == before.tick + 1
-        if tick not in latched:
+        if recorded.log_ns >= begins_ns:
             if is_next and index.runs and index.runs[-1].stop == tick:
                 index.runs[-1] = range(index.runs[-1].start, tick + 1)
             else:
@@ -135,13 +134,6 @@ def tick_index_of(recording: Recording) -> TickIndex:
         index.times[tick] = summary.time
         before = summary
     return index
-
-
-def _latched_ticks(recording: Recording) -> set[int]:
-    """Ticks whose `host/applied` is among the latched messages at the beginning of the file."""
-    repeated = islice(recording.messages(), recording.manifest.latched_count)
-    summaries = [_summary_of(recorded) for recorded in repeated if recorded.topic is APPLIED]
-    return {summary.tick for summary in summaries if summary is not None}
 
 
 class _AppliedSummary(NamedTuple):

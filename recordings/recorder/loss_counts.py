@@ -1,4 +1,4 @@
-"""The loss counts of a recording: messages received and lost on each key, in all files and in the current one."""
+"""The loss counts of a recording: messages received and lost on each key."""
 
 from collections.abc import Iterable
 
@@ -9,11 +9,10 @@ from schemas.natural_order import natural_order
 
 
 class LossCounts:
-    """The trackers of all keys, and their counts at the beginning of the current file."""
+    """The trackers of all keys."""
 
     def __init__(self) -> None:
         self._trackers: dict[str, SequenceTracker] = {}
-        self._before: dict[str, KeyCount] = {}
 
     def add(self, batch: Iterable[LoggedMessage]) -> None:
         """Add messages that are written."""
@@ -24,27 +23,13 @@ class LossCounts:
                 tracker = trackers[received.key] = SequenceTracker()
             tracker.add(received.stamp, len(received.payload))
 
-    def for_this_file(self) -> dict[str, KeyCount]:
-        """Key → its counts since the beginning of the current file, sorted."""
-        counts = {}
-        for key, tracker in self._sorted():
-            count = tracker.count().since(self._before.get(key, KeyCount()))
-            if count != KeyCount():
-                counts[key] = count
-        return counts
-
-    def forget_missed_before_start(self) -> None:
-        """Do not count what was sent before the first message: it is in files that are read no more."""
-        for tracker in self._trackers.values():
-            tracker.missed_before_start = 0
-
-    def start_file(self) -> None:
-        """Begin another file."""
-        self._before = {key: tracker.count() for key, tracker in self._trackers.items()}
+    def counts(self) -> dict[str, KeyCount]:
+        """Key → its counts, sorted."""
+        return {key: tracker.count() for key, tracker in self._sorted()}
 
     @property
     def losses(self) -> dict[str, int]:
-        """Key → messages lost in all files; keys without loss are left out."""
+        """Key → messages lost; keys without loss are left out."""
         return {key: tracker.lost for key, tracker in self._sorted() if tracker.lost}
 
     def _sorted(self) -> list[tuple[str, SequenceTracker]]:

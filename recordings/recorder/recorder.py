@@ -9,14 +9,13 @@ from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
 from recordings.recorder.batch_reader import BatchReader
+from recordings.recorder.earlier_parts import EarlierParts
 from recordings.recorder.latched_messages import LoggedMessage
-from recordings.recorder.leftover import Leftover, message_id
-from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.poll_interval import PollInterval
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
-from recordings.recorder.sink import FileSink
 from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.host_watch import HostWatch
@@ -48,27 +47,24 @@ class Recorder:
     def __init__(
         self,
         bus: Bus,
-        sink: FileSink,
-        loss_counts: LossCounts,
+        sink: PartSink,
         *,
         name: str = "recorder",
         sights: bool = False,
         selection: KeySelection = EVERYTHING,
         config: MatchConfig | None = None,
-        leftover: Leftover | None = None,
+        earlier: EarlierParts | None = None,
+        host: int = 0,
     ) -> None:
-        """`loss_counts` are updated by `sink`; keys that `selection` leaves out are read and not written.
+        """Keys that `selection` leaves out are read and not written. `host` is the stream of the host's batches.
 
-        With a `leftover`, the recording of a killed recorder is continued with all that the host still keeps.
+        After `earlier` parts, all that follows them and that the host still keeps is recorded.
         """
-        self._bus, self._clock, self._sink, self._loss_counts = bus, bus.clock, sink, loss_counts
+        self._bus, self._clock, self._sink, self._host_stream = bus, bus.clock, sink, host
         self._name, self._sights, self._selection, self._config = name, sights, selection, config
-        left = leftover or Leftover()
-        self._batches = BatchReader(bus, left.host_ns if leftover is not None else None)
-        self._unbatcher = Unbatcher(sights=sights, log_ns=max(0, left.last_ns))
-        self._leftover: Leftover | None = leftover
-        self._written = frozenset(left.newest)
-        """Messages that the killed recorder has written, among the newest."""
+        before = earlier or EarlierParts()
+        self._batches = BatchReader(bus, before.host_ns if before.files else None)
+        self._unbatcher = Unbatcher(sights=sights, begins_ns=before.begins_ns)
         self._waiting: list[LoggedMessage] = []
         """Messages that are not written yet, in order."""
         self._tick = -1
@@ -78,8 +74,8 @@ class Recorder:
         self._roster = RosterMetadata()
         self._setup: Setup | None = None
         self._begun = False
-        self._messages = left.messages
-        self._match = left.match
+        self._messages = before.messages
+        self._match = before.match
         self._synced_goals = 0
         self._progress = bus.publisher(RECORDER_PROGRESS, name=name)
         self._reported_tick, self._reported_at = -2, self._clock.now()
@@ -194,8 +190,6 @@ class Recorder:
             except BadMessageError:
                 self._match.unreadable[RECORD_BATCH.key] += 1
                 continue
-            if self._written:
-                logged = [one for one in logged if message_id(one[1]) not in self._written]
             self._match.update(received for _, received in logged)
             if self._selection:
                 logged = [one for one in logged if self._includes(one[1].key)]
@@ -228,7 +222,7 @@ class Recorder:
             self._reported_tick, self._reported_at = self._tick, now
 
     def _send_progress(self, *, leaving: bool = False) -> None:
-        losses = self._loss_counts.losses
+        losses = self._sink.loss_counts.losses
         self._progress.put(
             RecorderProgress(
                 tick=self._tick,
@@ -251,9 +245,6 @@ class Recorder:
     def _begin(self, setup: Setup | None) -> None:
         self._begun, self._setup, self._roster = True, setup, RosterMetadata(setup)
         self._match.on_roster_change(self._roster.update)
-        if self._leftover is not None:
-            self._match.update(received for _, received in self._leftover.latched.messages())
-            self._match.catch_up()
         self._sink.begin(self._make_header, self._make_result, self._roster)
         self._bus.declare_alive(PresenceKind.RECORDER, self._name)  # from now on a lockstep host waits for it
         if self._sights:
@@ -268,11 +259,12 @@ class Recorder:
             self._config,
             sights=self._sights,
             selection=self._selection,
+            host=self._host_stream,
         )
         return manifest, make_attachments(self._config)
 
     def _make_result(self, ended: EndReason) -> Result:
-        """The result of the current file."""
+        """The result of the recording so far."""
         state, applied = self._match.state, self._match.applied
         result = Result(
             ended=ended,
@@ -285,7 +277,7 @@ class Recorder:
             unreadable=self._unreadable(),
             lost_batches=self._batches.lost,
         )
-        return result.counted(self._loss_counts.for_this_file())
+        return result.counted(self._sink.loss_counts.counts())
 
     def _unreadable(self) -> dict[str, int]:
         """Key → payloads that could not be read."""

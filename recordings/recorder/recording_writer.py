@@ -1,6 +1,6 @@
 """Writes a recording as MCAP in zstd chunks, in a thread, so that compression and the disk do not delay the recorder.
 
-The file is named `*.mcap.part` until it is finished. It can be read up to the last flush at any time.
+The file can be read up to the last flush at any time.
 """
 
 import os
@@ -18,11 +18,9 @@ from recordings.container.environment import library
 from recordings.container.json_schema import flat_schema
 from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_writer import mcap_writer
-from recordings.container.partial_file import PartialFile
-from recordings.container.repair import add_summary
+from recordings.container.parts import create_part
 from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.latched_messages import LoggedMessage
-from recordings.recorder.leftover import SEQUENCES, Leftover
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.viz.drawing import READS
 from recordings.viz.viz_channels import VizChannels
@@ -38,69 +36,53 @@ FLUSH_S = 0.5
 _BACKLOG = 64
 """Batches that may wait for the thread; adding another one blocks."""
 
+_SEQUENCES = 0xFFFF_FFFF
+"""MCAP has sequence numbers of 32 bits."""
+
 LoggedMessages = list[LoggedMessage]
 
 
 class RecordingWriter:
     """One file that is being written. Any method may raise `TouchlineError` if the disk cannot be written."""
 
-    def __init__(
-        self,
-        path: Path,
-        clock: Clock,
-        match: str,
-        roster: RosterMetadata | None = None,
-        *,
-        viz: bool = True,
-        leftover: Leftover | None = None,
-    ) -> None:
-        """`roster` describes the robots in keys; with `viz`, the channels for viewers are written, too.
-
-        The unfinished file of a `leftover` is continued.
+    def __init__(self, path: Path, clock: Clock, *, viz: bool = True) -> None:
+        """Create the file; with `viz`, the channels for viewers are written, too.
 
         Raises:
-            TouchlineError: another recorder writes the file, or it cannot be written.
+            TouchlineError: there is such a file already, or it cannot be written.
         """
         self.path = path
-        self._roster = roster or RosterMetadata()
         self.size = 0
         """Bytes in the file so far, without messages that wait for the thread or for a full chunk."""
         self._clock = clock
-        self._root = key_prefix(match)
         self._viz = viz
         self._viz_channels: VizChannels | None = None
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         self._jobs: Queue[Callable[[], None] | None] = Queue(_BACKLOG)
         self._error: Exception | None = None
-        self._leftover = leftover if leftover is not None and leftover.partial_file is not None else None
-        left = self._leftover.partial_file if self._leftover is not None else None
-        self._partial_file = left or PartialFile(path)
-        self.partial_path = self._partial_file.path
-        self._file = self._partial_file.file
+        self._file = create_part(path)
         self._mcap = mcap_writer(self._file)
         self._thread = Thread(target=run_in_idle_time, args=[self._do_job], name="recording writer", daemon=True)
         self._flush_at = 0.0
-        self.begun = False
+        self._begun = False
 
-    def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: LoggedMessages | None = None) -> None:
-        """Write manifest, attachments and latched messages; `attachments` have names with a suffix, `match.json`.
+    def begin(self, manifest: Manifest, attachments: dict[str, bytes], roster: RosterMetadata | None = None) -> None:
+        """Write manifest and attachments, which have names with a suffix, `match.json`.
 
-        `latched` are the latched messages at the beginning of this file, which are in the files before it, too.
+        `roster` describes the robots in keys; by default, that of the manifest.
         """
-        self.begun = True
+        self._begun = True
+        self._root = key_prefix(manifest.match)
+        self._roster = roster or RosterMetadata(manifest.setup)
         self._flush_at = self._clock.now() + FLUSH_S
         start_thread(self._thread)
-        attached = {name: digest(content) for name, content in attachments.items()}
-        manifest = manifest.model_copy(update={"attached": attached, "latched_count": len(latched or ())})
+        manifest = manifest.model_copy(
+            update={"attached": {name: digest(content) for name, content in attachments.items()}}
+        )
         if self._viz and manifest.setup is not None:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
-        if self._leftover is not None:
-            self._hand_over(partial(self._continue, self._leftover))
-        else:
-            self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
-        if latched:
-            self.write(latched)
+        self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
 
     def write(self, batch: LoggedMessages) -> None:
         """Add messages in the order of the file; blocks while the thread is far behind."""
@@ -111,27 +93,25 @@ class RecordingWriter:
         self._hand_over(self._sync)
 
     def finish(self, result: Result) -> int:
-        """Write the result, close and rename the file, and return its size in bytes."""
+        """Write the result, close the file, and return its size in bytes."""
         self._hand_over(partial(self._write_tail, to_metadata(result)))
         self._end()
         self._raise_error()
-        try:
-            self._partial_file.finish()
-            return self.path.stat().st_size
-        except OSError as error:
-            raise TouchlineError(f"{self.path}: {error.strerror}; {self.partial_path} is complete") from None
-
-    def set_roster(self, roster: RosterMetadata) -> None:
-        """Set the roster, before `begin`."""
-        self._roster = roster
+        self._file.close()
+        return self.path.stat().st_size
 
     def abandon(self) -> None:
-        """Close the file as it is, `*.part`, with all messages so far. Has no effect after `finish`."""
+        """Close the file as it is, with all messages so far, or remove it if it was not begun.
+
+        Has no effect after `finish`.
+        """
         if self._thread.is_alive():
             self._jobs.put(self._sync)
             self._end()
         with suppress(OSError):  # an earlier error was raised
-            self._partial_file.close()
+            if not self._begun:
+                self.path.unlink(missing_ok=True)
+            self._file.close()
 
     def _hand_over(self, job: Callable[[], None]) -> None:
         self._jobs.put(job)
@@ -143,7 +123,7 @@ class RecordingWriter:
 
     def _raise_error(self) -> None:
         if isinstance(self._error, OSError):
-            raise TouchlineError(f"{self.partial_path}: {self._error.strerror}; what was written before is readable")
+            raise TouchlineError(f"{self.path}: {self._error.strerror}; what was written before is readable")
         if self._error is not None:
             raise self._error
 
@@ -178,23 +158,6 @@ class RecordingWriter:
         self._mcap.add_metadata(MANIFEST, manifest)  # again: without a manifest nothing of the file can be read
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
-    def _continue(self, leftover: Leftover) -> None:
-        """Prepare to append to the file of a killed recorder, with the numbers that its channels and schemas have."""
-        assert leftover.content is not None
-        content = leftover.content
-        for schema in content.schemas.values():
-            number = self._mcap.register_schema(schema.name, schema.encoding, schema.data)
-            self._schemas[schema.name.removeprefix("touchline.")] = number
-        for channel in content.channels.values():
-            number = self._mcap.register_channel(
-                channel.topic, channel.message_encoding, channel.schema_id, channel.metadata
-            )
-            self._channels[channel.topic] = number
-        if self._viz_channels is not None:
-            self._viz_channels.resume(self._channels, self._schemas, content.counts)
-            for log_ns, received in leftover.latched.messages():
-                self._viz_channels.catch_up(received, log_ns)
-
     def _write_batch(self, batch: LoggedMessages) -> None:
         add, channels, viz_channels = self._mcap.add_message, self._channels, self._viz_channels
         for log_ns, received in batch:
@@ -203,7 +166,7 @@ class RecordingWriter:
             if stamp is None:
                 add(channel, log_ns, received.payload, received.arrived_ns or self._clock.unix_ns())
             else:
-                add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & SEQUENCES)
+                add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & _SEQUENCES)
             if viz_channels is not None and received.topic.key in READS:
                 viz_channels.draw(received, log_ns)
 
@@ -240,11 +203,8 @@ class RecordingWriter:
     def _write_tail(self, result: dict[str, str]) -> None:
         self._mcap.flush()  # type: ignore[no-untyped-call]
         self._mcap.add_metadata(RESULT, result)
-        if self._leftover is None:
-            self._mcap.finish()  # type: ignore[no-untyped-call]
+        self._mcap.finish()  # type: ignore[no-untyped-call]
         self._file.flush()
-        if self._leftover is not None:
-            add_summary(self.partial_path)  # the library's writer knows only what it has written itself
         os.fsync(self._file.fileno())
 
 

@@ -14,13 +14,11 @@ class RecorderSettings(ClientSettings, LogSettings):
     """One recorder process: its match, its file, and what goes into it."""
 
     out: Path
-    """The file, *.mcap."""
+    """The file, *.mcap; if a recorder of this match has left it, its next part, which has what is missing."""
     name: str = "recorder"
     """Name of this recorder; the recorders of a match have different names."""
-    resume: bool = False
-    """Continue the recording that a recorder of this match has left unfinished, and fill the gap from the host."""
     record: RecordOptions = RecordOptions()
-    """What is recorded, and into which files."""
+    """What is recorded, and into which parts."""
     patience: Annotated[float, Field(ge=0)] = 30.0
     """Longest wait for a host, in s of wall time."""
     config: MatchConfig | None = None

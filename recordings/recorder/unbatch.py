@@ -25,10 +25,10 @@ class Unbatcher:
     backward.
     """
 
-    def __init__(self, *, sights: bool = False, log_ns: int = 0) -> None:
-        """Without `sights`, sights are skipped. No log time is before `log_ns`."""
-        self._sights = sights
-        self._log_ns = log_ns
+    def __init__(self, *, sights: bool = False, begins_ns: int = 0) -> None:
+        """Without `sights`, sights are skipped. Messages before the log time `begins_ns` are skipped, too."""
+        self._sights, self._begins_ns = sights, begins_ns
+        self._log_ns = 0
 
     def messages_of(self, batch: Batch) -> list[LoggedMessage]:
         """The messages of a batch, in order; keys of no recorded topic are skipped.
@@ -46,6 +46,8 @@ class Unbatcher:
             moment = entry.sim_ns if topic.writer is Party.HOST else entry.arrived_sim_ns
             if moment > log_ns:
                 log_ns = moment
+            if log_ns < self._begins_ns:
+                continue
             payload = bytes(entry.message) if entry.octets is None else _octets(entry)
             stamp = Stamp(number, entry.sent_ns, entry.sim_ns) if number is not None else None
             found.append((log_ns, ReceivedMessage(topic, key, payload, stamp, entry.arrived_ns)))

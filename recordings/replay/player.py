@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import RecordedMessage
-from recordings.reading.split_cursor import SplitCursor
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
 from schemas.errors import TouchlineError
 from schemas.messages.game import GameEvent
@@ -48,7 +47,7 @@ class Player:
 
     def __init__(
         self,
-        cursor: Cursor | SplitCursor,
+        cursor: Cursor,
         clock: Clock,
         publish: Callable[[RecordedMessage], None],
         span: PlaybackRange | None = None,

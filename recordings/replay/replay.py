@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from recordings.container.key_selection import EVERYTHING, KeySelection, key_pattern
-from recordings.reading.recording import Recording
-from recordings.reading.split_cursor import SplitCursor
+from recordings.reading.cursor import Cursor
+from recordings.reading.recording import Recording, open_recording
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
 from recordings.replay.player import PlaybackRange, Player
 from recordings.replay.seek_targets import time_in
@@ -33,7 +33,7 @@ class ReplaySettings:
     selection: KeySelection = EVERYTHING
     """Keys that are played."""
     follow: bool = False
-    """Follow a file that is still being written, and the files after it."""
+    """Follow a recording that is still being written."""
     behind: float = 5.0
     """With `follow`: where to begin, in s of simulated time before the newest message."""
 
@@ -50,10 +50,25 @@ class Replay:
         if settings.follow and settings.loop:
             raise TouchlineError("--follow and --loop exclude each other: a match that goes on has no end to loop at")
         self.settings = settings
-        self.cursor = SplitCursor(settings.file, settings.selection.includes, follow=settings.follow)
-        self.recording: Recording = self.cursor.recording
-        _check(settings.selection, [channel.key for part in self.cursor.recordings for channel in part.channels])
+        self._recording = open_recording(settings.file)
+        self.cursor = Cursor(settings.file, settings.selection.includes)
+        if self._recording.complete and not self.cursor.is_closed:
+            raise TouchlineError(
+                f"{settings.file}: damaged inside (its records cannot be followed); use another copy of it"
+            )
+        _check(settings.selection, [channel.key for channel in self._recording.channels])
         self.span = self._span()
+
+    @property
+    def recording(self) -> Recording:
+        """The recording, as far as it has been written.
+
+        Raises:
+            TouchlineError: a file is damaged.
+        """
+        if not self._recording.complete:
+            self._recording = open_recording(self.settings.file)
+        return self._recording
 
     def time_of(self, target: str) -> float:
         """The simulated time in s of a seek target, `12.5`, `tick:625` or `goal:2`.
@@ -61,7 +76,7 @@ class Replay:
         Raises:
             TouchlineError: the recording does not have this target.
         """
-        return time_in(target, *self.cursor.recordings)
+        return time_in(target, self.recording)
 
     def events(self) -> list[GameEvent]:
         """All events of the recording, as far as they have been written.
@@ -69,7 +84,7 @@ class Replay:
         Raises:
             TouchlineError: the file is damaged inside.
         """
-        return [event for part in self.cursor.recordings for _, event in part.decoded(EVENT.key)]
+        return [event for _, event in self.recording.decoded(EVENT.key)]
 
     def player(self, clock: Clock, **more: Callable[..., object]) -> Player:
         """A player of this replay; `more` is `publish` and `can_publish`."""

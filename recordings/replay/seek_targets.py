@@ -1,8 +1,7 @@
 """Targets that a replay can seek to: seconds of simulated time, a tick, `tick:812`, or an event, `kick_off:1-5`."""
 
 import re
-from collections.abc import Iterator, Sequence
-from itertools import chain
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from recordings.reading.recording import Recording
@@ -23,40 +22,39 @@ class SeekTarget(NamedTuple):
     """The kind of the event, or the phase that begins."""
 
 
-def seek_targets_of(*recordings: Recording) -> list[SeekTarget]:
-    """All events, and the beginnings of phases that are not events, by time; of the files of one recording.
+def seek_targets_of(recording: Recording) -> list[SeekTarget]:
+    """All events, and the beginnings of phases that are not events, by time.
 
     Raises:
         TouchlineError: the file is damaged inside.
     """
-    return sorted([*_events(recordings), *_phases(recordings)])
+    return sorted([*_events(recording), *_phases(recording)])
 
 
-def _events(recordings: Sequence[Recording]) -> Iterator[SeekTarget]:
-    for recorded, event in chain.from_iterable(recording.decoded(EVENT.key) for recording in recordings):
+def _events(recording: Recording) -> Iterator[SeekTarget]:
+    for recorded, event in recording.decoded(EVENT.key):
         yield SeekTarget(recorded.time, event.kind.value)
 
 
-def _phases(recordings: Sequence[Recording]) -> Iterator[SeekTarget]:
-    """Beginnings of phases; the latched state at the beginning of a file is the phase of the file before."""
+def _phases(recording: Recording) -> Iterator[SeekTarget]:
     phase: Phase | None = None
     kinds = {kind.value for kind in EventKind}
-    for recorded, state in chain.from_iterable(recording.decoded(STATE.key) for recording in recordings):
+    for recorded, state in recording.decoded(STATE.key):
         if state.phase is not phase and state.phase.value not in kinds:
             yield SeekTarget(recorded.time, state.phase.value)
         phase = state.phase
 
 
-def time_in(text: str, *recordings: Recording) -> float:
-    """The simulated time in s of a target in the files of one recording; see `time_of`.
+def time_in(text: str, recording: Recording) -> float:
+    """The simulated time in s of a target in a recording; see `time_of`.
 
     Raises:
         TouchlineError: the recording does not have this target.
     """
-    setup = recordings[0].manifest.setup
+    setup = recording.manifest.setup
     tick_s = setup.time.tick if setup is not None else None
     needs_events = not _TICK.fullmatch(text.strip()) and not _is_number(text)
-    return time_of(text, seek_targets_of(*recordings) if needs_events else [], tick_s)
+    return time_of(text, seek_targets_of(recording) if needs_events else [], tick_s)
 
 
 def time_of(text: str, targets: list[SeekTarget], tick_s: float | None = None) -> float:

@@ -3,8 +3,6 @@
 These channels are derived: readers of this project ignore them, and copies of a recording are drawn again.
 """
 
-from collections.abc import Mapping
-
 from mcap.writer import Writer
 
 from recordings.container.mcap_file import DERIVED
@@ -22,17 +20,6 @@ class VizChannels:
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._numbers: dict[str, int] = {}
-
-    def resume(self, written: Mapping[str, int], schemas: Mapping[str, int], counts: Mapping[str, int]) -> None:
-        """Continue in a file that has such channels: topic → channel, message → schema, topic → number of messages."""
-        self._channels = {topic: written[topic] for topic in SCHEMAS if topic in written}
-        self._schemas = {message: schemas[message] for message in SCHEMAS.values() if message in schemas}
-        self._numbers = {topic: counts[topic] - 1 for topic in self._channels}
-
-    def catch_up(self, received: ReceivedMessage, log_ns: int) -> None:
-        """Draw a message that the file has already, without writing anything."""
-        for _ in self._drawing.draw(received, log_ns):
-            continue
 
     def draw(self, received: ReceivedMessage, log_ns: int) -> None:
         """Write the messages for viewers that follow from this one, with its times."""

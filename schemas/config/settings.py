@@ -39,7 +39,7 @@ class LogSettings(Settings):
 
 
 class RecordOptions(Settings):
-    """What is recorded, and into which files; the section `[record]` of a match file has the same keys."""
+    """What is recorded, and into which parts; the section `[record]` of a match file has the same keys."""
 
     sights: bool = False
     """Record what every robot perceives, too."""
@@ -47,9 +47,9 @@ class RecordOptions(Settings):
     """Record only these keys, as robot/*/command or team/**; may be given several times."""
     exclude: list[str] = Field(default_factory=list)
     """Leave these keys out; may be given several times."""
-    split_size: Annotated[float | None, Field(gt=0)] = None
-    """MB after which the recording continues in the next file."""
-    split_duration: Annotated[float | None, Field(gt=0)] = None
-    """Simulated s after which the recording continues in the next file."""
+    part_size: Annotated[float | None, Field(gt=0)] = None
+    """MB after which the recording continues in its next part: final.2.mcap."""
+    part_duration: Annotated[float | None, Field(gt=0)] = None
+    """Simulated s after which the recording continues in its next part."""
     viz: bool = True
     """Add what Foxglove, Lichtblick and Rerun draw: /tf and /viz/*."""

@@ -29,7 +29,7 @@ def test_the_lines_that_read_a_file_with_the_stock_package_alone(
 
     config, clock = load_match(None, {"duration": 5.0}), SteppedClock()
     simulation = Simulation(config)
-    writer = RecordingWriter(tmp_path / "match.mcap", clock, config.name)
+    writer = RecordingWriter(tmp_path / "match.mcap", clock)
     head = make_manifest(config.name, "test", clock, simulation.setup(), config, sights=False)
     simulation.close()
     files = make_attachments(config)

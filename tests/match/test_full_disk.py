@@ -44,11 +44,10 @@ def test_a_match_whose_disk_is_full_has_its_result_and_names_what_is_left(start,
     assert result["ticks"] > 300
     assert set(result["score"]) == {"cyan", "magenta"}
     assert program.err.splitlines()[-1] == f"touchline: {result['recording_fault']}"
-    assert "m.mcap.part: File too large" in result["recording_fault"]
-    assert "touchline recover m.mcap.part" in result["recording_fault"]
-    assert result["recording"] == "m.mcap.part"
+    assert "m.mcap: File too large" in result["recording_fault"]
+    assert result["recording"] == "m.mcap"
 
-    done = recover(tmp_path / "m.mcap.part")
+    done = recover(tmp_path / "m.mcap")
     ticks = worlds(open_recording(done.path, whole=True))
     assert ticks == list(range(len(ticks)))
     assert ticks

@@ -178,7 +178,6 @@ def test_ctrl_c_leaves_a_finished_recording_and_prints_its_path(recording, story
     assert recording.complete
     assert recording.result.ended in (EndReason.HOST_GONE, EndReason.STOPPED)
     assert "touchline: match interrupted; see m.mcap" in story.program.err
-    assert not (folder / "m.mcap.part").exists()
 
 
 def test_bad_messages_are_recorded_raw_on_their_keys(recording):

@@ -9,17 +9,16 @@ import pytest
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.reading.recording import Recording
-from recordings.recorder.file_limits import ONE_FILE, FileLimits
-from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
+from schemas.config.settings import RecordOptions
 from schemas.game import Phase, Score
 from schemas.process.clock import SteppedClock
 from support.recorded_match import match_recorder, played
-from support.recorder_rig import FakeHost, RecorderRig, make_setup
+from support.recorder_rig import ONE_PART, FakeHost, RecorderRig, make_setup
 
 __all__ = ["match_recorder", "played"]
 
@@ -34,7 +33,7 @@ def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
         sights: bool = False,
         config: MatchConfig | None = None,
         path: Path | None = None,
-        limits: FileLimits = ONE_FILE,
+        options: RecordOptions = ONE_PART,
         selection: KeySelection = EVERYTHING,
     ) -> RecorderRig:
         medium = SharedState()
@@ -43,10 +42,9 @@ def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
         bus = medium.open_bus("friendly", wall)
         path = path or tmp_path / "match.mcap"
         path.parent.mkdir(exist_ok=True)
-        loss_counts = LossCounts()
-        sink = FileSink(path, wall, "friendly", loss_counts, limits)
+        sink = PartSink(path, wall, options)
         host = FakeHost(host_bus, robot_bus, make_setup())
-        recorder = Recorder(bus, sink, loss_counts, name="recorder", sights=sights, config=config, selection=selection)
+        recorder = Recorder(bus, sink, name="recorder", sights=sights, config=config, selection=selection)
         rigs.append(RecorderRig(host, recorder, bus, sink, path))
         return rigs[-1]
 

@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from coach_gateway.match.host_client import HostClient
-from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
@@ -98,9 +97,9 @@ class Match:
 
     def record(self, path: Path) -> None:
         """Record the match to its end, and close it."""
-        clock, losses = WallClock(), LossCounts()
-        sink = FileSink(path, clock, "friendly", losses)
-        recorder = Recorder(self.medium.open_bus("friendly", clock), sink, losses, config=self.config)
+        clock = WallClock()
+        sink = PartSink(path, clock)
+        recorder = Recorder(self.medium.open_bus("friendly", clock), sink, config=self.config)
         recording = threading.Thread(target=recorder.run, args=(lambda: False,))
         recording.start()
         self._hosting.join()

@@ -5,13 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from recordings.recorder.file_limits import ONE_FILE, FileLimits
-from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command
 from schemas.messages.game import RefereeAction
 from schemas.messages.sight import Sight
@@ -20,6 +19,7 @@ from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.debug_publisher import DebugPublisher
 from sim_host.server.outbox import Outbox
+from support.recorder_rig import ONE_PART
 from touchline.play import InProcessMatch
 
 
@@ -28,8 +28,7 @@ def record_match(
     config: MatchConfig,
     until: float,
     between: Callable[[Simulation], None] = lambda _: None,
-    limits: FileLimits = ONE_FILE,
-    viz: bool = True,
+    options: RecordOptions = ONE_PART,
     actions: Callable[[Simulation], Sequence[RefereeAction]] = lambda _: (),
     silent: Callable[[Simulation], Container[str]] = lambda _: (),
     refbox: Callable[[Simulation], bool] = lambda _: False,
@@ -47,10 +46,7 @@ def record_match(
     batches = BatchPublisher(host_bus)
     outbox = Outbox(batches, simulation.roster, simulation.profile.time.tick)
     debug = DebugPublisher(batches, simulation.profile.time.tick)
-    loss_counts = LossCounts()
-    recorder = Recorder(
-        bus, FileSink(path, bus.clock, config.name, loss_counts, limits, viz=viz), loss_counts, config=config
-    )
+    recorder = Recorder(bus, PartSink(path, bus.clock, options), config=config)
     ear = host_bus.subscribe(COMMAND)
     commands = {name: host_bus.publisher(COMMAND, robot=name) for name in table.brains}
     recorder.pump()

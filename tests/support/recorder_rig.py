@@ -5,15 +5,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from recordings.reading.recording import Recording, open_recording
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
-from recordings.recorder.sink import FileSink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server
 from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
+from schemas.config.settings import RecordOptions
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Command, Drive
@@ -26,6 +27,8 @@ from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
+ONE_PART = RecordOptions()
+"""Options of a recorder that writes everything into one part."""
 MOMENT = 5.0
 """Longest wall time of a robot's message to the host, in s; no test depends on the exact time."""
 
@@ -154,7 +157,7 @@ class RecorderRig:
     host: FakeHost
     recorder: Recorder
     recorder_bus: Bus
-    sink: FileSink
+    sink: PartSink
     path: Path
     played: int = 0
     """The next tick, where a test counts them."""

@@ -124,7 +124,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a drive without a terminal": (["drive", "cyan2"], "drive reads keys from a terminal"),
     "a key that is none": (["diff", "a.mcap", "b.mcap", "--include", "a//b"], '"a//b" is not a key expression'),
     "a file to recover that is not there": (["recover", "no.mcap"], "no.mcap: No such file"),
-    "a part of no size": (["record", "--out", "a.mcap", "--split-size", "0"], "--split-size"),
+    "a part of no size": (["record", "--out", "a.mcap", "--part-size", "0"], "--part-size"),
     "a recording that is not there": (["info", "no.mcap"], "no.mcap"),
     "figures of a recording that is not there": (["stats", "no.mcap", "--html", "a.html"], "no.mcap"),
     "a schema that is not there": (["schema", "sihgt"], 'did you mean "sight"?'),

@@ -11,9 +11,9 @@ from touchline.cli.option_groups import with_option_groups
 def record(settings: RecorderSettings) -> None:
     """Record a match until its host ends, or until Ctrl-C.
 
-    With --split-size or --split-duration the files are numbered: final.0001.mcap, final.0002.mcap.
-    Each file is a complete recording.
+    A recording that continues in another part, because of --part-size or --part-duration or because its recorder was
+    killed and is started again, is final.mcap, final.2.mcap, final.3.mcap. Its first part stands for all of them.
 
-    Example: touchline record --connect tcp/192.168.1.5:7447 --out final.mcap --split-duration 300
+    Example: touchline record --connect tcp/192.168.1.5:7447 --out final.mcap --part-duration 300
     """
     raise typer.Exit(run(settings))

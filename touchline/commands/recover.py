@@ -15,20 +15,21 @@ if TYPE_CHECKING:
 
 
 def recover(
-    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings: *.mcap or *.mcap.part.")],
+    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings, *.mcap.")],
     json: options.Json = False,
 ) -> None:
     """Repair truncated or damaged recordings in place.
 
-    Intact recordings are not changed. A repaired *.mcap.part loses the suffix .part.
+    Intact recordings are not changed. All parts of a recording are repaired.
 
-    Example: touchline recover final.mcap.part
+    Example: touchline recover final.mcap
     """
+    from recordings.container.parts import parts_of
     from recordings.editing.recovery import recover
     from recordings.reading.recording import open_recording
 
     done = []
-    for file in chain.from_iterable(_files_of(file) for file in files):
+    for file in chain.from_iterable(parts_of(file) or [file] for file in files):
         done.append(recover(file))
         open_recording(done[-1].path)  # raises if the rest is not a recording
         if not json:
@@ -36,14 +37,6 @@ def recover(
     if json:
         facts = [{**asdict(one), "path": str(one.path), "rest": str(one.rest) if one.rest else None} for one in done]
         typer.echo(json_text.dumps(facts))
-
-
-def _files_of(path: Path) -> list[Path]:
-    """The file, or all files of the split recording of this name."""
-    from recordings.container.numbering import numbered_files, unfinished_files
-
-    split = [*numbered_files(path), *unfinished_files(path)] if not path.exists() else []
-    return split or [path]
 
 
 def _sentence(done: "RecoverySummary") -> str:

@@ -16,15 +16,12 @@ def result_parts(plan: MatchPlan) -> Iterator[ResultUpdate]:
         return
     known = ResultUpdate(replay=f"touchline replay {shlex.quote(str(plan.recording))} --web")
     yield known
-    files = plan.recording_files
-    if len(files) != 1:
-        return  # statistics are those of one whole recording
     from recordings.reading.recording import open_recording
     from recordings.stats.page import page_of, write_page
     from recordings.stats.table import side_rows
 
     try:
-        figures, page = page_of(open_recording(files[0]))
+        figures, page = page_of(open_recording(plan.recording))
         write_page(plan.result_folder / STATISTICS, page)
     except TouchlineError:
         return  # the recording is there, and `touchline stats` reports what is wrong with it

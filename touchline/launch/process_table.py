@@ -2,11 +2,10 @@
 
 import socket
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 from schemas.config.settings import Settings
 from touchline.launch.confinement import Confinement
@@ -33,13 +32,11 @@ class ProcessRow:
     """Started as `python -P -m MODULE --settings FILE`."""
     restarts: int = 0
     """Maximum number of restarts after crashes."""
-    on_restart: Mapping[str, Any] = field(default_factory=dict)
-    """Settings of a restarted process that differ from the first's."""
 
 
 PROCESSES: dict[ProcessKind, ProcessRow] = {
     ProcessKind.HOST: ProcessRow("sim_host"),
-    ProcessKind.RECORDER: ProcessRow("recordings", restarts=3, on_restart={"resume": True}),
+    ProcessKind.RECORDER: ProcessRow("recordings", restarts=3),
     ProcessKind.AGENT: ProcessRow("robot_agent", restarts=3),
     ProcessKind.PAGE: ProcessRow("coach_gateway", restarts=3),
     ProcessKind.BRIDGES: ProcessRow("coach_gateway", restarts=3),
@@ -82,11 +79,6 @@ class Process:
             and self.settings is not None
             and (self.confinement is None or not self.confinement.is_isolated)
         )
-
-    def restarted(self) -> "Process":
-        """The process as it is launched after a crash."""
-        changes = PROCESSES[self.kind].on_restart
-        return replace(self, settings=self.settings.model_copy(update=dict(changes))) if self.settings else self
 
 
 def library_process(

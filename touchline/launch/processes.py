@@ -90,17 +90,10 @@ class MatchPlan:
 
     @property
     def recording_files(self) -> list[Path]:
-        """The finished files of the recording: a single file, or numbered files."""
-        from recordings.container.numbering import files_at
+        """The parts of the recording that are there."""
+        from recordings.container.parts import parts_of
 
-        return files_at(self.recording) if self.recording is not None else []
-
-    @property
-    def unfinished_recordings(self) -> list[Path]:
-        """The files of the recording that its recorder has not finished."""
-        from recordings.container.numbering import unfinished_at
-
-        return unfinished_at(self.recording) if self.recording is not None else []
+        return parts_of(self.recording) if self.recording is not None else []
 
     @property
     def outcome(self) -> Path:

@@ -42,17 +42,16 @@ def outcome_of(
     path = plan.recording
     if path is None:
         return NO_RECORDING
-    finished = plan.recording_files
+    parts = plan.recording_files
     reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
     if status is not None and status < 0:
         reason = f"the recorder {ending(status)}"
-    if status == 0 and finished:
+    if status == 0 and parts:
         try:
             return finished_recording(path, losses(plan))
         except TouchlineError as error:
             reason = str(error)
-    left = [*finished, *plan.unfinished_recordings]
-    return unfinished_recording(path, left, reason, plan.folder / "recorder.log")
+    return unfinished_recording(path, parts, reason, plan.folder / "recorder.log")
 
 
 def finished_recording(path: Path, losses: Mapping[str, int]) -> RecordingOutcome:
@@ -72,12 +71,11 @@ def finished_recording(path: Path, losses: Mapping[str, int]) -> RecordingOutcom
 
 
 def unfinished_recording(path: Path, left: Sequence[Path], reason: str, log: Path) -> RecordingOutcome:
-    """The outcome if the recorder has not finished: `left` are its files, of which the last may be a `*.part`."""
+    """The outcome if the recorder has not finished: `left` are its parts."""
     if not left:
         return RecordingOutcome(None, {}, f"the recording {path} is lost: {reason}; the recorder's log is {log}")
-    last = left[-1]
-    remedy = f"repair it: touchline recover {last}" if last.suffix == ".part" else f"the recorder's log is {log}"
-    return RecordingOutcome(last, {}, f"the recording is not complete: {reason}; {last} has what was written; {remedy}")
+    fault = f"the recording is not complete: {reason}; {path} has what was written; the recorder's log is {log}"
+    return RecordingOutcome(path, {}, fault)
 
 
 def _is_of_host(key: str) -> bool:

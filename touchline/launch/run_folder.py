@@ -84,10 +84,11 @@ def with_credentials(plan: MatchPlan, folder: Path) -> MatchPlan:
 
 def _why_not_writable(out: Path) -> str:
     """The reason why the file cannot be written, with the remedy; empty if it can."""
-    from recordings.container.partial_file import NotWritableError, PartialFile
+    from recordings.container.parts import NotWritableError, create_part
 
     try:
-        PartialFile(out).discard()
+        create_part(out).close()
+        out.unlink()
     except NotWritableError as error:
         return f"{error.reason}; {error.remedy}"
     except OSError as error:

@@ -211,7 +211,7 @@ class Supervisor:
             self._restarts[process.name] += 1
             self._crashes[process.name] = status, self.last_lines(process.name)
             try:
-                self._running[process.name] = self._launch(process.restarted())
+                self._running[process.name] = self._launch(process)
             except (TouchlineError, OSError) as error:  # a full disk
                 self.ended[process.name] = status
                 return f"cannot be started again: {error}"

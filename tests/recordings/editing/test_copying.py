@@ -3,16 +3,18 @@
 import pytest
 
 from recordings.container.key_selection import KeySelection
+from recordings.container.parts import parts_of
 from recordings.editing.filtering import filter_recording
 from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
-from recordings.recorder.file_limits import FileLimits
+from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.messages.command import Command, Drive
 from schemas.messages.health import Health
 from schemas.topics import HEALTH
+from support.recorder_rig import ONE_PART
 
 
 def told(recording) -> list[tuple[str, int, int, int, bytes]]:
@@ -23,8 +25,8 @@ def told(recording) -> list[tuple[str, int, int, int, bytes]]:
 def run(make_rig, tmp_path):
     """Records 120 ticks by name; `change` may say something else at tick 60."""
 
-    def record(name: str, change=None, limits: FileLimits | None = None, ticks: int = 120):
-        rig = make_rig(path=tmp_path / f"{name}.mcap", **({"limits": limits} if limits is not None else {}))
+    def record(name: str, change=None, options: RecordOptions = ONE_PART, ticks: int = 120):
+        rig = make_rig(path=tmp_path / f"{name}.mcap", options=options)
         rig.begin()
         rig.host.referee(0, Phase.PLAY, Score())
         for tick in range(ticks):
@@ -32,13 +34,14 @@ def run(make_rig, tmp_path):
                 change(rig.host)
             rig.host.play(tick)
             rig.recorder.pump()
-        return [open_recording(file) for file in rig.leave().files]
+        rig.leave()
+        return rig.read()
 
     return record
 
 
 def test_two_recordings_of_one_course_of_events_are_identical(run):
-    (one,), (other,) = run("a"), run("b")
+    one, other = run("a"), run("b")
     found = compare(one, other)
     assert (found.identical, found.messages, found.keys, found.left_out) == (True, 721, 7, [])
 
@@ -50,9 +53,9 @@ def test_what_depends_on_wall_time_is_left_out_unless_it_is_asked_for(run):
     def again(host):
         host.writers["robot/cyan1/command"].put(Command(answers_tick=59, drive=Drive(vx=1.0)))
 
-    (one,) = run("a")
+    one = run("a")
     for name, change, key in (("b", health, "host/health"), ("c", again, "robot/cyan1/command")):
-        (other,) = run(name, change)
+        other = run(name, change)
         assert compare(one, other).identical
         found = compare(one, other, everything=True)
         assert found.first is not None
@@ -71,7 +74,7 @@ def test_the_first_message_that_differs_is_named_with_its_fields(run):
 
         world.put = differ
 
-    (one,), (other,) = run("a"), run("b", nudge)
+    one, other = run("a"), run("b", nudge)
     first = compare(one, other).first
     assert first is not None
     assert (first.key, first.number, first.time, first.missing_in) == ("world", 60, 1.2, "")
@@ -84,7 +87,7 @@ def test_the_earliest_difference_counts_though_another_key_differs_later(run):
     def changed(host):
         host.goal(60)
 
-    (one,), (other,) = run("a"), run("b", changed)
+    one, other = run("a"), run("b", changed)
     assert compare(one, other).first.key == "game/event"
     assert compare(one, other).first.missing_in == "first"
     assert compare(other, one).first.missing_in == "second"
@@ -92,13 +95,13 @@ def test_the_earliest_difference_counts_though_another_key_differs_later(run):
 
 
 def test_a_recording_that_ends_earlier_differs_where_it_ends(run):
-    (one,), (other,) = run("a"), run("b", ticks=100)
+    one, other = run("a"), run("b", ticks=100)
     first = compare(one, other).first
     assert (first.number, first.time, first.missing_in) == (100, 2.0, "second")
 
 
 def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run, tmp_path):
-    (recording,) = run("a")
+    recording = run("a")
     out = tmp_path / "part.mcap"
     copied = filter_recording(recording, out, KeySelection(("robot/**", "game/state")), start=1.0, end=2.0)
 
@@ -106,7 +109,7 @@ def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run,
     assert part.manifest.made == "filtered"
     assert part.manifest.setup == recording.manifest.setup
     assert part.attachments == recording.attachments
-    assert part.manifest.latched_count == 1  # the state of tick 0
+    assert part.manifest.begins_ns == 1_000_000_000  # and before that the state of tick 0
     wanted = [m for m in told(recording) if m[0].startswith("robot/") and 1_000_000_000 <= m[3] < 2_000_000_000]
     assert told(part)[1:] == wanted
     assert told(part)[0][0] == "game/state"
@@ -117,14 +120,14 @@ def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run,
 
 
 def test_a_copy_is_not_written_over_what_is_read(run):
-    (recording,) = run("a")
+    recording = run("a")
     with pytest.raises(TouchlineError, match="another name"):
         filter_recording(recording, recording.path)
     assert open_recording(recording.path, whole=True)
 
 
 def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_path):
-    (recording,) = run("a")
+    recording = run("a")
     cut = tmp_path / "cut.mcap"
     data = recording.path.read_bytes()
     cut.write_bytes(data[: data.index(b"\x06\0\0\0result")])
@@ -133,11 +136,11 @@ def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_
     assert (facts.ended, facts.lost) == ("cut_off", 0)
 
 
-def test_the_name_of_a_split_recording_stands_for_all_its_files(run, tmp_path):
-    (whole,) = run("whole")
-    files = run("split", limits=FileLimits(duration=0.5))
+def test_a_recording_of_several_parts_is_read_as_one(run, tmp_path):
+    whole = run("whole")
+    split = run("split", options=RecordOptions(part_duration=0.5))
+    files = parts_of(split.path)
     assert len(files) > 3
-    split = open_recording(tmp_path / "split.mcap", whole=True)
     assert told(split) == told(whole)
     assert told_between(split, 0.7, 1.3) == told_between(whole, 0.7, 1.3)
     assert split.result.keys == whole.result.keys
@@ -147,21 +150,20 @@ def test_the_name_of_a_split_recording_stands_for_all_its_files(run, tmp_path):
     assert [(key.key, key.messages, key.rate) for key in facts.keys] == [
         (key.key, key.messages, key.rate) for key in expected.keys
     ]
-    assert facts.size == sum(file.path.stat().st_size for file in files)
+    assert facts.size == sum(file.stat().st_size for file in files)
     filter_recording(split, tmp_path / "copy.mcap")
     assert told(open_recording(tmp_path / "copy.mcap", whole=True)) == told(whole)
 
 
+def test_a_part_that_was_cut_off_contradicts_the_result_of_the_last_one(run):
+    recording = run("cut", options=RecordOptions(part_duration=0.5))
+    middle = parts_of(recording.path)[1]
+    middle.write_bytes(middle.read_bytes()[: middle.stat().st_size // 4])
+    assert any(sentence.startswith("world: ") for sentence in facts_of(open_recording(recording.path)).contradictions)
+
+
 def told_between(recording, start: float, end: float) -> list[tuple[str, int]]:
     return [(one.key, one.log_ns) for one in recording.messages(start=start, end=end)]
-
-
-def test_a_recording_that_is_still_unfinished_is_named_where_its_name_is_given(make_rig, tmp_path):
-    make_rig(path=tmp_path / "match.mcap")
-    with pytest.raises(
-        TouchlineError, match=r"match\.mcap: No such file or directory, but .*match\.mcap\.part is there"
-    ):
-        open_recording(tmp_path / "match.mcap")
 
 
 @pytest.mark.parametrize("removed", range(3))

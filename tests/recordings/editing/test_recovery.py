@@ -71,22 +71,20 @@ def test_a_file_that_is_whole_is_left_as_it_is(several_chunks):
     assert several_chunks.read_bytes() == before
 
 
-def test_a_part_that_was_left_becomes_a_recording_in_place(make_rig):
+def test_a_file_that_was_left_becomes_a_whole_recording(make_rig):
     rig = make_rig()
     rig.begin()
     rig.play(range(100))
     rig.sink.sync()
     rig.sink.abandon()
-    part = rig.path.with_name("match.mcap.part")
-    before = told(part)
+    before = told(rig.path)
 
-    done = recover(part)
+    done = recover(rig.path)
     assert (done.path, done.repaired, done.damaged, done.rest) == (rig.path, True, 0, None)
     assert told(rig.path) == before
     assert check_with_the_stock_readers(rig.path) == len(before) == done.messages
     facts = facts_of(open_recording(rig.path, whole=True))
     assert (facts.ended, facts.lost, facts.complete) == ("cut_off", 0, True)
-    assert not part.exists()
 
 
 def test_a_file_truncated_anywhere_has_an_exact_beginning_or_is_reported_as_empty(several_chunks, tmp_path, rng):
@@ -382,7 +380,7 @@ manifest = make_manifest("friendly", "test", WallClock(), None, None, sights=Fal
 
 def write(path):
     clock = WallClock()
-    writer = module.RecordingWriter(Path(path), clock, "friendly")
+    writer = module.RecordingWriter(Path(path), clock)
     flush, handed, written = writer._mcap.flush, [0], [0]
     write_batch = writer._write_batch
     def count(batch):
@@ -428,8 +426,8 @@ def test_a_recorder_that_is_killed_at_any_moment_leaves_all_that_it_had_flushed(
     assert nursery.stdin is not None and nursery.stdout is not None
     recovered = 0
     for number in range(KILLS):
-        part = tmp_path / f"{number}.mcap.part"
-        nursery.stdin.write(f"{tmp_path / f'{number}.mcap'}\n")
+        part = tmp_path / f"{number}.mcap"
+        nursery.stdin.write(f"{part}\n")
         nursery.stdin.flush()
         child, flushed = 0, 0
         while child == 0 or flushed == 0:

@@ -40,7 +40,7 @@ def test_the_facts_of_a_cut_off_file_are_gathered_from_what_is_left(rig):
     rig.host.lose("world", 3)
     rig.play(range(20, 50))
     rig.leave()
-    path = rig.path.with_name("cut.mcap.part")
+    path = rig.path.with_name("cut.mcap")
     data = rig.path.read_bytes()
     path.write_bytes(data[: data.index(b"result")])
 

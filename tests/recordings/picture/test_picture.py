@@ -91,7 +91,7 @@ def test_a_picture_is_headed_by_the_teams_and_the_score(recorded, tmp_path, time
 
 def test_a_cut_off_recording_can_be_drawn(recorded, tmp_path):
     data = recorded.path.read_bytes()
-    part = tmp_path / "cut.mcap.part"
+    part = tmp_path / "cut.mcap"
     part.write_bytes(data[: data.index(b"result")])
     draw(part, tmp_path / "cut.png")
     assert (tmp_path / "cut.png").exists()

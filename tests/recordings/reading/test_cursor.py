@@ -1,14 +1,25 @@
 """The cursor: every message, from any time, of complete, truncated and growing files; damage is reported."""
 
 import random
+from pathlib import Path
 
 import pytest
 
+from recordings.container.parts import part_path
 from recordings.reading.cursor import Cursor
-from recordings.reading.recording import open_recording
+from recordings.reading.recording import RecordedMessage, open_recording
 from recordings.replay.player import is_latched
+from recordings.replay.replay import Replay, ReplaySettings
+from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
+from schemas.process.clock import SteppedClock
+
+TICKS = 200
+
+
+def told(messages) -> list[tuple[str, bytes, int]]:
+    return [(message.key, message.payload, message.log_ns) for message in messages]
 
 
 def rest(cursor: Cursor) -> list:
@@ -44,18 +55,17 @@ def test_it_leaves_out_the_keys_that_are_not_wanted(recorded):
     assert rest(cursor) == list(recorded.messages("world", "game/event"))
 
 
-def test_a_file_that_is_still_written_grows_and_is_one_recording_when_it_is_renamed(rig, wait_until_written):
+def test_a_file_that_is_still_written_grows(rig, wait_until_written):
     rig.host.referee(0, Phase.PLAY, Score())
     rig.play(range(50))
-    part = rig.path.with_name("match.mcap.part")
     wait_until_written(rig)
-    cursor = Cursor(part)
+    cursor = Cursor(rig.path)
     seen = rest(cursor)
     assert not cursor.finished
     rig.play(range(50, 150))
     rig.host.referee(149, Phase.FULL_TIME, Score())
     rig.leave()
-    assert cursor.grow() and cursor.finished and not part.exists()
+    assert cursor.grow() and cursor.finished
     assert [*seen, *rest(cursor)] == list(rig.read().messages())
 
 
@@ -87,14 +97,122 @@ def test_a_flipped_bit_is_reported_or_changes_no_message(recorded, tmp_path):
     assert said > 10
 
 
-@pytest.mark.parametrize(("content", "word"), [(b"", "not a recording"), (b"PK\x03\x04" * 10, "not a recording")])
-def test_a_file_that_is_not_a_recording_is_reported(tmp_path, content, word):
+def test_a_file_that_is_not_a_recording_is_reported(tmp_path):
     path = tmp_path / "a.mcap"
-    path.write_bytes(content)
-    with pytest.raises(TouchlineError, match=word):
+    path.write_bytes(b"PK\x03\x04" * 10)
+    with pytest.raises(TouchlineError, match="not a recording"):
         Cursor(path)
 
 
 def test_a_missing_file_is_reported(tmp_path):
     with pytest.raises(TouchlineError, match="No such file"):
         Cursor(tmp_path / "a.mcap")
+
+
+def play(rig) -> None:
+    """Four seconds with a goal in the second and one in the fourth."""
+    rig.begin()
+    rig.host.referee(0, Phase.PLAY, Score())
+    rig.play(range(70))
+    rig.host.goal(70)
+    rig.play(range(70, 170))
+    rig.host.referee(169, Phase.KICK_OFF, Score(cyan=1))
+    rig.host.goal(170)
+    rig.play(range(170, TICKS))
+
+
+@pytest.fixture
+def whole(make_rig, tmp_path) -> list[RecordedMessage]:
+    """The messages of the match as one file has them."""
+    rig = make_rig(path=tmp_path / "whole" / "match.mcap")
+    play(rig)
+    rig.leave()
+    return list(rig.read().messages())
+
+
+@pytest.fixture
+def parted(make_rig, tmp_path) -> Path:
+    """The same match in eight parts of half a second."""
+    rig = make_rig(path=tmp_path / "parted" / "match.mcap", options=RecordOptions(part_duration=0.5))
+    play(rig)
+    assert len(rig.leave().files) == 8
+    return rig.path
+
+
+def test_the_parts_of_a_recording_are_read_as_one_with_every_message_once(parted, whole):
+    cursor = Cursor(parted)
+    assert told(rest(cursor)) == told(whole)
+    assert (cursor.start_ns, cursor.end_ns, cursor.finished) == (whole[0].log_ns, whole[-1].log_ns, True)
+
+
+def test_a_later_part_is_read_alone_with_what_stood_when_it_began(parted):
+    path = part_path(parted, 3)
+    assert told(rest(Cursor(path))) == told(open_recording(path).messages())
+
+
+@pytest.mark.parametrize(
+    "ns", [0, 490_000_000, 500_000_000, 1_230_000_000, 3_500_000_000, 3_980_000_000, 9_000_000_000]
+)
+def test_it_seeks_to_any_time_of_any_part(parted, whole, ns):
+    cursor = Cursor(parted)
+    rest(cursor)
+    cursor.seek(ns)
+    assert told(rest(cursor)) == [message for message in told(whole) if message[2] >= ns]
+
+
+@pytest.mark.parametrize("ns", [500_000_000, 510_000_000, 2_000_000_000, 3_970_000_000])
+def test_latched_messages_are_found_across_the_parts(parted, whole, ns):
+    newest = {message.key: message for message in whole if message.log_ns < ns and is_latched(message.topic)}
+    found = Cursor(parted).latched(ns, is_latched)
+    assert sorted(told(found)) == sorted(told(newest.values()))
+
+
+def test_a_recording_is_followed_from_part_to_part_while_it_is_written(make_rig, tmp_path, whole, wait_until_written):
+    rig = make_rig(path=tmp_path / "live" / "match.mcap", options=RecordOptions(part_duration=0.5))
+    rig.begin()
+    rig.host.referee(0, Phase.PLAY, Score())
+    cursor: Cursor | None = None
+    found: list[tuple[str, bytes, int]] = []
+    for tick in range(TICKS):
+        if tick == 70:
+            rig.host.goal(70)
+        if tick == 170:
+            rig.host.referee(169, Phase.KICK_OFF, Score(cyan=1))
+            rig.host.goal(170)
+        rig.play(range(tick, tick + 1), pump_every=1)
+        if tick % 7 == 6:
+            wait_until_written(rig)
+            cursor = cursor or Cursor(rig.path)
+            cursor.grow()
+            found += told(rest(cursor))
+            assert not cursor.finished
+    rig.leave()
+    assert cursor is not None
+    while cursor.grow():
+        continue
+    found += told(rest(cursor))
+    assert found == told(whole)
+    assert cursor.finished
+
+
+def test_a_replay_that_follows_a_recording_of_several_parts_publishes_all_messages_in_order(
+    make_rig, tmp_path, wait_until_written
+):
+    path = tmp_path / "live" / "match.mcap"
+    rig, clock = make_rig(path=path, options=RecordOptions(part_duration=0.5)), SteppedClock()
+    rig.begin()
+    rig.play(range(30), pump_every=1)
+    wait_until_written(rig)
+    heard: list[RecordedMessage] = []
+    player = Replay(ReplaySettings(rig.path, follow=True, behind=0.2)).player(clock, publish=heard.append)
+    for tick in range(30, TICKS):
+        rig.play(range(tick, tick + 1), pump_every=1)
+        rig.sink.sync()
+        clock.sleep_until(clock.now() + 0.02)
+        player.pump()
+    rig.leave()
+    while not player.ended:
+        clock.sleep_until(clock.now() + 0.05)
+        player.pump()
+    ticks = [message.message().tick for message in heard if message.key == "world"]
+    assert ticks[1:] == list(range(ticks[1], TICKS)), "after what stood when it began, each tick once"

@@ -180,7 +180,7 @@ def test_a_recorder_process_finishes_its_file_when_the_host_is_killed(start, sta
 @pytest.mark.processes
 def test_what_a_killed_recorder_has_written_can_be_read(make_fake_host, start_recorder, endpoint, tmp_path):
     recorder = start_recorder()
-    part = tmp_path / "match.mcap.part"
+    part = tmp_path / "match.mcap"
     with (
         open_host("friendly", WallClock(), endpoint) as bus,
         open_client("friendly", WallClock(), endpoint, LIMIT) as robots,
@@ -259,8 +259,8 @@ def test_a_full_disk_ends_only_the_recorder_with_an_error_of_one_line(
     _, error = recorder.communicate(timeout=LIMIT)
     assert recorder.returncode == 2
     assert error.count("\n") == 1
-    assert "match.mcap.part: File too large; what was written before is readable" in error
-    done = recover(tmp_path / "match.mcap.part")
+    assert "match.mcap: File too large; what was written before is readable" in error
+    done = recover(tmp_path / "match.mcap")
     assert done.messages > 0
     ticks = [world.tick for _, world in open_recording(done.path).decoded("world")]
     assert ticks == list(range(len(ticks)))

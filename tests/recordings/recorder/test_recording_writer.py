@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import pytest
 
 from recordings.container.manifest import EndReason, Manifest, Result
@@ -21,41 +23,20 @@ def manifest(recorded) -> Manifest:
 RESULT = Result(ended=EndReason.STOPPED, finished="2026-01-01T00:00:00.000+00:00")
 
 
-def test_the_file_has_its_name_only_when_it_is_finished(recorded, manifest, tmp_path):
-    path = tmp_path / "final.mcap"
-    writer = RecordingWriter(path, SteppedClock(), "friendly")
-    writer.begin(manifest, {})
-    writer.write(batch(1, 2))
-    assert not path.exists()
-    assert writer.partial_path.exists()
-    size = writer.finish(RESULT)
-    assert path.stat().st_size == size
-    assert not writer.partial_path.exists()
-
-
 def test_an_abandoned_file_keeps_what_was_handed_over(manifest, tmp_path):
-    writer = RecordingWriter(tmp_path / "final.mcap", SteppedClock(), "friendly")
+    writer = RecordingWriter(tmp_path / "final.mcap", SteppedClock())
     writer.begin(manifest, {})
     for number in range(500):
         writer.write(batch(number))
     writer.abandon()
 
-    recording = open_recording(writer.partial_path)
+    recording = open_recording(writer.path)
     assert [message.sequence for message in recording.messages()] == list(range(500))
-
-
-def test_a_leftover_of_a_recorder_that_died_is_kept(manifest, tmp_path):
-    path = tmp_path / "final.mcap"
-    (tmp_path / "final.mcap.part").write_bytes(b"what was left")
-    writer = RecordingWriter(path, SteppedClock(), "friendly")
-    writer.begin(manifest, {})
-    writer.finish(RESULT)
-    assert (tmp_path / "final.mcap.part.old").read_bytes() == b"what was left"
 
 
 def test_messages_are_in_the_file_half_a_second_after_they_were_handed_over(manifest, tmp_path):
     clock = SteppedClock()
-    writer = RecordingWriter(tmp_path / "final.mcap", clock, "friendly")
+    writer = RecordingWriter(tmp_path / "final.mcap", clock)
     writer.begin(manifest, {})
     writer.write(batch(1))
     writer.sync()
@@ -71,18 +52,15 @@ def test_messages_are_in_the_file_half_a_second_after_they_were_handed_over(mani
     assert 15 <= len(flushes) <= 22
 
 
-def test_a_full_disk_is_one_sentence_and_no_hanging(manifest, tmp_path):
-    (tmp_path / "final.mcap.part").symlink_to("/dev/full")
-    writer = RecordingWriter(tmp_path / "final.mcap", SteppedClock(), "friendly")
+def test_a_full_disk_is_one_sentence_and_no_hanging(manifest, tmp_path, monkeypatch):
+    def full(_):
+        return Path("/dev/full").open("wb")
+
+    monkeypatch.setattr("recordings.recorder.recording_writer.create_part", full)
+    writer = RecordingWriter(tmp_path / "final.mcap", SteppedClock())
     writer.begin(manifest, {})
-    with pytest.raises(TouchlineError, match=r"final\.mcap\.part: No space left on device"):
+    with pytest.raises(TouchlineError, match=r"final\.mcap: No space left on device"):
         for number in range(1000):
             writer.write(batch(number))
         writer.finish(RESULT)
     writer.abandon()
-
-
-def test_a_path_that_cannot_be_written_is_named(tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(TouchlineError, match="give a path that can be written"):
-        RecordingWriter(tmp_path / "file" / "final.mcap", SteppedClock(), "friendly")

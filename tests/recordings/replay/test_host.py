@@ -7,9 +7,8 @@ import pytest
 
 from recordings.container.key_selection import KeySelection
 from recordings.reading.recording import open_recording
-from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.contract import NoReplyError
@@ -67,8 +66,7 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
     """Record, replay, record: keys, payloads and simulated times are the same, and nothing is lost."""
     path = tmp_path / "again.mcap"
     bus = room.seat()
-    loss_counts = LossCounts()
-    recorder = Recorder(bus, FileSink(path, bus.clock, room.match, loss_counts), loss_counts)
+    recorder = Recorder(bus, PartSink(path, bus.clock))
     host = room.host(recorded.path, rate=None)
     recorder.pump()
     host.pump()
@@ -85,9 +83,8 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
 def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, monkeypatch):
     monkeypatch.setattr("recordings.replay.listeners.RUN_AHEAD_TICKS", 20)
     bus = room.seat()
-    loss_counts = LossCounts()
-    sink = FileSink(recorded.path.with_name("late.mcap"), bus.clock, room.match, loss_counts)
-    recorder = Recorder(bus, sink, loss_counts)
+    sink = PartSink(recorded.path.with_name("late.mcap"), bus.clock)
+    recorder = Recorder(bus, sink)
     host = room.host(recorded.path, rate=None, paused=True)
     worlds = room.seat().subscribe(WORLD)
     for _ in range(3):

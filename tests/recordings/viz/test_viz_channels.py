@@ -15,10 +15,10 @@ from recordings.inspection.facts_table import summary_lines
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
-from recordings.recorder.file_limits import FileLimits
 from recordings.stats.match_statistics import figures_of_recording
 from recordings.viz.drawing import BALL, DRAWINGS, EVENTS, FIELD, GAME, ROBOTS, SCHEMAS, TF
 from schemas.config.match_config import load_match
+from schemas.config.settings import RecordOptions
 from schemas.game import Phase, Score
 from touchline.verify.resimulate import verify
 
@@ -38,7 +38,7 @@ def drawn(path: Path) -> list[tuple[str, int, bytes]]:
 def plain(match_recorder, tmp_path_factory) -> Path:
     """The beginning of the match of `played`, recorded without what viewers draw."""
     path = tmp_path_factory.mktemp("plain") / "match.mcap"
-    match_recorder(path, load_match(None, {"seed": 7, "duration": 60.0}), until=3.0, viz=False)
+    match_recorder(path, load_match(None, {"seed": 7, "duration": 60.0}), until=3.0, options=RecordOptions(viz=False))
     return path
 
 
@@ -141,16 +141,15 @@ def test_a_copy_of_a_recording_without_it_is_without_it(plain, tmp_path):
     assert open_recording(tmp_path / "part.mcap").drawn == {}
 
 
-def test_every_part_of_a_split_recording_is_drawn_whole_and_their_copy_as_one_file(make_rig, tmp_path):
-    rig = make_rig(limits=FileLimits(duration=0.5))
+def test_every_part_of_a_recording_is_drawn_whole_and_their_copy_as_one_file(make_rig, tmp_path):
+    rig = make_rig(options=RecordOptions(part_duration=0.5))
     rig.begin()
     rig.host.referee(0, Phase.PLAY, Score())
     rig.play(range(100))
     rig.leave()
-    parts = [open_recording(path) for path in rig.sink.files]
-    assert len(parts) > 2
-    for part in parts:
-        first = [topic for topic, _, _ in drawn(part.path)][:6]
+    assert len(rig.sink.files) > 2
+    for part in rig.sink.files:
+        first = [topic for topic, _, _ in drawn(part)][:6]
         assert {FIELD, ROBOTS, BALL, GAME, TF} <= set(first)
     filter_recording(open_recording(rig.path), tmp_path / "copy.mcap")
     whole = make_rig(path=tmp_path / "whole.mcap")

@@ -25,7 +25,7 @@ EXAMPLES: dict[str, Settings] = {
     "sim_host": HostSettings(config=MatchConfig(seed=7), listen="tcp/0.0.0.0:7447", insecure=True),
     "robot_agent": AgentSettings(robot="cyan1", brain="my_team:Brain", patience=2.5),
     "recordings": RecorderSettings(
-        out=Path("final.mcap"), record=RecordOptions(include=["world"], split_size=5), config=MatchConfig()
+        out=Path("final.mcap"), record=RecordOptions(include=["world"], part_size=5), config=MatchConfig()
     ),
     "coach_gateway": GatewaySettings(
         tokens=Path("tokens.json"),

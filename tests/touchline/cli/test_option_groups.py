@@ -139,7 +139,7 @@ def build(first: Annotated[int, typer.Argument()], where: Where, loud: bool = Fa
 
 @with_option_groups
 def settle(
-    house: House, changes: Annotated[dict[str, Any], FieldsOf(RecordingConfig, "sights", "viz", "split_size")]
+    house: House, changes: Annotated[dict[str, Any], FieldsOf(RecordingConfig, "sights", "viz", "part_size")]
 ) -> None:
     typer.echo(f"{house!r} {changes}")
 
@@ -169,8 +169,8 @@ def test_the_command_is_given_the_settings_whole_with_their_parts() -> None:
 
 
 def test_some_fields_of_a_model_are_given_where_they_were_typed_in() -> None:
-    result = called(settle, "--place", "here", "--no-sights", "--viz", "--split-size", "2")
-    assert result.stdout.endswith(" {'sights': False, 'viz': True, 'split_size': 2.0}\n")
+    result = called(settle, "--place", "here", "--no-sights", "--viz", "--part-size", "2")
+    assert result.stdout.endswith(" {'sights': False, 'viz': True, 'part_size': 2.0}\n")
 
 
 def test_what_a_field_without_default_needs_is_asked_for() -> None:

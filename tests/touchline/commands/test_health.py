@@ -9,9 +9,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from recordings.container.key_selection import EVERYTHING
-from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import FileSink
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
@@ -131,11 +130,9 @@ def test_options_of_a_recording_need_one_and_those_of_a_match_need_none(host: Fa
 def recording(tmp_path: Path) -> Path:
     """A match in real time, recorded from its host: cyan2 misses the sights after tick 50."""
     rig = HostRig(MatchConfig.model_validate({"seed": 7, "teams": TEAMS, "pace": "realtime"}))
-    path, losses, clock = tmp_path / "match.mcap", LossCounts(), SteppedClock()
-    sink = FileSink(path, clock, "friendly", losses)
-    recorder = Recorder(
-        rig.seat(), sink, losses, name="recorder", sights=False, config=rig.config, selection=EVERYTHING
-    )
+    path, clock = tmp_path / "match.mcap", SteppedClock()
+    sink = PartSink(path, clock)
+    recorder = Recorder(rig.seat(), sink, name="recorder", sights=False, config=rig.config, selection=EVERYTHING)
     rig.idle.append(recorder.pump)
     rig.join_all()
     rig.begin()

@@ -34,7 +34,7 @@ def write(
 ) -> Path:
     """Game states, one in each tick; one of them differs in its clock, and some numbers are missing at the end."""
     clock = SteppedClock()
-    writer = RecordingWriter(path, clock, "friendly")
+    writer = RecordingWriter(path, clock)
     writer.begin(make_manifest("friendly", "test", clock, None, load_match(None), sights=False), {})
     batch = []
     for tick in range(count):

@@ -30,7 +30,7 @@ def write(path: Path, *, setup: bool = True, worlds: int = 50, **said: Any) -> P
     """A robot that drives 0.02 m in each tick of 0.02 s."""
     clock, config = SteppedClock(), load_match(None, said)
     known = Setup.of(config, load_profile("msl"), load_rule_book("friendly")) if setup else None
-    writer = RecordingWriter(path, clock, "friendly")
+    writer = RecordingWriter(path, clock)
     writer.begin(make_manifest("friendly", "test", clock, known, config, sights=False), {})
     batch = []
     for tick in range(worlds):
@@ -98,7 +98,7 @@ def test_a_recording_that_cannot_be_measured_is_reported_in_one_line(tmp_path: P
 
 def test_a_recording_that_was_cut_off_is_measured_up_to_the_cut(tmp_path: Path) -> None:
     data = write(tmp_path / "a.mcap", worlds=5000).read_bytes()
-    cut = tmp_path / "cut.mcap.part"
+    cut = tmp_path / "cut.mcap"
     cut.write_bytes(data[: len(data) * 3 // 4])
     result = stats(cut, "--json")
     assert result.exit_code == 0

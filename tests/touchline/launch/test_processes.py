@@ -8,7 +8,6 @@ import pytest
 
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
-from recordings.container.partial_file import PartialFile
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.config.match_config import load_match
@@ -122,7 +121,7 @@ def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
 
 
 def test_the_settings_of_a_recorder_have_the_record_options_of_the_match_file() -> None:
-    wanted = {"include": ["world"], "split_duration": 60.0, "sights": True, "viz": False}
+    wanted = {"include": ["world"], "part_duration": 60.0, "sights": True, "viz": False}
     planned = plan(**{f"record.{key}": value for key, value in wanted.items()})
     written = by_name(planned)["recorder"].settings
     assert isinstance(written, RecorderSettings)
@@ -181,31 +180,27 @@ def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_with
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("file").write_text("")
-    played = "give a path that can be written. The match is played, its recording goes to runs/"
-    for path, why in ((Path("file/a.mcap"), "File exists|Not a directory"), (tmp_path, "is a folder")):
+    played = "The match is played, its recording goes to runs/"
+    for path, why in (
+        (Path("file/a.mcap"), "Not a directory; give a path that can be written"),
+        (tmp_path, "is a folder; name another file, or move that one away"),
+    ):
         run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", path, SteppedClock())
         assert run.recording == run.folder / "match.mcap"
         assert re.search(
-            rf"--record .*: ({why}); {played}",
+            rf"--record .*: {why}. {played}",
             run.warning,
         )
 
 
-def test_a_recording_that_another_recorder_writes_is_left_to_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_recording_that_is_there_is_left_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    other = PartialFile(Path("a.mcap"))
-    other.file.write(b"its first bytes")
-    other.file.flush()
+    other = Path("a.mcap")
+    other.write_bytes(b"another one's")
     run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("a.mcap"), SteppedClock())
     assert run.recording == run.folder / "match.mcap"
-    assert (
-        "--record a.mcap: is being written by another recorder; name another file, or end that one. The match is"
-        in run.warning
-    )
-    assert other.path.read_bytes() == b"its first bytes"
-    other.close()
+    assert "--record a.mcap: already exists; name another file, or move that one away. The match is" in run.warning
+    assert other.read_bytes() == b"another one's"
 
 
 def test_a_run_without_recording_has_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

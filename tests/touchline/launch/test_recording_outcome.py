@@ -23,13 +23,12 @@ def test_a_recording_that_misses_messages_of_the_host_names_them() -> None:
     )
 
 
-def test_an_unfinished_recording_is_named_with_its_remedy() -> None:
-    part = Path("runs/a/match.mcap.part")
-    outcome = unfinished_recording(PATH, [part], "the recorder was ended by SIGKILL", LOG)
-    assert outcome.path == part
+def test_an_unfinished_recording_is_named_with_the_recorders_log() -> None:
+    outcome = unfinished_recording(PATH, [PATH], "the recorder was ended by SIGKILL", LOG)
+    assert outcome.path == PATH
     assert outcome.fault == (
         "the recording is not complete: the recorder was ended by SIGKILL; "
-        "runs/a/match.mcap.part has what was written; repair it: touchline recover runs/a/match.mcap.part"
+        "runs/a/match.mcap has what was written; the recorder's log is runs/a/recorder.log"
     )
 
 

@@ -11,8 +11,8 @@ from recordings.container import mcap_writer
 from recordings.editing.recovery import recover
 from recordings.exchange import csv_files
 from recordings.inspection.recording_facts import facts_of
+from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording, open_recording
-from recordings.reading.split_cursor import SplitCursor
 from recordings.stats.match_statistics import figures_of_recording
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
@@ -37,7 +37,7 @@ def short_match(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callab
 
 def replayed(path: Path) -> list[Entry]:
     """All messages, as a replay publishes them."""
-    cursor = SplitCursor(path)
+    cursor = Cursor(path)
     entries = []
     while (message := cursor.peek()) is not None:
         entries.append((message.key, message.sequence, message.log_ns, message.payload))

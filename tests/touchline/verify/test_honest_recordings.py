@@ -7,13 +7,14 @@ from typing import Any
 import pytest
 
 from recordings.container.key_selection import KeySelection
+from recordings.container.parts import parts_of
 from recordings.editing.filtering import filter_recording
 from recordings.editing.recovery import recover
 from recordings.inspection.contradictions import contradictions, record_faults
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import tick_index_of
-from recordings.recorder.sink import FileLimits
 from schemas.config.match_config import load_match
+from schemas.config.settings import RecordOptions
 from schemas.game import REFBOX, ActionName, OffField
 from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
@@ -181,14 +182,14 @@ def test_the_recording_under_a_referee_box_has_its_questions_and_its_end(
 
 @pytest.fixture(scope="module")
 def parts(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> list[Path]:
-    """A match of 9 s in files of 3 s."""
+    """A match of 9 s in parts of 3 s."""
     path = tmp_path_factory.mktemp("parts") / "match.mcap"
     config = load_match(None, {"seed": 4, "rules": "msl", "duration": 12.0, **TWO_A_SIDE})
-    match_recorder(path, config, until=9.0, limits=FileLimits(duration=3.0))
-    return sorted(path.parent.glob("*.mcap"))
+    match_recorder(path, config, until=9.0, options=RecordOptions(part_duration=3.0))
+    return parts_of(path)
 
 
-def test_each_file_of_a_split_recording_fits_itself(parts: list[Path]) -> None:
+def test_a_recording_of_several_parts_and_each_later_one_fit_themselves(parts: list[Path]) -> None:
     assert len(parts) >= 3
     for path in parts:
         part = open_recording(path)
@@ -197,10 +198,11 @@ def test_each_file_of_a_split_recording_fits_itself(parts: list[Path]) -> None:
             assert verify(path).difference is None
 
 
-def test_the_copy_of_a_split_recording_is_identical(parts: list[Path], tmp_path: Path) -> None:
-    filter_recording(open_recording(parts[0].with_name("match.mcap")), tmp_path / "whole.mcap")
-    verdict = verify(tmp_path / "whole.mcap")
-    assert verdict.identical and verdict.referee and verdict.ticks == 451
+def test_a_recording_of_several_parts_and_its_copy_are_identical(parts: list[Path], tmp_path: Path) -> None:
+    filter_recording(open_recording(parts[0]), tmp_path / "whole.mcap")
+    for path in (parts[0], tmp_path / "whole.mcap"):
+        verdict = verify(path)
+        assert verdict.identical and verdict.referee and verdict.ticks == 451
 
 
 def test_a_recovered_recording_is_identical_up_to_its_end(honest: Path, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import replace
 from typing import Any
 
+from recordings.container.parts import remove_parts
 from recordings.stats.match_tick import match_ticks
 from robot_agent.user_code import place_of
 from schemas.errors import TouchlineError
@@ -89,6 +90,7 @@ def recording_of(planned: PlannedMatch, simulation: Simulation) -> AbstractConte
     if planned.recording is None:
         return nullcontext()
     planned.recording.parent.mkdir(parents=True, exist_ok=True)
+    remove_parts(planned.recording)  # of a try before
     return closing(MatchRecording(planned.recording, planned.config, simulation))
 
 

@@ -13,6 +13,7 @@ from functools import partial
 from pathlib import Path
 
 from recordings.container.key_selection import KeySelection
+from recordings.container.parts import remove_parts
 from recordings.editing.filtering import filter_recording
 from recordings.reading.recording import open_recording
 from schemas.bus.endpoint import FREE_ENDPOINT
@@ -67,6 +68,7 @@ def _outcome(planned: PlannedMatch, folder: Path) -> Outcome:
     identity, logs = planned.identity, str(folder)
     wanted = planned.recording.resolve() if planned.recording is not None else None
     whole = wanted if wanted and not has_inputs_only(planned.config) else folder / RECORDING
+    remove_parts(whole)  # of a try before
     plan = _plan(planned, folder, whole)
     config, clock = plan.config, WallClock()
     try:
@@ -123,5 +125,5 @@ def _kept(played: Played, whole: Path, wanted: Path | None) -> Played:
         return played
     if wanted is not None:
         filter_recording(open_recording(whole), wanted, KeySelection(KEYS))
-    whole.unlink()
+    remove_parts(whole)
     return replace(played, recording=str(wanted) if wanted is not None else None)
