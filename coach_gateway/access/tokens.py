@@ -2,9 +2,7 @@
 
 import hmac
 import json
-import os
 import secrets
-import tempfile
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Self
@@ -12,6 +10,7 @@ from typing import Self
 from coach_gateway.access.roles import Role
 from schemas.access.private_file import check_private
 from schemas.errors import TouchlineError
+from schemas.process.whole_file import written_whole
 
 _MIN_LENGTH = 8
 """Characters of a token, at least."""
@@ -87,13 +86,8 @@ def _make(path: Path) -> Tokens:
     """Create the file atomically: a bridge and a page may start at the same time."""
     tokens = Tokens.random()
     text = json.dumps({field.name: getattr(tokens, field.name) for field in fields(Tokens)}, indent=2)
-    handle, draft = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)  # readable by its owner alone
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text + "\n")
-        os.link(draft, path)
-    finally:
-        Path(draft).unlink()
+    with written_whole(path, private=True, replace=False) as draft:
+        draft.write_text(text + "\n", "utf-8")
     return tokens
 
 

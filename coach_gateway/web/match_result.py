@@ -1,10 +1,9 @@
 """The result of a match for its page: written by the process that launched the match, read by the page's server."""
 
-import os
-import tempfile
 from pathlib import Path
 
 from coach_gateway.web.protocol import ResultUpdate
+from schemas.process.whole_file import written_whole
 
 FILE = "result.json"
 STATISTICS = "statistics.html"
@@ -16,10 +15,8 @@ STATISTICS_ADDRESS = f"result/{STATISTICS}"
 def write_result(folder: Path, result: ResultUpdate) -> None:
     """Write the result into a folder atomically: a reader sees the new one or the previous one, whole."""
     folder.mkdir(parents=True, exist_ok=True)
-    handle, draft = tempfile.mkstemp(prefix=".result.", dir=folder)
-    with os.fdopen(handle, "w", encoding="utf-8") as file:
-        file.write(result.model_dump_json())
-    Path(draft).replace(folder / FILE)
+    with written_whole(folder / FILE, private=True) as draft:
+        draft.write_text(result.model_dump_json(), "utf-8")
 
 
 class ResultReader:

@@ -1,12 +1,12 @@
 """Output of an export: it appears under its name when it is complete, and not at all if the export fails."""
 
-import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from schemas.errors import TouchlineError
+from schemas.process.whole_file import written_whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,13 +31,9 @@ def atomic_output(out: Path) -> Iterator[Path]:
     """
     if out.exists():
         raise TouchlineError(f"--out {out}: already exists; remove it, or give another name")
-    part = out.with_name(out.name + ".part")
     try:
-        shutil.rmtree(part, ignore_errors=True)  # left by an export that was killed
-        part.mkdir(parents=True)
-        yield part / out.name
-        (part / out.name).replace(out)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with written_whole(out) as draft:
+            yield draft
     except OSError as error:
         raise TouchlineError(f"--out {out}: {error.strerror or error}; give a path that can be written") from None
-    finally:
-        shutil.rmtree(part, ignore_errors=True)

@@ -5,9 +5,7 @@ connection without TLS does not show a password, but a recorded handshake allows
 """
 
 import json
-import os
 import secrets
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, TypeVar
@@ -18,6 +16,7 @@ from schemas.access.accounts import Account
 from schemas.access.certificates import Certificate
 from schemas.access.private_file import check_private
 from schemas.errors import TouchlineError
+from schemas.process.whole_file import written_whole
 from schemas.wire.message import Part
 
 _PASSWORD_BYTES = 32
@@ -93,14 +92,8 @@ def write_credentials(folder: Path, credentials: HostCredentials, connect: str |
         **{account_file(folder, account): credentials.of(account, connect) for account in Account},
     }
     for path, content in contents.items():
-        handle, name = tempfile.mkstemp(dir=folder, prefix=f".{path.name}-")  # only its owner may read it
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8") as file:
-                file.write(content.model_dump_json(indent=2) + "\n")
-            Path(name).replace(path)
-        except BaseException:
-            Path(name).unlink()
-            raise
+        with written_whole(path, private=True) as draft:
+            draft.write_text(content.model_dump_json(indent=2) + "\n", "utf-8")
 
 
 def read_credentials(path: Path) -> Credentials:

@@ -7,13 +7,13 @@ a lock is stale.
 import fcntl
 import os
 import secrets
-import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Self
 
 from schemas.bus.endpoint import local_endpoint
+from schemas.process.whole_file import written_whole
 from schemas.wire.message import Name, Part
 
 _HOSTS = Path("touchline") / "hosts"
@@ -65,16 +65,12 @@ def announced(announcement: Announcement, path: Path) -> Iterator[None]:
         OSError: the file cannot be written.
     """
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-")  # only its owner may read it
-    with os.fdopen(handle, "w", encoding="utf-8") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX)
+    with ExitStack() as stack:
+        with written_whole(path, private=True) as draft:
+            file = stack.enter_context(draft.open("w", encoding="utf-8"))
+            fcntl.flock(file, fcntl.LOCK_EX)  # first: a file of this name is always complete and locked
             file.write(announcement.model_dump_json() + "\n")
             file.flush()
-            Path(name).replace(path)  # with its lock: a file of this name is always complete and locked
-        except BaseException:
-            Path(name).unlink()
-            raise
         try:
             yield
         finally:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.messages.record_batch import Entry, payload_fields, read_batch, write_batch
+from schemas.process.whole_file import written_whole
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
 
@@ -25,7 +26,8 @@ def write_outcome(path: Path, messages: Sequence[ReceivedMessage]) -> None:
         for one in messages
         if one.stamp is not None
     ]
-    path.write_bytes(write_batch(0, 0, -1, 0, entries))
+    with written_whole(path) as draft:
+        draft.write_bytes(write_batch(0, 0, -1, 0, entries))
 
 
 def read_outcome(path: Path) -> Iterator[ReceivedMessage]:

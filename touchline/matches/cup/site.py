@@ -11,6 +11,7 @@ from markupsafe import Markup
 
 from recordings.reading.recording import open_recording
 from recordings.stats import page as statistics_page
+from schemas.process.whole_file import written_whole
 from touchline.matches.cup.cup_config import TeamEntry
 from touchline.matches.cup.cup_state import CupMatch, CupState, Ended, MatchState, Slot
 from touchline.matches.cup.formats.knock_out import name_of, stage_of
@@ -57,9 +58,8 @@ class Site:
             return
         path = self._folder / address
         path.parent.mkdir(parents=True, exist_ok=True)
-        draft = path.with_suffix(".part")
-        draft.write_text(text, "utf-8")
-        draft.replace(path)
+        with written_whole(path) as draft:
+            draft.write_text(text, "utf-8")
         if not address.startswith("matches/"):
             self._written[address] = text
 
