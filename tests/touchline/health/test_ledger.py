@@ -75,13 +75,6 @@ def test_a_robot_that_joined_in_the_stretch_is_counted_from_its_beginning() -> N
     assert (row.sights, row.on_time) == (50, 50)
 
 
-def test_counts_that_a_recording_does_not_have_are_unknown_and_not_zero() -> None:
-    row = only_robot(report(100, robots={"cyan1": RobotHealth(alive=True, answering=True, answers=100, missed=2)}))
-    assert (row.missing, row.double) == (2, 0)
-    unknown = (row.sights, row.on_time, row.late, row.lost_sights, row.lost_commands, row.p50_ms, row.radio_bytes)
-    assert set(unknown) == {None}
-
-
 @pytest.mark.parametrize(
     ("robot", "state"),
     [
