@@ -14,7 +14,6 @@ from touchline.commands import (
     coach,
     credentials,
     diff,
-    doctor,
     drill,
     experiment,
     export,
@@ -28,10 +27,9 @@ from touchline.commands import (
     parameters,
     record,
     recover,
+    referee,
     replay,
     scene,
-    scenes,
-    schema,
     series,
     stats,
     team,
@@ -77,7 +75,6 @@ RECORDINGS = "Recordings"
 PROTOCOL = "Protocol"
 
 app.command("match", rich_help_panel=PLAY)(match.match)
-app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
 
 app.command("new", rich_help_panel=TEAMS)(new.new)
 app.command("check", rich_help_panel=TEAMS)(check.check)
@@ -91,11 +88,10 @@ app.command("health", rich_help_panel=WATCH)(health.health)
 app.command("replay", rich_help_panel=WATCH)(replay.replay)
 
 app.add_typer(coach.app, name="coach", rich_help_panel=OPERATE)
-app.add_typer(coach.referee, name="referee", rich_help_panel=OPERATE)
+app.add_typer(referee.app, name="referee", rich_help_panel=OPERATE)
 app.add_typer(scene.app, name="scene", rich_help_panel=OPERATE)
 app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
 
-app.command("doctor", rich_help_panel=PROCESSES)(doctor.doctor)
 app.command("host", rich_help_panel=PROCESSES)(host.host)
 app.command("agent", rich_help_panel=PROCESSES)(agent.agent)
 app.command("team", rich_help_panel=PROCESSES)(team.team)
@@ -112,7 +108,6 @@ app.command("export", rich_help_panel=RECORDINGS)(export.export)
 app.command("import", rich_help_panel=RECORDINGS)(import_log.import_log)
 
 app.command("topics", rich_help_panel=PROTOCOL)(topics.topics)
-app.command("schema", rich_help_panel=PROTOCOL)(schema.schema)
 
 
 def main() -> None:

@@ -137,7 +137,7 @@ class OfficiatingConfig(Part):
     kick_off: Side = Side.CYAN
     """The side that kicks off the first half."""
     automatic: bool = True
-    """The match starts by itself when all robots are present; otherwise it waits for `touchline coach start`."""
+    """The match starts by itself when all robots are present; otherwise it waits for `touchline referee start`."""
     mode: OfficiatingMode = OfficiatingMode.AUTOMATIC
     """Who decides: the referee, people, or the referee with people who may overrule its proposals."""
     proposal: Annotated[float, Field(ge=0, le=60)] = 3.0

@@ -118,7 +118,8 @@ class Story:
         place = ("--connect", self._endpoint, "--match", "live")
         if case == "start":
             self.heard.until(ball_lies, "the ball on its spot")
-        asked = self._start("touchline", "coach", *words, *place, folder=self.program.folder, name=name)
+        group = "coach" if words[0] in ("state", "order") else "referee"
+        asked = self._start("touchline", group, *words, *place, folder=self.program.folder, name=name)
         return asked.status(), asked.out, asked.err
 
 

@@ -29,7 +29,7 @@ def recording(start, listen, folder, endpoint):
     )
     heard = listen("by_hand", endpoint, match)
     heard.until_tick(20)
-    for number, words in enumerate((*BY_HAND, ("coach", "end-game"))):
+    for number, words in enumerate((*BY_HAND, ("referee", "end-game"))):
         heard.for_ticks(20)
         meeting = ("--connect", endpoint, "--match", "by_hand")
         program = start("touchline", *words, *meeting, folder=folder, name=f"word{number}")

@@ -263,7 +263,7 @@ def test_without_the_extra_a_warning_names_the_remedy_and_the_match_continues(
         needs = "the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'"
         assert program.err == f"touchline: {needs}\n"
     stop = start(
-        *("touchline", "coach", "stop", "--connect", with_free_port("tcp/127.0.0.1:0")),
+        *("touchline", "referee", "stop", "--connect", with_free_port("tcp/127.0.0.1:0")),
         folder=tmp_path,
         name="stop",
         PYTHONPATH=path,

@@ -25,11 +25,8 @@ COMMANDS = (
     "info",
     "stats",
     "topics",
-    "schema",
     "parameters",
     "scene",
-    "scenes",
-    "drive",
     "export",
     "import",
     "new",
@@ -100,23 +97,23 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "TLS without a certificate": (["host", "--listen", "tls/127.0.0.1:0"], "touchline credentials new --tls"),
     "TLS for a match that admits everybody": (["match", "--tls", "--insecure"], "not for --insecure"),
     "credentials of a host that are not there": (["host", "--credentials", "host.json"], "host.json: No such file"),
-    "credentials that are not there": (["coach", "start", "--credentials", "cyan.json"], "cyan.json: No such file"),
+    "credentials that are not there": (["referee", "start", "--credentials", "cyan.json"], "cyan.json: No such file"),
     "a name without a certificate": (["credentials", "new", "--host-name", "sim"], "add --tls"),
     "a name that is none": (["credentials", "new", "--tls", "--host-name", "a b"], "not a host name or address"),
     "an endpoint of credentials that is none": (["credentials", "new", "--connect", "here"], "--connect is 'here'"),
     "an endpoint that is none": (["host", "--listen", "localhost"], "--listen is 'localhost'; write it as tcp/"),
     "a foreign address to listen on": (["host", "--listen", "tcp/192.0.2.1:7447", "--insecure"], "cannot be listened"),
     "an agent without a robot": (["agent", "--brain", "a:B"], "--robot"),
-    "a coach's endpoint that is none": (["coach", "start", "--connect", "here"], "--connect is 'here'"),
-    "a coach's match that is no key": (["coach", "start", "--match", "a/*"], "--match is 'a/*'"),
-    "a coach without a host": (["coach", "start", NOBODY], "no host answers there"),
+    "a coach's endpoint that is none": (["referee", "start", "--connect", "here"], "--connect is 'here'"),
+    "a coach's match that is no key": (["referee", "start", "--match", "a/*"], "--match is 'a/*'"),
+    "a coach without a host": (["referee", "start", NOBODY], "no host answers there"),
     "a coach's order beyond reason": (["coach", "order", "cyan", "--max-speed", "90"], "--max-speed is 90"),
-    "a side that is none": (["coach", "kickoff", "red"], "'cyan', 'magenta'"),
+    "a side that is none": (["referee", "kickoff", "red"], "'cyan', 'magenta'"),
     "a mode that is none": (["coach", "order", "cyan", "--mode", "run"], "'hold'"),
     "a parameter without a value": (["parameters", "set", "ball.mass"], "write NAME=VALUE"),
     "a parameter whose name is none": (["parameters", "get", "Ball"], "'Ball' is no parameter"),
     "parameters without a host": (["parameters", "list", NOBODY], "no host answers there"),
-    "a scene that is not there": (["scenes", "penlty"], 'scene is "penlty"; did you mean "penalty"?'),
+    "a scene that is not there": (["scene", "list", "penlty"], 'scene is "penlty"; did you mean "penalty"?'),
     "a match in no scene": (["match", "--scene", "penlty"], 'scene is "penlty"; did you mean "penalty"?'),
     "a scene without a host": (["scene", "reset", NOBODY], "no host answers there"),
     "a velocity beyond reason": (["scene", "place", "ball", "0", "0", "--vx", "nan"], "scene place: place.0.vx is"),
@@ -127,8 +124,8 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a part of no size": (["record", "--out", "a.mcap", "--part-size", "0"], "--part-size"),
     "a recording that is not there": (["info", "no.mcap"], "no.mcap"),
     "figures of a recording that is not there": (["stats", "no.mcap", "--html", "a.html"], "no.mcap"),
-    "a schema that is not there": (["schema", "sihgt"], 'did you mean "sight"?'),
-    "a topic without message": (["schema", "alive"], 'schema of "alive"'),
+    "a schema that is not there": (["topics", "sihgt"], 'did you mean "sight"?'),
+    "a topic without message": (["topics", "alive"], 'schema of "alive"'),
 }
 
 
@@ -202,7 +199,7 @@ def test_the_topic_table_as_json_has_the_readers_of_each_topic() -> None:
 
 @pytest.mark.parametrize("name", ["command", "Command"])
 def test_a_schema_is_found_by_topic_and_by_class(name: str) -> None:
-    schema = json.loads(touchline("schema", name).stdout)
+    schema = json.loads(touchline("topics", name).stdout)
     assert schema["title"] == "Command"
     assert "answers_tick" in schema["required"]
 
@@ -210,11 +207,11 @@ def test_a_schema_is_found_by_topic_and_by_class(name: str) -> None:
 def test_every_topic_with_a_message_has_a_schema() -> None:
     for name, topic in TOPICS.items():
         if topic.message is not None:
-            assert json.loads(touchline("schema", name).stdout)["title"] == topic.message.__name__
+            assert json.loads(touchline("topics", name).stdout)["title"] == topic.message.__name__
 
 
 def test_an_environment_variable_stands_in_for_an_option() -> None:
-    result = touchline("coach", "start", TOUCHLINE_CONNECT="nowhere")
+    result = touchline("referee", "start", TOUCHLINE_CONNECT="nowhere")
     assert result.exit_code == 2
     assert "--connect is 'nowhere'; write it as tcp/127.0.0.1:7447" in result.stderr
 

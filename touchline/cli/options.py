@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 MatchFile = Annotated[
     Path | None, typer.Argument(metavar="[MATCH.toml]", help="The match file; without one, a five-a-side friendly.")
 ]
-Scene = Annotated[str | None, typer.Option(help="Start in this scene, by name or path; touchline scenes lists them.")]
+Scene = Annotated[str | None, typer.Option(help="Start in this scene, by name or path; see touchline scene list.")]
 Profile = Annotated[
     str | None, typer.Option(help=f"Field, bodies and limits: {', '.join(PROFILES)}, or the path of a file.")
 ]

@@ -1,4 +1,4 @@
-"""`touchline doctor`: what works between this machine and a host, what does not, and what to do."""
+"""`touchline health --doctor`: what works between this machine and a host, what does not, and what to do."""
 
 import json as json_text
 from typing import TYPE_CHECKING
@@ -6,26 +6,14 @@ from typing import TYPE_CHECKING
 import typer
 
 from schemas.bus.settings import ClientSettings
-from touchline.cli import options
 from touchline.cli.errors import FAILED
-from touchline.cli.option_groups import with_option_groups
 
 if TYPE_CHECKING:
     from touchline.doctor.finding import Finding
 
 
-@with_option_groups
-def doctor(
-    json: options.Json = False,
-    *,
-    connection: ClientSettings,
-) -> None:
-    """Examine this machine and the way to a host: name, port, certificate, credentials, version, delay, clock, robots.
-
-    Without --connect it examines this machine, and the match that runs on it. The exit status is 1 if a line failed.
-
-    Example: touchline doctor --connect tcp/192.168.1.5:7447
-    """
+def examine_and_print(connection: ClientSettings, *, json: bool) -> int:
+    """Examine this machine and the way to a host; returns the exit status, which tells whether a line failed."""
     from schemas.process.clock import WallClock
     from touchline.doctor.examination import examine
     from touchline.doctor.finding import Status
@@ -40,7 +28,7 @@ def doctor(
     if json:
         content = {"ok": not failed, "findings": [finding._asdict() for finding in findings]}
         typer.echo(json_text.dumps(content, ensure_ascii=False))
-    raise typer.Exit(FAILED if failed else 0)
+    return FAILED if failed else 0
 
 
 def _print(finding: "Finding") -> None:

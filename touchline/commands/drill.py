@@ -41,7 +41,8 @@ def drill(
     """Play a drill from many seeds in parallel, without a network, and print its score with an interval of 95 %.
 
     Each seed has another start, as its table `vary` allows, and other noise. Equal seeds give equal drills.
-    `touchline scenes` lists the scenes. If a brain raises, its drill counts as not played, and the exit status is 1.
+    `touchline scene list` lists the scenes. If a brain raises, its drill counts as not played, and the exit status
+    is 1.
 
     Example: touchline drill one_against_keeper --brain simple --seeds 1-50
     """

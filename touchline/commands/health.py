@@ -32,6 +32,13 @@ def health(
         Path | None, typer.Argument(metavar="[FILE]", help="A recording, *.mcap; without one, the running match.")
     ] = None,
     watch: Annotated[bool, typer.Option("--watch", help="Show every report until the host ends or Ctrl-C.")] = False,
+    doctor: Annotated[
+        bool,
+        typer.Option(
+            "--doctor",
+            help="Examine this machine and the way to a host instead: port, certificate, credentials, version, clock.",
+        ),
+    ] = False,
     start: options.From = None,
     end: options.To = None,
     json: options.Json = False,
@@ -43,8 +50,19 @@ def health(
     Counts are those since the match began, of a recording those from --from to --to. docs/networking.md explains each
     column.
 
+    With --doctor it says what works between this machine and a host, what does not, and what to do; the exit status is
+    1 if a line failed. Without --connect it examines this machine, and the match that runs on it.
+
     Example: touchline health --watch
+
+    Example: touchline health --doctor --connect tcp/192.168.1.5:7447
     """
+    if doctor:
+        if file is not None or watch or start is not None or end is not None:
+            raise TouchlineError("--doctor examines machine and way; leave the file, --watch, --from and --to out")
+        from touchline.commands.doctor import examine_and_print
+
+        raise typer.Exit(examine_and_print(connection, json=json))
     if file is not None:
         if watch or connection.connect is not None or connection.match is not None:
             raise TouchlineError("--watch, --connect and --match are for a running match; leave them out with a file")

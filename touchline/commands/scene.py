@@ -11,15 +11,17 @@ from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
+from touchline.commands.scenes import scenes
 
 if TYPE_CHECKING:
     from schemas.messages.scene import SceneRequest
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Set up the pitch of a running match: load a scene, place, add or remove bodies, reset.\n\n"
+    help="Set up the pitch of a running match: load a scene, place, add or remove bodies, reset; list scenes.\n\n"
     "Example: touchline scene load penalty",
 )
+app.command("list")(scenes)
 
 _NUMBERS: Any = {"ignore_unknown_options": True}
 """A negative number is an argument, not an option."""

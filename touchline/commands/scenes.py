@@ -1,4 +1,4 @@
-"""`touchline scenes`: lists the built-in scenes, or shows one."""
+"""`touchline scene list`: lists the built-in scenes, or shows one."""
 
 import json as json_text
 from typing import Annotated
@@ -16,7 +16,7 @@ def scenes(
 ) -> None:
     """List the scenes that a match can start in, or show one.
 
-    Example: touchline scenes penalty
+    Example: touchline scene list penalty
     """
     from schemas.config.scene import load_scene, shipped_scenes
 

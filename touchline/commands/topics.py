@@ -1,22 +1,34 @@
-"""`touchline topics`: the topic table."""
+"""`touchline topics`: the topic table, and the JSON Schema of a message for teams in any language."""
 
 import json as json_text
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 
+from schemas.errors import TouchlineError, did_you_mean
 from schemas.topic import Topic
 from schemas.topics import TOPICS
+from schemas.wire.message import Part, WireMessage
 from touchline.cli import options
 
 _COLUMNS = ("name", "key", "message", "from", "to", "rate", "delivery", "recorded", "description")
 
 
-def topics(json: options.Json = False) -> None:
-    """List every topic: key, message, writer, readers, rate, delivery, recorded or not.
+def topics(
+    name: Annotated[
+        str | None, typer.Argument(metavar="[NAME]", help="A topic, or a message's class name: print its JSON Schema.")
+    ] = None,
+    json: options.Json = False,
+) -> None:
+    """List every topic: key, message, writer, readers, rate, delivery, recorded or not; or print a JSON Schema.
 
     Example: touchline topics --json | jq '.[] | select(.recorded).key'
+
+    Example: touchline topics command
     """
+    if name is not None:
+        typer.echo(json_text.dumps(_message(name).json_schema(), ensure_ascii=False, indent=2))
+        return
     rows = [_row(name, topic) for name, topic in TOPICS.items()]
     if json:
         typer.echo(json_text.dumps(rows, ensure_ascii=False, indent=2))
@@ -26,6 +38,21 @@ def topics(json: options.Json = False) -> None:
     typer.echo("All keys are below touchline/{match}/.\n")
     for line in cells:
         typer.echo("  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip())
+
+
+def _message(name: str) -> "type[WireMessage | Part]":
+    """The message of a topic or class name, replies to queries and the match file among them."""
+    from schemas.config.match_config import MatchConfig
+
+    models: dict[str, type[WireMessage | Part]] = {"MatchConfig": MatchConfig}
+    for topic, row in TOPICS.items():
+        if row.message is not None:
+            models |= {topic: row.message, row.message.__name__: row.message}
+        if row.reply is not None:
+            models[row.reply.__name__] = row.reply
+    if name not in models:
+        raise TouchlineError(f'schema of "{name}": no such topic or message; {did_you_mean(name, models)}')
+    return models[name]
 
 
 def _row(name: str, topic: Topic) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Tests of TeamName: scenes, played in this process. `touchline scenes` lists them."""
+"""Tests of TeamName: scenes, played in this process. `touchline scene list` lists them."""
 
 from touchline.testing import ScenePlayer
 

@@ -51,5 +51,5 @@ def _refused(connect: str, credentials: Credentials | None) -> str:
         )
     return (
         f"--connect {connect}: what listens there does not admit {who}, or is no host that is ready; {remedy} "
-        f"(`touchline doctor --connect {connect}` examines port and certificate)"
+        f"(`touchline health --doctor --connect {connect}` examines port and certificate)"
     )

@@ -1,4 +1,4 @@
-"""`touchline scene` and `touchline scenes`, against a simulation of the same process."""
+"""`touchline scene` and `touchline scene list`, against a simulation of the same process."""
 
 import json
 import threading
@@ -90,12 +90,12 @@ def test_a_refusal_fails_with_its_reason(simulation: Simulation) -> None:
 
 
 def test_the_scenes_are_listed_with_a_sentence_each_and_shown() -> None:
-    lines = touchline("scenes").stdout.splitlines()
+    lines = touchline("scene", "list").stdout.splitlines()
     assert [line.split()[0] for line in lines] == shipped_scenes()
-    assert set(json.loads(touchline("scenes", "--json").stdout)) == set(shipped_scenes())
-    shown = touchline("scenes", "paper_static").stdout
+    assert set(json.loads(touchline("scene", "list", "--json").stdout)) == set(shipped_scenes())
+    shown = touchline("scene", "list", "paper_static").stdout
     assert shown.count("stands still") == 3
-    assert json.loads(touchline("scenes", "penalty", "--json").stdout)["game"]["side"] == "cyan"
+    assert json.loads(touchline("scene", "list", "penalty", "--json").stdout)["game"]["side"] == "cyan"
 
 
 @pytest.mark.parametrize("name", shipped_scenes())

@@ -1,4 +1,4 @@
-"""What `touchline doctor` finds on the way to a host, over real sockets on loopback."""
+"""What `touchline health --doctor` finds on the way to a host, over real sockets on loopback."""
 
 import socket
 import ssl
@@ -224,7 +224,7 @@ def test_round_trips_that_are_longer_than_a_tick_are_a_warning_in_real_time_alon
 
 def test_the_exit_status_tells_whether_a_line_failed() -> None:
     def doctor(*words: str) -> tuple[int, str]:
-        result = CliRunner().invoke(app, ["doctor", *words], prog_name="touchline")
+        result = CliRunner().invoke(app, ["health", "--doctor", *words], prog_name="touchline")
         return result.exit_code, result.stdout
 
     status, text = doctor("--connect", f"tcp/127.0.0.1:{reserve_port('127.0.0.1')}")

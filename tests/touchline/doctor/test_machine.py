@@ -1,4 +1,4 @@
-"""What `touchline doctor` finds on a machine, from given facts."""
+"""What `touchline health --doctor` finds on a machine, from given facts."""
 
 from dataclasses import replace
 from pathlib import Path

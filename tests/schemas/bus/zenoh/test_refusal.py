@@ -53,7 +53,7 @@ def refusal(connect: str, credentials: Path | None) -> str:
         open_client("cup", WallClock(), connect, 0.0, credentials)
     line = str(error.value)
     assert line.startswith(f"--connect {connect}: ") and "\n" not in line
-    assert f"touchline doctor --connect {connect}" in line
+    assert f"touchline health --doctor --connect {connect}" in line
     return line
 
 

@@ -19,7 +19,7 @@ from schemas.topics import ACTION, HEALTH, REFEREE_SEAT, STATE
 from sim_host.server.referee_seat import RefereeSeat
 from support.fake_host import FakeHost
 from touchline.command_line import app
-from touchline.commands import coach
+from touchline.commands import coach, referee
 
 
 class TalkingClock(SteppedClock):
@@ -60,13 +60,14 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
         with there.medium.open_bus(connection.match or "friendly", clock) as bus:
             yield bus
 
+    monkeypatch.setattr(referee, "bus_client", seat)
     monkeypatch.setattr(coach, "bus_client", seat)
     yield there
     there.close()
 
 
 def touchline(*words: str) -> Result:
-    return CliRunner().invoke(app, ["coach", *words], prog_name="touchline")
+    return CliRunner().invoke(app, ["coach" if words[0] == "state" else "referee", *words], prog_name="touchline")
 
 
 def test_an_accepted_action_is_a_success(host: Host) -> None:
@@ -82,31 +83,25 @@ def test_a_refused_action_fails_with_the_referees_reason(host: Host) -> None:
     assert (host.asked[0].place.x, host.asked[0].place.y) == (-3.5, 2.0)
 
 
-ABOUT = {coach.NoTarget: [], coach.SideTarget: ["cyan"], coach.RobotTarget: ["cyan1"], coach.PlaceTarget: ["-3.5", "2"]}
+ABOUT = {
+    referee.NoTarget: [],
+    referee.SideTarget: ["cyan"],
+    referee.RobotTarget: ["cyan1"],
+    referee.PlaceTarget: ["-3.5", "2"],
+}
 
 
-@pytest.mark.parametrize("word", coach.REFEREE_COMMANDS)
+@pytest.mark.parametrize("word", referee.REFEREE_COMMANDS)
 def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word: str) -> None:
     """The actions that simatch's automatic referee has keys for."""
-    deed = coach.REFEREE_COMMANDS[word]
+    deed = referee.REFEREE_COMMANDS[word]
     touchline(word, *ABOUT[deed.target])
     (asked,) = host.asked
     assert asked.action is deed.action
     assert word.replace("-", "") == deed.action.value.replace("_", "")
-    assert asked.side == (Side.CYAN if deed.target is coach.SideTarget else None)
-    assert asked.robot == ("cyan1" if deed.target is coach.RobotTarget else None)
-    assert (asked.place is not None) == (deed.target is coach.PlaceTarget)
-
-
-def test_the_referees_commands_can_be_given_to_the_referee(host: Host) -> None:
-    result = CliRunner().invoke(app, ["referee", "corner", "magenta"], prog_name="touchline")
-    assert (result.exit_code, result.stdout) == (0, "corner accepted\n")
-    assert [(action.action, action.side) for action in host.asked] == [(ActionName.CORNER, Side.MAGENTA)]
-    assert [command.name for command in coach.referee.registered_commands] == [
-        *coach.REFEREE_COMMANDS,
-        *coach.SEAT_COMMANDS,
-        "admit-recorder",
-    ]
+    assert asked.side == (Side.CYAN if deed.target is referee.SideTarget else None)
+    assert asked.robot == ("cyan1" if deed.target is referee.RobotTarget else None)
+    assert (asked.place is not None) == (deed.target is referee.PlaceTarget)
 
 
 def test_a_terminal_keeps_its_name_as_referee_from_one_command_to_the_next(host: Host) -> None:
@@ -129,8 +124,8 @@ def test_a_terminal_takes_shows_and_leaves_the_seat_of_the_referee(host: Host) -
 
 
 def test_every_action_has_one_word() -> None:
-    assert len(coach.REFEREE_COMMANDS) == len(ActionName)
-    assert {deed.action for deed in coach.REFEREE_COMMANDS.values()} == set(ActionName)
+    assert len(referee.REFEREE_COMMANDS) == len(ActionName)
+    assert {deed.action for deed in referee.REFEREE_COMMANDS.values()} == set(ActionName)
 
 
 def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:

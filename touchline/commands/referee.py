@@ -1,0 +1,175 @@
+"""`touchline referee`: the referee box of a running match."""
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Annotated, NamedTuple
+
+import typer
+
+from coach_gateway.access.referee_name import terminal_name
+from schemas.access.accounts import Account
+from schemas.bus.settings import ClientSettings
+from schemas.errors import MatchFailedError
+from schemas.game import ActionName
+from schemas.messages.game import RefereeAction
+from schemas.messages.referee_seat import SeatOperation
+from touchline.cli import options
+from touchline.cli.bus_client import bus_client
+from touchline.cli.option_groups import from_options, with_option_groups
+from touchline.commands import admit
+
+app = typer.Typer(
+    no_args_is_help=True,
+    help="Send requests to the referee of a running match, or officiate.\n\nExample: touchline referee kickoff magenta",
+)
+
+
+@dataclass(frozen=True)
+class NoTarget:
+    """An action on the game as a whole."""
+
+
+@dataclass(frozen=True)
+class SideTarget:
+    """An action on a side."""
+
+    side: options.ForSide
+
+
+@dataclass(frozen=True)
+class RobotTarget:
+    """An action on a robot."""
+
+    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="The robot's name.")]
+
+
+@dataclass(frozen=True)
+class PlaceTarget:
+    """An action on a point of the field."""
+
+    x: Annotated[float, typer.Argument(help="m, field frame")]
+    y: Annotated[float, typer.Argument(help="m, field frame")]
+
+
+Target = NoTarget | SideTarget | RobotTarget | PlaceTarget
+
+
+class RefereeCommand(NamedTuple):
+    """One command of the referee box."""
+
+    action: ActionName
+    target: type[Target]
+    help: str
+    example: str = ""
+    """Arguments of the example in the help."""
+
+
+REFEREE_COMMANDS: dict[str, RefereeCommand] = {
+    "start": RefereeCommand(ActionName.START, NoTarget, "Give START: begin the match, or allow a restart."),
+    "stop": RefereeCommand(ActionName.STOP, NoTarget, "Stop play."),
+    "kickoff": RefereeCommand(ActionName.KICK_OFF, SideTarget, "Stop play and give a side the kick-off.", "cyan"),
+    "freekick": RefereeCommand(ActionName.FREE_KICK, SideTarget, "Stop play and give a side a free kick.", "cyan"),
+    "goalkick": RefereeCommand(ActionName.GOAL_KICK, SideTarget, "Stop play and give a side a goal kick.", "cyan"),
+    "throwin": RefereeCommand(ActionName.THROW_IN, SideTarget, "Stop play and give a side a throw-in.", "cyan"),
+    "corner": RefereeCommand(ActionName.CORNER, SideTarget, "Stop play and give a side a corner.", "cyan"),
+    "penalty": RefereeCommand(ActionName.PENALTY, SideTarget, "Stop play and give a side a penalty.", "cyan"),
+    "drop-ball": RefereeCommand(ActionName.DROP_BALL, NoTarget, "Stop play and drop the ball."),
+    "place-ball": RefereeCommand(
+        ActionName.PLACE_BALL, PlaceTarget, "Set the ball down on a point of the field, at rest.", "-3.5 2"
+    ),
+    "goal": RefereeCommand(ActionName.GOAL, SideTarget, "Count a goal for a side.", "cyan"),
+    "cancel-goal": RefereeCommand(
+        ActionName.CANCEL_GOAL, SideTarget, "Subtract a goal from a side's score; the game continues.", "cyan"
+    ),
+    "yellow-card": RefereeCommand(ActionName.YELLOW_CARD, RobotTarget, "Show a robot the yellow card.", "cyan3"),
+    "double-yellow": RefereeCommand(
+        ActionName.DOUBLE_YELLOW, RobotTarget, "Show a robot its second yellow card: it is suspended.", "cyan3"
+    ),
+    "red-card": RefereeCommand(
+        ActionName.RED_CARD, RobotTarget, "Show a robot the red card: it leaves the field.", "cyan3"
+    ),
+    "repair": RefereeCommand(
+        ActionName.REPAIR, RobotTarget, "Take a robot off for repair; it returns at a stoppage.", "cyan3"
+    ),
+    "substitute": RefereeCommand(ActionName.SUBSTITUTE, RobotTarget, "Replace a robot during a stoppage.", "cyan3"),
+    "park": RefereeCommand(
+        ActionName.PARK, RobotTarget, "Take a robot off the field until `enter` brings it back.", "cyan3"
+    ),
+    "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Bring a robot back that is off the field.", "cyan3"),
+    "name-robot": RefereeCommand(
+        ActionName.NAME_ROBOT, RobotTarget, "Name the robot that a card or a repair without a robot concerns.", "cyan3"
+    ),
+    "confirm": RefereeCommand(ActionName.CONFIRM, NoTarget, "Confirm the referee's proposal at once."),
+    "overrule": RefereeCommand(ActionName.OVERRULE, NoTarget, "Reject the referee's proposal."),
+    "undo": RefereeCommand(
+        ActionName.UNDO, NoTarget, "Undo the last decision: restore score and cards; the clock keeps running."
+    ),
+    "end-half": RefereeCommand(ActionName.END_HALF, NoTarget, "End this half."),
+    "end-game": RefereeCommand(ActionName.END_GAME, NoTarget, "End the match."),
+}
+"""Command → the action requested from the referee."""
+
+
+def _command(row: RefereeCommand) -> Callable[..., None]:
+    def command(target: Target, connection: ClientSettings) -> None:
+        content = asdict(target)
+        if isinstance(target, PlaceTarget):
+            content = {"place": content}
+        _send(connection, from_options(RefereeAction, action=row.action, **content))
+
+    command.__annotations__["target"] = row.target
+    return with_option_groups(command)
+
+
+for _word, _row in REFEREE_COMMANDS.items():
+    app.command(
+        _word,
+        help=f"{_row.help}\n\nExample: touchline referee {_word} {_row.example}".rstrip(),
+        context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is no option
+    )(_command(_row))
+
+
+class SeatCommand(NamedTuple):
+    """One command on the seat of the referee."""
+
+    operation: SeatOperation
+    help: str
+
+
+SEAT_COMMANDS: dict[str, SeatCommand] = {
+    "seat": SeatCommand(SeatOperation.SHOW, "Print who officiates: one referee at a time."),
+    "take-over": SeatCommand(
+        SeatOperation.TAKE, "Officiate in place of the referee that does, or before anybody does."
+    ),
+    "leave": SeatCommand(SeatOperation.LEAVE, "Stop officiating: the next one that decides is the referee."),
+}
+"""Command → what it does with the seat."""
+
+
+def _seat_command(row: SeatCommand) -> Callable[..., None]:
+    def command(connection: ClientSettings) -> None:
+        from coach_gateway.match.host_client import HostClient
+
+        with bus_client(connection, Account.REFEREE) as bus:
+            reply = HostClient(bus, referee=terminal_name()).referee_seat(row.operation)
+        if not reply.accepted:
+            raise MatchFailedError(f"refused: {reply.reason}")
+        typer.echo(f"{reply.holder} officiates" if reply.holder is not None else "the referee's seat is free")
+
+    return with_option_groups(command)
+
+
+for _word, _seat in SEAT_COMMANDS.items():
+    app.command(_word, help=f"{_seat.help}\n\nExample: touchline referee {_word}")(_seat_command(_seat))
+
+app.command("admit-recorder")(admit.recorder)
+
+
+def _send(connection: ClientSettings, action: RefereeAction) -> None:
+    from coach_gateway.match.host_client import HostClient
+
+    with bus_client(connection, Account.REFEREE) as bus:
+        reply = HostClient(bus, referee=terminal_name()).act(action)
+    if not reply.accepted:
+        raise MatchFailedError(f"refused: {reply.reason}")
+    typer.echo(f"{action.action.value} accepted")
