@@ -1,7 +1,7 @@
 """Plays mirrored pairs of matches, and reports how balls out, fouls and possession are shared between the colours.
 
     python benchmarks/check_sides.py --pairs 20 --processes 2
-    python benchmarks/check_sides.py --pairs 20 --teams simple simple --touch-order roster
+    python benchmarks/check_sides.py --pairs 20 --teams simple simple
 
 The two matches of a pair have the same seed; teams and kick-off are exchanged, so that each team plays as either
 colour. Whatever a colour has in excess is therefore the host's and not a team's. Each share is given with an interval
@@ -22,7 +22,6 @@ from functools import partial
 from typing import Any
 
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.config.profile import profile_tables
 from schemas.game import EventKind
 from schemas.side import Side
 from sim_host.match.simulation import TickResult
@@ -67,13 +66,7 @@ def match_of(seed: int, teams: Sequence[str], kick_off: Side, options: argparse.
         "referee": {"kick_off": kick_off.value},
         "teams": {side.value: {"brain": TEAMS[team]} for side, team in zip(Side, teams, strict=True)},
     }
-    config = load_match(None, content)
-    if options.touch_order is None:
-        return config
-    tables = profile_tables(config.profile)
-    order = tables["ball"]["touch_order"] | {"value": options.touch_order}
-    changed = tables | {"ball": tables["ball"] | {"touch_order": order}}
-    return config.model_copy(update={"profile_tables": changed})
+    return load_match(None, content)
 
 
 def play_pair(options: argparse.Namespace, seed: int) -> Counts:
@@ -122,7 +115,6 @@ def main() -> int:
     parser.add_argument("--teams", nargs=2, choices=TEAMS, default=["simple", "nubot"])
     parser.add_argument("--rules", default="msl")
     parser.add_argument("--duration", type=float, default=120.0, help="playing time of a match, s")
-    parser.add_argument("--touch-order", choices=["force", "roster"], help="in place of the profile's")
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args()
     seeds = range(options.first_seed, options.first_seed + options.pairs)

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.number_files import HEADER, PROFILE_KEY, UNVERSIONED, NumberFiles, version_of
-from schemas.config.quantity import Choice, Quantity, read_section
+from schemas.config.quantity import Quantity, read_section
 from schemas.config.roster import MAX_ROBOTS
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
@@ -45,7 +45,7 @@ class Restarts:
     stop_to_signal: Annotated[float, Quantity("s", "pause from STOP to the restart signal", 0, 60)]
     signal_to_start: Annotated[float, Quantity("s", "time to take positions, from the signal to START", 0, 60)]
     positions_limit: Annotated[
-        float, Quantity("s", "longest wait of START for robots in illegal positions, see `positions_from`", 0, 60)
+        float, Quantity("s", "longest wait of START after the signal, for robots in illegal positions", 0, 60)
     ]
     time_limit: Annotated[float, Quantity("s", "latest time after START for the ball to be in play", 1, 60)]
     penalty_limit: Annotated[float, Quantity("s", "the same at a penalty: time to reach the ball", 1, 60)]
@@ -68,14 +68,6 @@ class Restarts:
         float, Quantity("m", "free kicks and dropped balls are placed this far inside the lines", 0, 2)
     ]
     drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is placed again", 0.01, 1)]
-    ties: Annotated[
-        str,
-        Choice(
-            "what decides between offences of one tick, returning robots, and equally near spots: fair, the same for "
-            "both sides in a mirrored match; roster, the order of the roster and of the field's axes",
-            ("fair", "roster"),
-        ),
-    ] = "roster"
     encroach_margin: Annotated[
         float,
         Quantity("m", "between START and the kick, a robot nearer than allowed by more than this encroaches", 0, 2),
@@ -87,15 +79,8 @@ class Restarts:
         float,
         Quantity("s", "time that play goes on for a side that keeps the ball after a foul; 0: no advantage", 0, 30),
     ] = 0.0
-    positions_from: Annotated[
-        str,
-        Choice("`positions_limit` counts from the signal, or from the earliest START", ("signal", "earliest start")),
-    ] = "earliest start"
     penalty_behind: Annotated[
         int, Quantity("1", "1: at a penalty all but kicker and goalkeeper stay behind the ball; 0: not", 0, 1)
-    ] = 0
-    moves_apart: Annotated[
-        int, Quantity("1", "1: robots moved at the limit get places apart from each other; 0: each its own", 0, 1)
     ] = 0
 
 

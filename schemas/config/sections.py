@@ -99,7 +99,7 @@ class RobotBody:
 
 @dataclass(frozen=True, slots=True)
 class Ball:
-    """The ball. Numbers with a default are missing in old recordings, which were played with the default."""
+    """The ball."""
 
     radius: Annotated[float, Quantity("m", "radius", 0.02, 0.2)]
     mass: Annotated[float, Quantity("kg", "mass", 0.02, 2)]
@@ -116,14 +116,6 @@ class Ball:
         float, Quantity("1", "lift over the same, of a ball that spins as if it rolled; proportional to the spin", 0, 2)
     ] = 0.0
     rolling_drag_coefficient: Annotated[float, Quantity("1", "drag over the same, of a ball on the ground", 0, 2)] = 0.0
-    touch_order: Annotated[
-        str,
-        Choice(
-            "which of several robots at the ball in one physics step touches it last: with force, the one that presses "
-            "hardest; with roster, any within reach of a contact, by order of the roster",
-            ("force", "roster"),
-        ),
-    ] = "roster"
     touch_tie: Annotated[
         float, Quantity("1", "touches of one step are level if their forces differ by this share of the larger", 0, 0.9)
     ] = 0.0
@@ -146,10 +138,7 @@ class DriveLimits:
             ("velocity", "traction", "omni"),
         ),
     ] = "velocity"
-    stuck_window: Annotated[
-        float,
-        Quantity("s", "time over which progress is compared with demand; 0: stuck after 0.2 s below half speed", 0, 5),
-    ] = 0.0
+    stuck_window: Annotated[float, Quantity("s", "time over which progress is compared with demand", 0.02, 5)] = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,7 +207,7 @@ class Kicker:
 
 @dataclass(frozen=True, slots=True)
 class CameraView:
-    """What a robot's camera has in view. Old recordings have no such section: their cameras see all round."""
+    """What a robot's camera has in view."""
 
     field_of_view: Annotated[
         float, Quantity("rad", "total angle about the kick axis in which ball and obstacles are seen", 0.01, math.tau)
@@ -268,10 +257,7 @@ class Sensing:
 
 @dataclass(frozen=True, slots=True)
 class RadioChannel:
-    """The radio between teammates, which the host simulates.
-
-    Numbers with a default are missing in old recordings, which were played with the default.
-    """
+    """The radio between teammates, which the host simulates."""
 
     delay: Annotated[float, Quantity("s", "least simulated time from sending to arrival", 0, 5)]
     jitter: Annotated[float, Quantity("s", "longest further time until arrival, uniformly distributed", 0, 5)]

@@ -11,7 +11,7 @@ from sim_host.actuation.carrying import METHODS, HeldBall
 from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers
 from sim_host.actuation.possession import can_hold, claimants, holder, why_not_held
-from sim_host.actuation.touches import TOUCH_ORDERS, StepTouches
+from sim_host.actuation.touches import StepTouches, by_force
 from sim_host.physics.body_state import BallContacts, BodyState
 from sim_host.physics.engine import Engine
 from sim_host.physics.free_ball import FreeBall
@@ -55,7 +55,6 @@ class BallHandling:
         self._step = profile.time.physics_step
         self._free = FreeBall(profile.ball, profile.field, self._step)
         self._kickers = Kickers([model.kicker for model in models], profile.time.tick)
-        self._touches_of_step = TOUCH_ORDERS[profile.ball.touch_order]
         self._tie = profile.ball.touch_tie
         self.holder: int | None = None
         self._contestants: list[int] = []
@@ -148,7 +147,7 @@ class BallHandling:
         if self._ball_leaving is not None:
             self._end_kick(self._ball_leaving)
         if contacts.forces or self.holder is not None:
-            report.add(self._touches_of_step(contacts.forces, self.holder, self._tie))
+            report.add(by_force(contacts.forces, self.holder, self._tie))
         if self.holder is not None and contacts.depth > _MAX_PRESSED_DEPTH:
             self.set_holder(None)
 

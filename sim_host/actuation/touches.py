@@ -2,10 +2,10 @@
 
 A later step is a later touch. Within a step the hardest press is the last touch, since it determines the motion of the
 ball. Robots that press equally hard have touched the ball at the same time: they are level, and none is the last. The
-order of the roster decides nothing, except in older recordings.
+order of the roster decides nothing.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 
@@ -35,15 +35,3 @@ def by_force(forces: Mapping[int, float], holder: int | None, tie: float) -> Ste
     hardest = pressing[order[-1]]
     level = tuple([robot for robot in order if hardest - pressing[robot] <= tie * hardest])
     return StepTouches(order, level if len(level) > 1 else ())
-
-
-def by_roster(forces: Mapping[int, float], holder: int | None, _tie: float) -> StepTouches:
-    """The touches as older recordings have them: the holder, then all robots with a contact, in roster order."""
-    return StepTouches([*([] if holder is None else [holder]), *forces])
-
-
-TOUCH_ORDERS: Mapping[str, Callable[[Mapping[int, float], int | None, float], StepTouches]] = {
-    "force": by_force,
-    "roster": by_roster,
-}
-"""The profile's choice `ball.touch_order` → its function."""

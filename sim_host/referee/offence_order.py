@@ -27,7 +27,7 @@ def worst_first(
         measured: the quantity that broke the rule, or may do so; the greater, the worse.
         offender: the robot that commits an offence, by its index in the roster.
     """
-    if len(offences) < 2 or situation.match.book.restarts.ties == "roster":
+    if len(offences) < 2:
         return offences
     robots, ball, sides = situation.snapshot.robots, situation.snapshot.ball, situation.match.roster.sides
 

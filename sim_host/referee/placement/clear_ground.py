@@ -45,8 +45,7 @@ def clear_restart(match: MatchConstants, state: RefereeState, snapshot: Snapshot
     """
     if has_room(match, snapshot, restart.spot):
         return restart
-    is_turned = match.book.restarts.ties == "fair" and state.attack(restart.side or state.kick_off) < 0
-    forward = math.pi if is_turned else 0.0
+    forward = math.pi if state.attack(restart.side or state.kick_off) < 0 else 0.0
     lines = tuple([bearing + forward for bearing in _LINES.get(restart.phase, ())])
     for room in (match.ball.radius + 2.0 * max(match.reaches, default=0.0), match.ball.radius):
         for bearings in (lines, _all_bearings(restart.spot, forward)):

@@ -16,8 +16,6 @@ _ROOM = 0.2
 """m; distance that a moved robot gets beyond the required one, and from other robots."""
 _BEARINGS = 24
 """Number of directions from the ball that are tried for a moved robot."""
-_RINGS = 8
-"""Number of distances that are tried, 1 m apart, for a robot that is moved by itself."""
 
 
 def legal_poses(
@@ -28,13 +26,10 @@ def legal_poses(
     The present pose of a robot if there is no such place.
     """
     line_up, poses = line_up_of(match, state, restart, snapshot), []
-    moved_apart = match.book.restarts.moves_apart
     for place, fault in enumerate(faults):
-        if moved_apart:
-            line_up = line_up._replace(waiting=[later.robot for later in faults[place + 1 :]])
+        line_up = line_up._replace(waiting=[later.robot for later in faults[place + 1 :]])
         pose = _legal_pose(line_up, fault.robot)
-        if moved_apart:
-            line_up = line_up._replace(snapshot=line_up.snapshot.with_robot_at(fault.robot, pose))
+        line_up = line_up._replace(snapshot=line_up.snapshot.with_robot_at(fault.robot, pose))
         poses.append(pose)
     return poses
 
@@ -57,8 +52,7 @@ def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
         yield line_up.own_end(index) * (pitch.goal_line - line_up.match.reaches[index] - _ROOM), 0.0
     bearing = math.atan2(robot.y - y, robot.x - x)
     nearest = min_distance(line_up, index) + line_up.match.reaches[index] + _ROOM
-    rings = math.ceil(pitch.length) if line_up.match.book.restarts.moves_apart else _RINGS
-    for ring in range(rings):
+    for ring in range(math.ceil(pitch.length)):
         for step in range(_BEARINGS):
             turn = (step + 1) // 2 * (1 if step % 2 else -1) * math.tau / _BEARINGS
             away = nearest + ring

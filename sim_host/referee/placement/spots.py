@@ -43,7 +43,7 @@ def _throw_in(match: MatchConstants, _attack: int, place: Spot) -> Spot:
 
 def _goal_kick(match: MatchConstants, attack: int, place: Spot) -> Spot:
     """The nearest restart marker in the taker's own half."""
-    return _nearest(match, place, (spot for spot in match.pitch.restart_spots if spot[0] * attack < 0))
+    return _nearest(place, (spot for spot in match.pitch.restart_spots if spot[0] * attack < 0))
 
 
 def _in_field(match: MatchConstants, _attack: int, place: Spot) -> Spot:
@@ -51,7 +51,7 @@ def _in_field(match: MatchConstants, _attack: int, place: Spot) -> Spot:
     pitch, inset = match.pitch, match.book.restarts.field_inset
     x, y = _within(place[0], pitch.goal_line - inset), _within(place[1], pitch.touch_line - inset)
     if in_a_penalty_area(pitch, x, y):
-        return _nearest(match, (x, y), (spot for spot in pitch.restart_spots if not in_a_penalty_area(pitch, *spot)))
+        return _nearest((x, y), (spot for spot in pitch.restart_spots if not in_a_penalty_area(pitch, *spot)))
     return x, y
 
 
@@ -59,10 +59,9 @@ def _within(value: float, limit: float) -> float:
     return max(-limit, min(limit, value))
 
 
-def _nearest(match: MatchConstants, place: Spot, spots: Iterable[Spot]) -> Spot:
+def _nearest(place: Spot, spots: Iterable[Spot]) -> Spot:
     """The nearest spot; of two equally near spots, the one nearer to the long axis, then to the halfway line."""
-    by_x = match.book.restarts.ties == "fair"
-    return min(spots, key=lambda spot: (math.dist(place, spot), abs(spot[1]), abs(spot[0]) if by_x else 0.0))
+    return min(spots, key=lambda spot: (math.dist(place, spot), abs(spot[1]), abs(spot[0])))
 
 
 SPOTS: Mapping[Phase, Callable[[MatchConstants, int, Spot], Spot]] = {

@@ -153,7 +153,6 @@ def advance(draft: RulingDraft) -> None:
                 take_out(draft, RULE, name, Absence(OffField.SILENT))
     if not draft.state.participation.absences or draft.state.running:
         return
-    each_side = draft.book.restarts.ties == "fair"
     arrived: set[Side] = set()  # one in a tick: the next snapshot shows where it is, and where there is room
     for name, side in zip(draft.match.roster.names, draft.match.roster.sides, strict=True):
         absence = draft.state.participation.absences.get(name)
@@ -161,7 +160,7 @@ def advance(draft: RulingDraft) -> None:
             continue
         if why_stays_out(draft, name) is None:
             bring_back(draft, RULE, name)
-            arrived |= {side} if each_side else {*Side}
+            arrived.add(side)
 
 
 def for_next_half(participation: Participation, book: Discipline) -> Participation:

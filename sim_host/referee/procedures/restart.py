@@ -16,7 +16,6 @@ Not judged: which side wasted the time.
 import math
 from collections.abc import Sequence
 
-from schemas.config.rule_book import Restarts
 from schemas.game import Card, EventKind, GameStage, OfficiatingMode, Phase
 from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.referee.game import set_piece
@@ -143,16 +142,10 @@ def _before_start(draft: RulingDraft, restart: Restart) -> None:
     wrong = position_faults(draft.match, draft.state, restart, draft.snapshot)
     if on_spot and not wrong:
         start(draft, restart)
-    elif reached(timer, _latest_start(numbers)):
+    elif reached(timer, numbers.positions_limit):
         _start_with_faults(draft, restart, wrong)
         if not has_room and numbers.moves_offenders:
             draft.place_ball(restart.spot)
-
-
-def _latest_start(numbers: Restarts) -> float:
-    """s after the signal at which START no longer waits for robots in wrong positions."""
-    earliest = numbers.signal_to_start if numbers.positions_from == "earliest start" else 0.0
-    return earliest + numbers.positions_limit
 
 
 def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: Sequence[PositionFault]) -> None:

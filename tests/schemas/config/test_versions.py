@@ -17,19 +17,19 @@ from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 
 DIGESTS = {
-    "profiles/ideal": (2, "a4ba76b9c75c"),
-    "profiles/msl": (2, "30244728231a"),
-    "profiles/msl-2016": (2, "af89f3154734"),
-    "profiles/omni": (2, "9741e9275359"),
-    "profiles/omni3": (2, "f85e17522043"),
-    "profiles/paper": (2, "670bf7a56392"),
-    "rule_books/china-sim-2020": (1, "96eb91155fb3"),
-    "rule_books/eleven": (1, "de78cf209b2f"),
-    "rule_books/friendly": (1, "a990e49b975c"),
-    "rule_books/msl": (1, "4abbe32fb0e0"),
-    "rule_books/msl-2016": (1, "f018d98b3170"),
-    "rule_books/msl-2019": (1, "f018d98b3170"),
-    "rule_books/paper": (1, "0dbbb4ed4e5f"),
+    "profiles/ideal": (2, "6f1cfd502acd"),
+    "profiles/msl": (2, "cee9e941c4a0"),
+    "profiles/msl-2016": (2, "1391972edd03"),
+    "profiles/omni": (2, "2345a23e6588"),
+    "profiles/omni3": (2, "995fc77669b8"),
+    "profiles/paper": (2, "47d6fb98f5b5"),
+    "rule_books/china-sim-2020": (1, "628b13fe21bc"),
+    "rule_books/eleven": (1, "64a1670e6465"),
+    "rule_books/friendly": (1, "0c231829b56f"),
+    "rule_books/msl": (1, "0fb5a51336b2"),
+    "rule_books/msl-2016": (1, "5f4079973ace"),
+    "rule_books/msl-2019": (1, "5f4079973ace"),
+    "rule_books/paper": (1, "169a36954486"),
 }
 """File → its version, and a digest of its numbers."""
 

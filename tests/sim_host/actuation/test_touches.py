@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim_host.actuation.touches import TOUCH_ORDERS, by_force, by_roster
+from sim_host.actuation.touches import by_force
 
 TIE = 0.1
 FORCES = st.dictionaries(st.integers(0, 9), st.floats(0.0, 1e3), max_size=4)
@@ -50,9 +50,3 @@ def test_the_level_robots_are_the_last_of_the_touches(forces, holder) -> None:
     touches = by_force(forces, holder, TIE)
     assert len(touches.level) != 1
     assert list(touches.level) == touches.robots[len(touches.robots) - len(touches.level) :]
-
-
-def test_older_recordings_have_the_order_of_the_roster() -> None:
-    assert by_roster({1: 9.0, 6: 5.0, 7: 0.0}, None, 0.0) == ([1, 6, 7], ())
-    assert by_roster({1: 9.0}, 6, 0.0) == ([6, 1], ())
-    assert set(TOUCH_ORDERS) == {"force", "roster"}

@@ -1,16 +1,12 @@
 """Whole restart sequences: STOP, ball placed and signal, START, ball in play."""
 
-import dataclasses
 import math
 
 import pytest
 
-from schemas.config.rule_book import Restarts
 from schemas.game import EventKind, Phase
 from schemas.side import Side
-from support.referee_rig import with_book
 
-REQUIRED = [field.name for field in dataclasses.fields(Restarts) if field.default is dataclasses.MISSING]
 """The numbers of a rule book of before the others existed."""
 STOP, RESTART, START, IN_PLAY = EventKind.STOP, EventKind.RESTART, EventKind.START, EventKind.IN_PLAY
 
@@ -139,18 +135,6 @@ def test_start_waits_for_no_robot_beyond_the_limit_which_counts_from_the_signal(
     rig.until(lambda state: state.running)
     assert moment(rig, START) - moment(rig, RESTART) == pytest.approx(latest)
     assert "cyan4 stands" in rig.events[-1].text
-
-
-def test_a_book_of_before_counts_the_limit_from_the_earliest_start(new_rig):
-    rig = new_rig()
-    numbers = rig.book.restarts
-    earlier = Restarts(**{field: getattr(numbers, field) for field in REQUIRED})
-    assert earlier.positions_from == "earliest start"
-    rig = thrown_in(with_book(rig, dataclasses.replace(rig.book, restarts=earlier)))
-    rig.robots["cyan4"] = (1.0, rig.pitch.touch_line - 1.0)
-    rig.until(lambda state: state.running)
-    waited = moment(rig, START) - moment(rig, RESTART)
-    assert waited == pytest.approx(numbers.signal_to_start + numbers.positions_limit)
 
 
 @pytest.mark.parametrize(("rules", "moved", "card"), [("msl", True, True), ("friendly", False, False)])

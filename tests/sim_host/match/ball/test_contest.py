@@ -91,14 +91,6 @@ def test_two_robots_that_press_a_ball_from_both_ends_alike_are_level(build, tell
     assert last[None] > 10 and last["cyan1"] == last["magenta1"] == 0
 
 
-def test_a_recording_without_an_order_of_touches_has_that_of_the_roster(build, tell):
-    """The order was missing in the profiles of older recordings, and the later robot was always the last."""
-    rig = build(ball={"touch_order": "roster", "touch_tie": 0.0})
-    cyan = (-0.5, 0.0, 0.0)
-    last = last_touches(rig, tell, cyan, turned(cyan))
-    assert last[None] == 0 and last["magenta1"] > 10 > 5 * last["cyan1"]
-
-
 def test_a_first_touch_belongs_to_the_same_robot_in_any_order_of_the_roster(build, tell):
     """In simatch the last writer has the ball."""
     orders = [("cyan1", "cyan2", "magenta1", "magenta2"), ("magenta2", "magenta1", "cyan2", "cyan1")]
