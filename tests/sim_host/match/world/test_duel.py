@@ -69,16 +69,6 @@ def test_a_hit_gives_a_lighter_robot_more_speed(field):
     assert rig.at("cyan1").vx == approx(3.0 - (1 + KEPT) * 20 / 70 * 3.0, abs=2 * GRIP * TICK)
 
 
-def test_a_robot_that_is_hit_slides_as_far_as_its_grip_lets_it(field):
-    """v²/2b with the speed after the hit, within 3 %; the hitter brakes and does not reach it again."""
-    rig = field()
-    hit(rig, 4.0)
-    at = rig.at("magenta1")
-    rig.run(1.0)
-    assert rig.at("magenta1").x - at.x == approx(at.vx**2 / 2 / GRIP, rel=0.03)
-    assert abs(rig.at("magenta1").vx) < 1e-3
-
-
 @pytest.mark.parametrize("profile", [MSL, OMNI], ids=["traction", "wheels"])
 def test_the_grip_of_a_robot_that_is_hit_brakes_it(field, profile):
     """5 m/s², and μ·g/√2 on wheels at 45°, until the next contact; within 2 %."""
@@ -142,15 +132,6 @@ def test_the_heavier_robot_wins_a_duel_by_the_difference_of_grips(field, heavier
     rig.run(0.4, cyan1=tell(4.0), magenta1=tell(4.0))
     sign = 1 if heavier == "cyan1" else -1
     assert (rig.at("cyan1").vx - before) / 0.4 == approx(sign * GRIP * (55 - 39) / (55 + 39), rel=0.05)
-
-
-def test_two_equal_robots_that_push_head_on_stand_off(field):
-    """Within 1 cm in three seconds, whatever they were told to drive; both are stuck."""
-    rig = field()
-    rig.place(cyan1=(-RADIUS, 0, 0), magenta1=(RADIUS, 0, math.pi))
-    rig.run(3.0, cyan1=tell(4.0), magenta1=tell(1.0))
-    assert rig.at("cyan1").x == approx(-RADIUS, abs=0.01)
-    assert rig.stuck == [True, False, True, False]
 
 
 def test_a_push_through_the_ball_is_no_stronger_than_the_grip(field):

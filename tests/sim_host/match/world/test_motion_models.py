@@ -18,7 +18,6 @@ from sim_host.snapshot import RobotState, Roster
 from support.world_rig import WorldRig, two_a_side
 
 VELOCITY, TRACTION, OMNI, THREE = (load_profile(name) for name in ("ideal", "msl", "omni", "omni3"))
-REST = AppliedInput(Drive(), dribble=False)
 NAMES = ("cyan1", "cyan2", "magenta1", "magenta2")
 
 
@@ -90,14 +89,9 @@ def test_only_the_robot_that_is_held_back_is_stuck(field: WorldRig) -> None:
     assert field.stuck == [True, False, False, False]
     field.run(1.0, cyan1=drive(-2), cyan2=drive(-2))
     assert field.stuck == [False] * 4
-    for told in (drive(4, 1), drive(-4, 2, 8), drive(omega=-8), REST):
-        for _ in range(40):
-            field.tick(magenta1=told)
-            assert field.stuck == [False] * 4
-        field.place(magenta1=(0, 0, 0))
 
 
-@pytest.mark.parametrize("profile", [OMNI, THREE], ids=["four wheels", "three wheels"])
+@pytest.mark.parametrize("profile", [TRACTION, OMNI, THREE], ids=["traction", "four wheels", "three wheels"])
 def test_two_equal_robots_that_push_each_other_stay_where_they_are(profile: Profile) -> None:
     """Within 2 cm after three seconds, with all their grip: neither wins, and both know that they are stuck."""
     field = field_of(profile=profile)
@@ -147,27 +141,6 @@ def test_a_robot_that_stands_is_pushed_sideways_only_by_more_than_its_grip(grip:
     field.world.close()
 
 
-def test_a_robot_on_ice_hardly_moves() -> None:
-    """Grip 0.001: at most ½·mu·g·t², 2 cm in two seconds; its neighbour drives off."""
-    field = field_of(like(OMNI, traction=0.001))
-    field.place(cyan1=(0, 0, 0), cyan2=(0, 2, 0))
-    field.run(2.0, cyan1=drive(3, 1, 2), cyan2=drive(3))
-    assert math.hypot(field.at("cyan1").x, field.at("cyan1").y) < 0.02
-    assert field.at("cyan2").x > 3 and field.stuck == [True, False, False, False]
-    field.world.close()
-
-
-def test_a_push_leaves_a_robot_upright_and_on_the_ground() -> None:
-    """Run into at 4 m/s by another: neither lifts off nor tips, since wheels stand under them."""
-    field = field_of()
-    field.place(cyan1=(-3, 0, 0), magenta1=(0, 0.1, 2.0))
-    for _ in range(100):
-        field.tick(cyan1=drive(4))
-        assert [robot.z for robot in field.world.snapshot().robots] == approx([0.399] * 4, abs=2e-3)
-    assert field.at("magenta1").x > 0.05
-    field.world.close()
-
-
 def test_teams_may_be_mixed() -> None:
     """A robot of each model beside the other: each moves as among its like, to 1e-9."""
     mixed = field_of(like(VELOCITY), like(OMNI), like(THREE), like(VELOCITY))
@@ -198,28 +171,15 @@ def test_a_robot_that_no_torque_could_turn_in_the_engine_turns_on_its_wheels() -
 STORY = [(drive(3, 0.2, 0.4), drive(3, 0, -0.2)), (drive(1, 2, -3), drive(-1, 0.5, 4)), (drive(-2), drive(3, -1))]
 
 
-def played(profile: Profile, mirrored: bool = False) -> tuple[list[RobotState], str]:
-    """Two robots that meet, and what came of it; mirrored in the x axis if so, and back again."""
-    sign = -1.0 if mirrored else 1.0
+def played(profile: Profile) -> tuple[list[RobotState], str]:
+    """Two robots that meet, and what came of it."""
     field = field_of(profile=profile)
-    field.place(cyan1=(-1.5, sign * 0.1, 0.0), magenta1=(1.5, sign * -0.05, sign * math.pi), ball=(0, sign * 6.5, 0))
+    field.place(cyan1=(-1.5, 0.1, 0.0), magenta1=(1.5, -0.05, math.pi))
     for one, other in STORY:
-        told = [drive(d.drive.vx, sign * d.drive.vy, sign * d.drive.omega) for d in (one, other)]
-        field.run(0.8, cyan1=told[0], magenta1=told[1])
-    states = [field.at(name) for name in ("cyan1", "magenta1")]
-    chain = field.world.chain()
+        field.run(0.8, cyan1=one, magenta1=other)
+    states, chain = [field.at(name) for name in ("cyan1", "magenta1")], field.world.chain()
     field.world.close()
-    return [at._replace(y=sign * at.y, vy=sign * at.vy, omega=sign * at.omega, heading=0.0) for at in states], chain
-
-
-@pytest.mark.parametrize(
-    "profile", [VELOCITY, TRACTION, OMNI, THREE], ids=["velocity", "traction", "four wheels", "three wheels"]
-)
-def test_the_mirrored_scene_with_mirrored_commands_is_the_mirrored_world(profile: Profile) -> None:
-    """Left for right, collision and all, to 1 cm after 2.4 s."""
-    one, other = played(profile)[0], played(profile, mirrored=True)[0]
-    for a, b in zip(one, other, strict=True):
-        assert (a.x, a.y) == approx((b.x, b.y), abs=0.01)
+    return states, chain
 
 
 @pytest.mark.parametrize(
@@ -229,8 +189,8 @@ def test_the_same_twice_is_the_same_to_the_last_bit(profile: Profile) -> None:
     assert played(profile) == played(profile)
 
 
-@pytest.mark.parametrize("profile", [OMNI, THREE], ids=["four wheels", "three wheels"])
-def test_a_rebuilt_world_of_wheels_depends_on_poses_and_velocities_alone(profile: Profile) -> None:
+@pytest.mark.parametrize("profile", [TRACTION, OMNI, THREE], ids=["traction", "four wheels", "three wheels"])
+def test_a_rebuilt_world_depends_on_poses_and_velocities_alone(profile: Profile) -> None:
     """Rim speeds are derived again at a checkpoint: another past makes no difference, to the last bit."""
     live, other = field_of(profile=profile), field_of(profile=profile)
     live.place(cyan1=(-1.5, 0.1, 0), magenta1=(1.5, -0.1, math.pi))
