@@ -121,13 +121,6 @@ def test_an_opponent_takes_a_dribbled_ball_by_driving_through_it_from_the_side(b
     assert rig.tick(cyan1=tell(dribble=True), magenta1=tell(3.0, dribble=True)).possession != "cyan1"
 
 
-def test_two_worlds_alike_decide_a_contest_alike_to_the_last_bit(build, tell):
-    rigs = build(dribble={"method": "force"}), build(dribble={"method": "force"})
-    for rig in rigs:
-        who_has_it(rig, tell, *scene(3))
-    assert rigs[0].engine.packed() == rigs[1].engine.packed()
-
-
 def head_on(rig, tell, cyan, magenta, seconds=0.6):
     """cyan1 holds the ball and magenta1 comes head-on; their speeds in m/s, and the ball's x after that."""
     rig.give("cyan1", 0)

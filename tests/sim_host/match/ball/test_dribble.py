@@ -32,45 +32,6 @@ def test_the_papers_ways_keep_the_ball_at_top_speed_and_turn_rate(rig, build, te
     assert kept == math.inf and worst < 0.02
 
 
-@pytest.mark.parametrize("motion", [{"vx": 3.0}, {"vx": -1.0}, {"vy": 2.0}, {"omega": 3.0}, {"vx": 3.0, "omega": 3.0}])
-def test_bounded_forces_keep_the_ball_in_careful_driving(build, tell, motion):
-    """On the spot up to ω² = F/(m'·gap), 3.4 rad/s, and in a turn up to ω = F/(m'·v), 3.9 rad/s at 3 m/s.
-
-    m' = m + I/r² = 0.67 kg is what a rolling ball resists with; F are the profile's `max_pull` and `max_side`.
-    """
-    rig = build(dribble={"method": "force"})
-    rig.give("cyan1", -5 if motion.get("vx", 0) > 0 else 0)
-    kept, worst = held_for(rig, tell, 2.5, **motion)
-    assert kept == math.inf and worst < 0.05
-
-
-@pytest.mark.parametrize("motion", [{"omega": 4.0}, {"vx": 3.0, "omega": 4.5}, {"vx": 20.0, "omega": 20.0}])
-def test_bounded_forces_lose_the_ball_in_a_turn_that_is_too_sharp(build, tell, motion):
-    """With a drive that can turn as sharply: the traction of msl does not let a robot do so."""
-    rig = build(dribble={"method": "force"}, drive={"model": "velocity"})
-    rig.give("cyan1", -5 if "vx" in motion else 0)
-    assert held_for(rig, tell, 2.5, **motion)[0] < 2.0
-
-
-@pytest.mark.parametrize(("deceleration", "keeps"), [(3.0, True), (4.0, True), (5.0, False), (8.0, False)])
-def test_bounded_forces_lose_the_ball_to_a_brake_beyond_their_pull(build, tell, deceleration, keeps):
-    """The limit is F/m' and the ball's own rolling resistance: 2.8 N / 0.67 kg + 0.5 m/s² = 4.7 m/s²."""
-    rig = build(dribble={"method": "force"}, drive={"deceleration": deceleration})
-    rig.give("cyan1", -8)
-    assert rig.run(2.0, cyan1=tell(3.0, dribble=True)).possession == "cyan1"
-    kept, _ = held_for(rig, tell, 1.2, vx=0.0)
-    assert (kept == math.inf) is keeps
-
-
-def test_stronger_wheels_keep_the_ball_where_weaker_ones_lose_it(build, tell):
-    weak, strong = (build(dribble={"method": "force", "max_side": most, "max_pull": most}) for most in (2.0, 60.0))
-    kept = []
-    for rig in (weak, strong):
-        rig.give("cyan1", -5)
-        kept.append(held_for(rig, tell, 2.0, vx=3.0, omega=4.0)[0])
-    assert kept[0] < 1.0 and kept[1] == math.inf
-
-
 def test_a_ball_drawn_by_forces_rolls_on_the_ground_and_lies_against_the_hull(rig, build, tell):
     rig = build(rig.profile.name, dribble={"method": "force"})
     robot, r = rig.profile.robot, rig.profile.ball.radius

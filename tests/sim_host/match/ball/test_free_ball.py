@@ -119,19 +119,6 @@ def test_a_slide_becomes_spin_at_the_bounce_as_far_as_friction_reaches(build):
     assert (velocity[0], spin[1]) == approx((1.0, 1.0 / ball.radius)), "a ball that rolls is not rubbed"
 
 
-@pytest.mark.parametrize("speed", [4.0, 6.0, 9.0])
-@pytest.mark.parametrize("back", [0.0, 0.013, 0.027, 0.041])
-def test_a_ball_comes_off_post_and_hull_with_the_restitution_of_each(rig, build, speed, back):
-    """Within 0.1: the engine adds up to 0.08 as it pushes the ball out of what it is a step deep in."""
-    rig = build(rig.profile.name, ball=STILL)
-    field, r = rig.profile.field, rig.profile.ball.radius
-    rig.set_ball((field.goal_line - 0.5 - back, (field.goal_width + field.post) / 2, 0.6), (speed, 0, 0))
-    assert -min(rig.tick().ball.vx for _ in range(20)) / speed == approx(rig.profile.ball.restitution, abs=0.1)
-    rig.place(magenta1=(3, 0, 0))
-    rig.set_ball((2.2 - back, 0, r), (speed, 0, 0), (0, speed / r, 0))
-    assert -min(rig.tick().ball.vx for _ in range(20)) / speed == approx(rig.profile.robot.restitution, abs=0.1)
-
-
 def reference_flight(ball, position, velocity, spin, seconds):
     """Runge-Kutta of fourth order, 0.1 ms a step: gravity, ½·ρ·c·A·v² of drag, and Magnus force across spin and way."""
     share = 0.5 * ball.air_density * math.pi * ball.radius**2 / ball.mass
@@ -168,14 +155,6 @@ def test_a_ball_in_flight_follows_drag_and_magnus_force(build, velocity, spin):
     want[2] -= G * rig.profile.time.physics_step * 0.5 / 2
     assert end[:3] == approx(want[:3], abs=0.01)
     assert end[3:] == approx(want[3:], abs=0.02)
-
-
-def test_spin_bends_the_way_to_the_side_that_it_turns_to(build):
-    """Counter-clockwise spin bends to the left; without a coefficient nothing does."""
-    for coefficient, left in ((0.3, True), (0.0, False)):
-        rig = build(ball={"magnus_coefficient": coefficient})
-        rig.set_ball((-6, 0, 1.0), (9, 0, 3), (0, 0, 50.0))
-        assert (rig.run(0.5).ball.y > 0.05) is left
 
 
 def test_the_papers_ball_flies_a_parabola(build):
