@@ -1,7 +1,5 @@
 """Charging with the real engine: who is called when robots run into each other."""
 
-import math
-
 import pytest
 
 from schemas.config.profile import load_profile
@@ -51,19 +49,6 @@ def test_a_robot_at_full_speed_into_a_standing_opponent_charges_it(profile, phas
     assert (rule, robot) == ("charging", "cyan2") and speed == pytest.approx(3.5, abs=0.2)
 
 
-@pytest.mark.parametrize("phase", PHASES)
-def test_of_two_robots_at_full_speed_into_each_other_neither_is_called(phase):
-    rig = WorldRig(load_profile("msl"))
-    rig.place(cyan2=(-2 + phase, 0, 0), magenta2=(2 + phase, 0, math.pi), ball=(0, 5, 0))
-    assert called(rig, cyan2=tell(vx=4.0), magenta2=tell(vx=4.0)) == []
-
-
-def test_robots_that_push_each_other_from_rest_do_not_charge():
-    rig = WorldRig(load_profile("msl"))
-    rig.place(cyan2=(-0.27, 0, 0), magenta2=(0.27, 0, math.pi), ball=(0, 5, 0))
-    assert called(rig, cyan2=tell(vx=4.0), magenta2=tell(vx=4.0)) == []
-
-
 @pytest.mark.parametrize("gap", [0.55, 0.7, 0.9])
 def test_a_robot_that_is_knocked_into_another_is_never_called(gap):
     """cyan2 hits magenta1, which stands and is knocked into cyan1."""
@@ -79,9 +64,3 @@ def test_a_robot_that_knocks_its_teammate_into_an_opponent_is_called_in_its_plac
     rig.place(cyan2=(-3, 0, 0), cyan1=(0, 0, 0), magenta2=(gap, 0, 0), ball=(0, 5, 0))
     ((rule, robot, _),) = called(rig, cyan2=tell(vx=4.0))
     assert (rule, robot) == ("charging", "cyan2")
-
-
-def test_a_robot_that_drives_into_an_opponent_behind_the_ball_does_not_charge():
-    rig = WorldRig(load_profile("msl"))
-    rig.place(cyan2=(-2, 0, 0), magenta2=(0.4, 0, math.pi), ball=(0, 0, 0))
-    assert called(rig, 60, cyan2=tell(vx=3.0)) == []

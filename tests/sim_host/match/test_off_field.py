@@ -86,17 +86,6 @@ def test_who_is_off_comes_back_and_is_obeyed_again(simulation: Simulation) -> No
     assert abs(gone.x - there.x) + abs(gone.y - there.y) > 0.1
 
 
-def test_a_robot_without_a_program_is_off_the_field_until_it_answers_again(
-    simulation: Simulation,
-) -> None:
-    """It comes back in a stoppage only."""
-    run(simulation, simulation.book.people.silent_limit + 0.5, silent=("magenta5",))
-    assert truth(simulation.now).robots["magenta5"].off_field is OffField.SILENT
-    step(simulation, RefereeAction(action=ActionName.STOP), silent=("magenta5",))
-    assert truth(simulation.now).robots["magenta5"].off_field is OffField.SILENT
-    assert truth(run(simulation, 0.1)).robots["magenta5"].off_field is None
-
-
 def test_seconds_to_a_limit_are_in_every_sight(simulation: Simulation) -> None:
     """From the signal of the kick-off to START."""
     run(simulation, 1.5)

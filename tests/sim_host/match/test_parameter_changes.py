@@ -114,31 +114,3 @@ def test_a_late_client_receives_the_parameters_in_force(simulation: Simulation) 
     setup = simulation.setup()
     assert setup.drive.max_speed == 1.5
     assert setup.parameters == {"drive.max_speed": 1.5}
-
-
-def test_equal_changes_at_equal_ticks_give_equal_matches() -> None:
-    chains = []
-    for _ in range(2):
-        simulation = Simulation(load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 1}))
-        drive(simulation, 0.5)
-        set_to(simulation, ball__friction=0.2, drive__acceleration=1.0)
-        chains.append(drive(simulation, 0.5).applied["chain"])
-        simulation.close()
-    assert chains[0] == chains[1]
-
-
-def test_a_type_of_robots_is_tuned_without_the_others() -> None:
-    types = {"cyan1": "slow"}
-    simulation = Simulation(load_match(None, {"teams.cyan.size": 2, "teams.cyan.types": types}))
-    set_to(simulation, types__slow__drive__max_speed=1.0)
-    for _ in range(150):
-        driven = {
-            name: Command(answers_tick=simulation.now.tick, drive=Drive(vx=20.0, vy=1.0 if name == "cyan2" else 0.0))
-            for name in ("cyan1", "cyan2")
-        }
-        robots = simulation.step(driven).world["robots"]
-        if robots["cyan2"]["vx"] > 3.5:
-            break
-    assert robots["cyan1"]["vx"] == approx(1.0, abs=1e-3)
-    assert robots["cyan2"]["vx"] > 3.5
-    simulation.close()

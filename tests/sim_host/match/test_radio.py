@@ -1,6 +1,5 @@
 """The radio in whole ticks: delay, jitter, loss and budget, the same for equal seeds."""
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -51,12 +50,6 @@ def test_a_word_arrives_after_the_delay_with_its_age() -> None:
     assert heard(air, 20)["cyan2"]["cyan1"]["age"] == approx(0.20)
 
 
-def test_a_delay_between_two_ticks_ends_at_the_later_one() -> None:
-    air = radio(replace(CLEAR, delay=0.05))
-    send(air, 10, "cyan1", Radio(role="keeper"))
-    assert heard(air, 12)["cyan2"] == {} != heard(air, 13)["cyan2"]
-
-
 def arrivals(air: RadioAir, words: int) -> dict[str, list[tuple[int, int]]]:
     """Receiver → (tick of sending, ticks until delivery) of cyan1's radio messages, one in every tick.
 
@@ -73,31 +66,6 @@ def arrivals(air: RadioAir, words: int) -> dict[str, list[tuple[int, int]]]:
                 times.append((said, tick - said))
                 assert word["age"] == approx((tick - said) * TICK)
     return came
-
-
-def test_jitter_is_uniform_and_different_for_each_listener() -> None:
-    """Delays of 0.05 s and up to 0.2 s more, words a second apart so that none is overtaken: 3 to 13 ticks.
-
-    The exact delay is uniform in 2.5 to 12.5 ticks and ends at a whole one, so that 3 and 13 are half as frequent as
-    the rest; 3,000 words, each share within 4 standard errors.
-    """
-    air, n = radio(replace(CLEAR, delay=0.05, jitter=0.2)), 3000
-    took: dict[str, list[int]] = {"cyan2": [], "cyan3": []}
-    for second in range(n):
-        said = 50 * second
-        send(air, said, "cyan1", Radio(intention=str(second)))
-        for tick in range(said, said + 15):
-            for name, times in took.items():
-                if heard(air, tick)[name].get("cyan1", {}).get("intention") == str(second) and len(times) == second:
-                    times.append(tick - said)
-    for times in took.values():
-        assert sorted(set(times)) == list(range(3, 14))
-        for ticks in range(3, 14):
-            share = 0.05 if ticks in (3, 13) else 0.1
-            assert times.count(ticks) / n == approx(share, abs=4 * math.sqrt(share * (1 - share) / n))
-    same = sum(one == other for one, other in zip(*took.values(), strict=True)) / n
-    share = 9 * 0.1**2 + 2 * 0.05**2
-    assert same == approx(share, abs=4 * math.sqrt(share * (1 - share) / n)), "as often as by chance"
 
 
 def test_an_overtaken_radio_message_is_not_delivered() -> None:

@@ -149,17 +149,6 @@ def test_a_ball_that_is_set_down_with_a_velocity_rolls_and_is_slowed_as_it_is_se
     assert way() == approx(usual, rel=1e-6)
 
 
-def test_a_rolling_ball_goes_on_rolling_when_a_parameter_is_changed(simulation) -> None:
-    """A rebuilt ball that began to slide would lose 2/7 of its speed."""
-    done(simulation, "load", load="dribble_duel")
-    done(simulation, "place", place=[Placement(body="ball", x=-4.0, y=6.0, vx=2.0)])
-    before = simulation.step({}).world["ball"]["vx"]
-    simulation.handle_parameters(ParametersRequest(operation=ParameterOperation.SET, values={"drive.max_speed": 2.0}))
-    for _ in range(10):
-        simulation.step({})
-    assert simulation.now.world["ball"]["vx"] > before - 0.2
-
-
 def test_a_robot_is_added_removed_and_put_back(simulation) -> None:
     busy(simulation, 10)
     tick = done(simulation, "remove", remove=["cyan4", "magenta2"])

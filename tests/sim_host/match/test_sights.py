@@ -10,7 +10,6 @@ from pytest import approx
 
 from schemas.config.match_config import load_match
 from schemas.config.noise import PRESETS
-from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.messages.command import Command, Drive
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
@@ -67,51 +66,6 @@ def test_with_perfect_perception_a_sight_is_the_truth() -> None:
             for at in others.values():
                 place = sign * at["x"], sign * at["y"]
                 assert min(math.dist(place, (o.x, o.y)) for o in seen.obstacles) < 1e-4
-    one.close()
-
-
-def test_a_far_ball_is_nothing_until_a_robot_has_seen_it_and_then_stays_where_it_was() -> None:
-    one = simulate()
-    for _ in range(3):
-        one.step({})
-    assert sight(one, "cyan1").ball is None, "10.5 m away"
-    near = sight(one, "cyan2").ball
-    assert near is not None and near.visible and near.x == approx(0.0, abs=0.4)
-    one.close()
-
-
-def test_between_two_pictures_the_last_is_repeated_with_growing_age() -> None:
-    """25 Hz and 0.02 s of latency at a tick of 0.02 s: ages 0.02 and 0.04 s in turn, the same places in both."""
-    one = simulate(noise__preset="profile")
-    one.step({})
-    pairs = []
-    for _ in range(10):
-        one.step({})
-        first = sight(one, "cyan3")
-        one.step({})
-        pairs.append((first, sight(one, "cyan3")))
-    ages = {(a.obstacles_age, b.obstacles_age) for a, b in pairs}
-    assert len(ages) == 1 and sorted(ages.pop()) == approx([0.02, 0.04])
-    newer_first = pairs[0][0].obstacles_age < pairs[0][1].obstacles_age
-    if newer_first:
-        assert all(a.obstacles == b.obstacles for a, b in pairs)
-    else:
-        assert all(a[1].obstacles == b[0].obstacles for a, b in pairwise(pairs))
-    one.close()
-
-
-def test_static_obstacles_stand_in_the_sights() -> None:
-    one = simulate(noise__preset="perfect")
-    one.world.put_obstacle(
-        StaticObstacle(name="barrel", shape=Shape.CYLINDER, place=[-2.0, 3.0], radius=0.5, height=0.9)
-    )
-    one.step({})
-    for name, sign in (("cyan2", 1), ("magenta2", -1)):
-        radii = {(o.x, o.y): o.radius for o in sight(one, name).obstacles}
-        assert len(radii) == 10 and radii[(-2.0 * sign, 3.0 * sign)] == 0.5
-    one.world.remove_obstacle("barrel")
-    one.step({})
-    assert len(sight(one, "cyan2").obstacles) == 9
     one.close()
 
 

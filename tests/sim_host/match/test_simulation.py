@@ -11,7 +11,6 @@ from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.errors import TouchlineError
 from schemas.game import ActionName, EventKind, Phase, TeamPhase
-from schemas.messages.applied import Applied
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.game import RefereeAction
@@ -63,16 +62,6 @@ def play(simulation: Simulation, ticks: int) -> list[str]:
         }
         chains.append(simulation.step(said).applied["chain"])
     return chains
-
-
-def test_every_sight_and_truth_is_a_valid_message(simulation: Simulation) -> None:
-    play(simulation, 60)
-    simulation.orders[Side.CYAN] = CoachOrder(sequence=3, tactic="press")
-    tick = simulation.step({"cyan1": command(simulation, kick=Kick(mode=KickMode.GROUND, speed=3))})
-    for name in simulation.roster.names:
-        assert sight(tick, name).robot == name
-    World.decode(to_json({"version": VERSION, **tick.world}))
-    Applied.decode(tick.applied_encoded)
 
 
 def test_the_world_has_the_robots_that_touched_the_ball_and_the_one_that_kicked(simulation: Simulation) -> None:
@@ -190,16 +179,6 @@ def test_the_order_in_which_answers_arrive_changes_nothing() -> None:
     assert sights[0] == sights[1]
 
 
-def test_noise_is_on_what_robots_perceive_and_never_on_the_physics() -> None:
-    """The NuBot simulation's plugin decides holds and kicks from noisy data."""
-    worlds = []
-    for preset in ("perfect", "paper"):
-        one = simulate(noise__preset=preset)
-        worlds.append(play(one, 80))
-        one.close()
-    assert worlds[0] == worlds[1]
-
-
 def test_a_checkpoint_is_made_at_every_kick_off_and_recorded() -> None:
     one = simulate()
     marks, starts = [], []
@@ -227,15 +206,6 @@ def test_the_setup_tells_everything_a_robot_must_know(simulation: Simulation) ->
     assert set(again.engine) == {"engine", "libm", "referee"}
 
 
-@pytest.mark.parametrize("size", [1, 3])
-def test_a_match_of_any_size_is_played(size: int) -> None:
-    one = simulate(teams__cyan__size=size, teams__magenta__size=1)
-    tick = one.step({})
-    assert len(tick.sights) == size + 1
-    assert len(sight(tick, "cyan1").obstacles) == size
-    one.close()
-
-
 def test_a_match_with_types_and_obstacles_is_set_up_and_played_as_in_its_file() -> None:
     one = simulate(
         teams__cyan__types={"cyan1": "keeper", "cyan3": "slow"},
@@ -247,7 +217,3 @@ def test_a_match_with_types_and_obstacles_is_set_up_and_played_as_in_its_file() 
     assert (said.x, said.y, said.heading, said.size_x, said.size_y, said.height) == (3.0, 5.0, 0.5, 0.4, 0.8, 0.6)
     assert one.setup().for_robot("cyan3").drive.max_speed == 2.0
     one.close()
-
-
-def test_a_world_without_obstacles_has_no_field_for_them(simulation: Simulation) -> None:
-    assert "obstacles" not in simulation.step({}).world

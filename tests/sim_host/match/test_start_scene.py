@@ -111,15 +111,6 @@ def test_a_match_on_a_pitch_without_room_for_its_robots_is_refused_in_one_line()
     )
 
 
-@pytest.mark.parametrize("profile", ["msl", "paper"])
-def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
-    *_, snapshot = a_match(profile, "msl")
-    pitch, reach = load_profile(profile).field, snapshot.roster.models[0].body.reach
-    for one, other in itertools.combinations(snapshot.robots, 2):
-        assert math.hypot(one.x - other.x, one.y - other.y) > 2 * reach + 0.1
-    assert all(abs(r.x) + reach <= pitch.goal_line and abs(r.y) + reach < pitch.touch_line for r in snapshot.robots)
-
-
 @pytest.mark.parametrize("count", [2, 6, 10, 20, 100])
 def test_start_world_and_referee_take_any_number_of_robots(count):
     """simatch cannot name a sixth robot. A match file has eleven a side at most."""
