@@ -131,11 +131,3 @@ def test_a_bad_order_is_published_with_its_reason_and_the_one_in_force_stays(rig
     assert invalid.key == f"team/{side}/order"
     assert reason in invalid.reason
     assert rig.host.simulation.orders == {Side.CYAN: CoachOrder(sequence=3, mode=CoachMode.HOLD)}
-
-
-def test_an_older_order_does_not_replace_a_newer_one(rig):
-    writer = rig.outside.publisher(ORDER, side="magenta")
-    writer.put(CoachOrder(sequence=5, mode=CoachMode.PARK))
-    writer.put(CoachOrder(sequence=4, mode=CoachMode.PLAY))
-    rig.ticks(1)
-    assert rig.host.simulation.orders[Side.MAGENTA].mode is CoachMode.PARK

@@ -54,6 +54,11 @@ class StampedBus(InProcessBus):
         return self.left.pop(0) if self.left else None
 
 
+def arrival(tick, arrived_ns):
+    """A command of cyan1 that answers this tick."""
+    return ReceivedMessage(COMMAND, "robot/cyan1/command", Command(answers_tick=tick).encode(), None, arrived_ns)
+
+
 @pytest.fixture
 def bus():
     return StampedBus()
@@ -177,10 +182,22 @@ def test_latencies_of_the_whole_match_are_counted_by_class(realtime_rig):
     assert quantile_ms(cyan2.latencies, 0.99) == pytest.approx(60, rel=0.2)
 
 
+def test_the_latency_of_a_command_is_the_time_since_the_sight_that_it_answers(inbox, bus):
+    for tick, sent_ns, arrived_ns in (
+        (1, 1_000_000, 5_000_000),
+        (2, 21_000_000, 27_000_000),
+        (3, 40_000_000, 41_000_000),
+    ):
+        inbox.sights_sent(tick, sent_ns)
+        bus.left.append(arrival(tick, arrived_ns))
+    assert receive_all(inbox, 3).latency_ms == pytest.approx(4.0)
+    assert list(inbox.agent_stats["cyan1"].latencies) == pytest.approx([0.004, 0.006, 0.001])
+
+
 def test_the_latency_of_an_answer_after_seconds_is_counted(inbox, bus):
     for tick in range(1, 102):
         inbox.sights_sent(tick, tick * 20_000_000)
-    bus.left = [ReceivedMessage(COMMAND, "robot/cyan1/command", Command(answers_tick=1).encode(), None, 2_020_000_000)]
+    bus.left.append(arrival(1, 2_020_000_000))
     assert quantile_ms(receive_all(inbox, 101).latencies, 0.5) == pytest.approx(2000, rel=0.2)
 
 
