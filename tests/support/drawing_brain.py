@@ -24,14 +24,3 @@ class DrawingBrain:
         drawing.polygon([(1.0, -6.0), (3.0, -6.0), (3.0, -5.0)], "#fe0102")
         drawing.text((8.0, 5.0), f"drawn by {self._robot}", "#fe0102")
         return Command(answers_tick=sight.tick, debug=drawing.debug())
-
-
-class StandingBrain:
-    """Does the same without a drawing."""
-
-    def __init__(self, briefing: Briefing) -> None:
-        del briefing
-
-    def act(self, sight: Sight) -> Command:
-        """Stand."""
-        return Command(answers_tick=sight.tick)

@@ -81,15 +81,6 @@ def test_a_file_that_is_still_written_may_have_got_its_channels_since_it_was_loo
     assert len(list(open_recording(begun).messages("world"))) > 0
 
 
-def test_zeros_after_the_cut_do_no_harm(recorded):
-    whole = len(list(recorded.messages()))
-    path = cut(recorded.path, 0.97)
-    path.write_bytes(path.read_bytes() + bytes(4096))
-    recording = open_recording(path)
-    assert not recording.complete
-    assert len(list(recording.messages())) <= whole
-
-
 def test_a_truncated_file_is_refused_by_name_where_a_whole_one_is_needed(recorded):
     with pytest.raises(TouchlineError, match="truncated file"):
         open_recording(cut(recorded.path, 0.9), whole=True)
@@ -146,12 +137,3 @@ def test_what_a_later_version_added_to_the_manifest_is_passed_over(recorded, tmp
         writer.add_metadata("manifest", sealed({**metadata, "weather": "rain", "attached": "{}"}))
         writer.finish()
     assert open_recording(path).manifest == recorded.manifest.model_copy(update={"attached": {}})
-
-
-def test_damage_inside_a_finished_file_is_reported_and_not_skipped(recorded):
-    data = bytearray(recorded.path.read_bytes())
-    middle = data.index(b"zstd") + 200
-    data[middle : middle + 40] = bytes(40)
-    recorded.path.write_bytes(data)
-    with pytest.raises(TouchlineError, match="damaged inside"):
-        list(open_recording(recorded.path).messages())

@@ -84,14 +84,6 @@ def test_a_gap_is_asked_for_at_once_and_once(link):
     assert link.asked() == []
 
 
-def test_an_answer_closes_the_gap(link):
-    link.publish(5, 6)
-    link.read()
-    link.answer(3, 4)
-    assert link.read() == [3, 4, 5, 6]
-    assert link.reader.is_complete
-
-
 def test_an_answer_that_was_cut_off_is_asked_again_from_where_it_ended(link):
     link.publish(9)
     link.read()
@@ -129,14 +121,6 @@ def test_one_batch_of_an_answer_that_cannot_be_read_is_lost_alone(link):
     link._requests(lambda question: question.reply_payload(reply))
     assert link.read() == [3, 5, 6]
     assert (link.reader.unreadable, link.reader.lost) == (1, 1)
-
-
-def test_what_the_host_keeps_no_more_is_lost(link):
-    link.publish(9)
-    link.read()
-    link.answer(7, 8, oldest=7)
-    assert link.read() == [7, 8, 9]
-    assert link.reader.lost == 4
 
 
 def test_where_nothing_comes_the_host_is_asked_for_newer_batches(link):

@@ -6,8 +6,8 @@ import pytest
 
 from recordings.reading.recording import Recording, open_recording
 from schemas.config.match_config import load_match
-from schemas.errors import MatchFailedError, TouchlineError
-from schemas.messages.command import Command, Drive
+from schemas.errors import TouchlineError
+from schemas.messages.command import Drive
 from schemas.topics import APPLIED
 from touchline.play import InProcessMatch
 from touchline.replay.ghost import Ghost, check_ghosts, inputs_of, teams_of
@@ -95,22 +95,6 @@ def test_the_brain_that_played_repeats_its_commands(played, robot, brain):
     assert verdict.sights == "simulated"
     assert verdict.compared == round(UNTIL / 0.02)
     assert "identical" in verdict.sentence()
-
-
-def test_the_differences_of_another_brain_are_reported(played):
-    verdict = compare_brain(played, "cyan2", NUBOT)
-    assert verdict.different > 0 and verdict.first is not None
-    assert f"first difference at tick {verdict.first.tick}" in verdict.sentence()
-    assert verdict.fields[verdict.first.field] <= verdict.compared
-
-
-def test_a_brain_that_raises_is_named_with_the_tick(played, monkeypatch):
-    def act(self, sight) -> Command:
-        raise ValueError("no idea")
-
-    monkeypatch.setattr("robot_agent.teams.simple.Simple.act", act)
-    with pytest.raises(MatchFailedError, match="raised at tick 0: ValueError: no idea"):
-        compare_brain(played, "cyan2", SIMPLE)
 
 
 def test_a_robot_that_did_not_play_is_reported(played):

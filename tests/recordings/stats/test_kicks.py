@@ -121,13 +121,6 @@ def test_a_pass_that_is_kicked_on_at_once_is_received_and_a_kick_of_its_own(scri
     assert outcomes[0] == ("cyan2", KickOutcome.RECEIVED, "cyan1")
 
 
-def test_a_ball_that_a_teammate_has_before_it_rolled_a_metre_is_no_completed_pass(script) -> None:
-    kick(script, ELSEWHERE)
-    script.ball = (0.5, 0.6)
-    script.shot(touches=["cyan1"])
-    assert only(script).outcome is KickOutcome.LOST
-
-
 def test_touches_of_the_tick_of_the_kick_count_by_their_order(script) -> None:
     script.shot(touches=["magenta2", "cyan2"], kicked="cyan2", speed=ELSEWHERE)  # the opponent touched before the kick
     script.rest()

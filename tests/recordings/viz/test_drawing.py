@@ -185,20 +185,6 @@ def test_a_robot_of_another_type_has_the_body_of_its_type():
     assert {pair.key: pair.value for pair in entity.metadata}["type"] == "framed"
 
 
-def test_the_transforms_are_where_everything_is(board):
-    robots = {"cyan1": robot(-3.25, 1.5, math.pi / 2), "magenta1": robot(3.0, heading=-math.pi)}
-    [transforms] = board.take(world(7, robots))[TF]
-    found = {one.child_frame_id: one for one in transforms.transforms}
-    assert set(found) == {"cyan1/base_link", "magenta1/base_link", "ball", "ball/ground"}
-    assert {(one.parent_frame_id, one.timestamp.ToNanoseconds()) for one in found.values()} == {("map", 140_000_000)}
-    cyan, ball = found["cyan1/base_link"], found["ball"]
-    assert (cyan.translation.x, cyan.translation.y, cyan.translation.z) == pytest.approx((-3.25, 1.5, 0.4), abs=1e-4)
-    assert (cyan.rotation.z, cyan.rotation.w) == pytest.approx((math.sin(math.pi / 4),) * 2, abs=1e-4)
-    assert abs(found["magenta1/base_link"].rotation.z) == pytest.approx(1.0, abs=1e-4)
-    assert (ball.translation.x, ball.translation.y, ball.translation.z) == pytest.approx((1.0, 2.0, 0.5), abs=1e-4)
-    assert found["ball/ground"].translation.z == 0.0
-
-
 @pytest.mark.parametrize(("tick_s", "rate"), [(0.02, 50), (0.021, 48), (0.005, 50)])
 def test_transforms_come_with_every_tick_and_fifty_times_a_second_at_most(board, tick_s, rate):
     count = sum(
