@@ -52,14 +52,6 @@ def test_a_keeper_stands_between_the_posts_on_the_ball_side(setup):
         assert gy * y >= 0.0
 
 
-def test_a_keeper_leaves_no_more_than_its_radius_to_the_post(setup):
-    """A ball beside it, near the post: its hull touches the line through the post and goes no farther."""
-    pitch, radius = setup.pitch, setup.robot.radius
-    post = pitch.goal_width / 2 - radius
-    assert guard_place(Ball(-10.8, 1.5), pitch, radius)[1] == pytest.approx(post)
-    assert guard_place(Ball(-10.8, -1.5), pitch, radius)[1] == pytest.approx(-post)
-
-
 def test_a_shot_just_beside_the_post_is_awaited_at_the_post(setup):
     pitch, radius = setup.pitch, setup.robot.radius
     line, post = -pitch.goal_line + 0.4, pitch.goal_width / 2

@@ -30,14 +30,6 @@ def test_before_start_the_kicker_waits_in_the_centre_circle_and_the_others_beyon
 
 
 @TEAMS
-def test_of_a_penalty_of_theirs_the_others_wait_in_the_half_they_attack(squad, team):
-    players = squad(team)
-    driven(players, 10.0, ball=(-7.4, 0.0), phase=TeamPhase.THEIR_PENALTY, running=False, game=SHOOT_OUT)
-    assert all(players.poses[name][0] > players.setup.robot.reach for name in ("cyan2", "cyan3", "cyan4", "cyan5"))
-    assert players.poses["cyan1"][0] < -10.0
-
-
-@TEAMS
 def test_the_kicker_kicks_once(squad, team):
     players = squad(team, {1: (-10.5, 0.0, 0.0), 2: (7.0, 0.0, 0.23)})
     seen = {"ball": (7.35, 0.08), "phase": TeamPhase.OUR_PENALTY, "spot": MARK, "game": SHOOT_OUT, "holding": True}

@@ -9,13 +9,10 @@ from typing import Any, cast
 import pytest
 from typer.testing import CliRunner
 
-from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording, open_recording
-from recordings.replay.player import Player
 from schemas.config.match_config import load_match
 from schemas.config.scene import load_scene
 from schemas.errors import TouchlineError
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from touchline.command_line import app
 from touchline.verify.compare_brain import compare_brain
@@ -106,17 +103,6 @@ def test_a_recording_is_opened_and_verified_when_the_files_of_its_match_are_gone
     assert robots(open_recording(from_files)) == ["anna", "bert", "cleo"]
     verdict = verify(from_files)
     assert verdict.identical and verdict.ticks == 51
-
-
-@pytest.mark.parametrize("change", [delete, rewrite])
-def test_it_is_replayed_message_by_message_without_them(from_files: Path, change: Callable[[Path], None]) -> None:
-    change(from_files.parent)
-    clock, shown = SteppedClock(), []
-    player = Player(Cursor(from_files), clock, shown.append)
-    while not player.ended:
-        if not player.pump():
-            clock.sleep_until(clock.now() + max(1e-6, player.wait()))
-    assert len(shown) == len(list(open_recording(from_files).messages()))
 
 
 @pytest.mark.parametrize("change", [delete, rewrite])

@@ -191,13 +191,6 @@ def test_a_recording_that_sets_in_late_is_compared_from_its_first_kick_off(opera
     assert f"ticks {kick_off - 5} to {kick_off - 1} are before the first tick" in result.stdout
 
 
-def test_without_the_match_file_the_hosts_setup_is_enough(operated: Path, edited) -> None:
-    def without(name, fields):
-        return {key: value for key, value in fields.items() if (name, key) != ("manifest", "config")}
-
-    assert verify(edited(operated, "", lambda it: it, without)).identical
-
-
 def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(
     operated: Path, verified: Verdict, edited
 ) -> None:
