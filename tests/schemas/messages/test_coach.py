@@ -8,7 +8,6 @@ import pytest
 from schemas.game import Point
 from schemas.messages.coach import REQUIRED_FIELDS, CoachMode, CoachOrder, CoachTest
 from schemas.wire.faults import FaultError
-from schemas.wire.message import BadMessageError
 
 WHOLE: dict[str, Any] = {
     "robot_a": "cyan2",
@@ -67,8 +66,3 @@ def test_a_pass_is_between_two_robots() -> None:
 )
 def test_centimetres_degrees_and_what_no_robot_can_do_are_refused(field: str, value: Any, reason: str) -> None:
     assert reason in refused(**{field: value})
-
-
-def test_an_inconsistent_payload_is_refused_with_a_reason() -> None:
-    with pytest.raises(BadMessageError, match="the mode test needs a test"):
-        CoachOrder.decode(b'{"sequence":1,"mode":"test"}')

@@ -26,14 +26,8 @@ FINITE = st.floats(allow_nan=False, allow_infinity=False)
     ("payload", "reason"),
     [
         (b'{"version":"2.0","answers_tick":1,"drive":{"vx":NaN,"vy":0,"omega":0}}', "drive.vx"),
-        (b'{"version":"2.0","answers_tick":1,"drive":{"vx":1e300,"vy":0,"omega":0}}', "m/s from -20 to 20"),
-        (b'{"version":"2.0","answers_tick":1,"kick":{"mode":"banana","speed":3}}', "kick.mode"),
-        (b'{"version":"2.0","answers_tick":1,"kick":{"mode":"lob","speed":-3}}', "kick.speed"),
-        (b'{"version":"2.0","answers_tick":-1}', "answers_tick"),
         (b'{"version":"2.0"}', "answers_tick is"),
-        (b'{"version":"2.0","answers_tick":1,"nonsense":2}', "nonsense"),
         (b'{"version":"2.0","answers_ti', "not JSON"),
-        (b"\x00\xff", "not JSON"),
         (b"[]", "Command"),
         (b" " * 20_000, "20000 bytes, at most 12288"),
     ],
@@ -45,32 +39,11 @@ def test_a_bad_command_is_refused_in_one_line_that_names_what_is_wrong(payload: 
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize("extra", ["", ',"brand_new_field":1'])
-def test_another_major_version_is_named_with_both_versions(extra: str) -> None:
-    with pytest.raises(BadMessageError, match=r"version 3\.1 is not supported, this side has 2\.0"):
-        Command.decode(b'{"version":"3.1","answers_tick":1' + extra.encode() + b"}")
-
-
-def test_a_newer_minor_version_is_understood() -> None:
-    assert Command.decode(b'{"version":"2.7","answers_tick":1}').answers_tick == 1
-
-
-def test_what_was_made_is_never_changed() -> None:
-    command = Command(answers_tick=1)
-    with pytest.raises(AttributeError):
-        command.answers_tick = 2  # type: ignore[misc]
-
-
 @given(FINITE, FINITE, FINITE)
 def test_floats_cross_the_wire_bit_for_bit(x: float, y: float, z: float) -> None:
     world = World(tick=1, time=0.02, robots={}, ball=BallTruth(x=x, y=y, z=z, vx=0, vy=0, vz=0))
     ball = World.decode(world.encode()).ball
     assert [math.copysign(1, a) * a for a in (ball.x, ball.y, ball.z)] == [math.copysign(1, a) * a for a in (x, y, z)]
-
-
-def test_nan_is_refused_where_it_is_made() -> None:
-    with pytest.raises(FaultError, match=r"drive\.vx is nan; m/s from -20 to 20"):
-        Drive(vx=math.nan)
 
 
 def test_a_radio_message_has_room_for_a_little_of_anything_and_no_more() -> None:

@@ -90,11 +90,6 @@ def test_an_endpoint_where_no_match_is_played_is_one_line_with_the_remedy() -> N
     )
 
 
-def test_a_client_without_a_host_reports_it_after_its_patience() -> None:
-    with pytest.raises(BusError, match="no host answers there"):
-        open_client("test", WallClock(), with_free_port("tcp/127.0.0.1:0"), patience=0.0)
-
-
 def test_a_client_goes_on_after_its_host_was_killed_and_came_back() -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     host = open_host("test", WallClock(), endpoint)
