@@ -60,8 +60,7 @@ for line in sys.stdin:
 
 
 @pytest.mark.processes
-@pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGKILL])
-def test_a_program_of_lines_answers_a_host_and_ends_with_its_agent(setup, sight_of, tmp_path, end):
+def test_a_program_of_lines_answers_a_host_and_ends_with_its_agent(setup, sight_of, tmp_path):
     (tmp_path / "robot.py").write_text(PROGRAM)
     endpoint = with_free_port("tcp/127.0.0.1:0")
     words = [
@@ -92,10 +91,10 @@ def test_a_program_of_lines_answers_a_host_and_ends_with_its_agent(setup, sight_
             programs = descendants(robot.pid)
             assert len(programs) == 1
         finally:
-            robot.send_signal(end)
+            robot.terminate()
             _, said = robot.communicate(timeout=LIMIT_S)
     assert said == b""
-    assert robot.returncode == (0 if end == signal.SIGTERM else -signal.SIGKILL)
+    assert robot.returncode == 0
     wait_for(lambda: not is_running(programs[0]), "the end of the program")
 
 
