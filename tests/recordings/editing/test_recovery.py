@@ -87,6 +87,7 @@ def test_a_file_that_was_left_becomes_a_whole_recording(make_rig):
     assert (facts.ended, facts.lost, facts.complete) == ("cut_off", 0, True)
 
 
+@pytest.mark.slow
 def test_a_file_truncated_anywhere_has_an_exact_beginning_or_is_reported_as_empty(several_chunks, tmp_path, rng):
     data, whole = several_chunks.read_bytes(), told(several_chunks)
     path = tmp_path / "cut.mcap"
@@ -128,14 +129,15 @@ def test_all_whole_chunks_before_the_cut_are_there(several_chunks, tmp_path):
             check_with_the_stock_readers(path)
 
 
-def test_a_flipped_bit_is_reported_or_does_no_harm(several_chunks, tmp_path, rng):
+@pytest.mark.parametrize("times", [pytest.param(60, marks=pytest.mark.slow), pytest.param(200, marks=pytest.mark.long)])
+def test_a_flipped_bit_is_reported_or_does_no_harm(several_chunks, tmp_path, rng, times):
     """Never a traceback, never data that is silently wrong: reading gives the truth, a part of it, or one sentence."""
     data, whole = several_chunks.read_bytes(), told(several_chunks)
     manifest = open_recording(several_chunks).manifest
     attachments = open_recording(several_chunks).attachments
     path, truth = tmp_path / "flipped.mcap", {*whole}
     sentences = harmless = 0
-    for _ in range(TIMES):
+    for _ in range(times):
         changed = bytearray(data)
         at = rng.randrange(len(data))
         changed[at] ^= 1 << rng.randrange(8)
@@ -162,8 +164,8 @@ def test_a_flipped_bit_is_reported_or_does_no_harm(several_chunks, tmp_path, rng
         entries = iter(whole)
         assert all(entry in entries for entry in kept)  # in order, nothing made up
         check_with_the_stock_readers(path)
-    assert sentences > TIMES / 10
-    assert harmless > TIMES / 10
+    assert sentences > times / 10
+    assert harmless > times / 10
 
 
 def test_a_complete_match_that_lost_a_chunk_is_still_complete(recorded):

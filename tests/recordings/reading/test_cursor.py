@@ -76,6 +76,7 @@ def test_a_cut_file_is_a_prefix_wherever_it_was_cut(recorded, tmp_path):
         assert messages == every[: len(messages)]
 
 
+@pytest.mark.slow
 def test_a_flipped_bit_is_reported_or_changes_no_message(recorded, tmp_path):
     whole, every = recorded.path.read_bytes(), list(recorded.messages())
     said = 0

@@ -39,6 +39,7 @@ def watch_match(rig_of):
     return watch
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_match_tick_for_tick_on_the_bus_and_without_one(watch_match):
     first, again = watch_match(7), watch_match(7)
     assert [world.tick for world in first.worlds] == list(range(len(first.worlds)))
