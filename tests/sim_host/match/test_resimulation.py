@@ -128,6 +128,7 @@ def fields_of(tick: TickResult) -> dict[str, Any]:
     return fields
 
 
+@pytest.mark.slow
 def test_from_tick_0_every_tick_comes_out_the_same_with_all_that_the_world_tells(recorded) -> None:
     simulation, ticks = recorded
     again = Resimulation(Conditions(LiveParameters.of(simulation.config)))
@@ -142,6 +143,7 @@ def test_from_tick_0_every_tick_comes_out_the_same_with_all_that_the_world_tells
     assert kicks >= 2 and holds >= 10, f"{kicks} kicks, {holds} holds"
 
 
+@pytest.mark.slow
 def test_from_every_checkpoint_it_does_so_too(recorded) -> None:
     """Kicker charge, wheel speeds, spin, a held or kicked ball: none of it is needed at a checkpoint."""
     simulation, ticks = recorded

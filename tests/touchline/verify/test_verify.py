@@ -88,6 +88,7 @@ def test_one_bit_of_one_input_is_caught_at_its_tick(operated: Path, edited, at_t
     assert f"identical before that: {tick} ticks" in said
 
 
+@pytest.mark.slow
 def test_one_bit_of_one_command_is_caught_at_the_tick_it_was_applied_in(operated: Path, edited) -> None:
     def edit(fields):
         if fields["answers_tick"] == 199:
@@ -101,6 +102,7 @@ def test_one_bit_of_one_command_is_caught_at_the_tick_it_was_applied_in(operated
     assert detail.by == pytest.approx(0.0, abs=1e-12) and detail.by > 0
 
 
+@pytest.mark.slow
 def test_a_command_that_was_taken_out_is_missed(operated: Path, edited) -> None:
     verdict = verify(
         edited(
@@ -146,6 +148,7 @@ def test_a_body_that_was_set_down_elsewhere_shows_where_it_is(operated: Path, ed
     assert y.by == pytest.approx(0.5, abs=0.01)
 
 
+@pytest.mark.slow
 def test_missing_ticks_are_reported_and_the_others_compared(operated: Path, verified: Verdict, edited) -> None:
     after = next(start.tick for start in tick_index_of(open_recording(operated)).starts if start.tick > 310)
     path = edited(operated, "host/applied", lambda fields: None if 300 <= fields["tick"] < 310 else fields)
@@ -177,6 +180,7 @@ def test_a_difference_before_missing_ticks_is_reported_by_one_process_as_by_two(
     assert (one.difference, one.ticks) == (two.difference, two.ticks)
 
 
+@pytest.mark.slow
 def test_a_recording_that_sets_in_late_is_compared_from_its_first_kick_off(operated: Path, edited, tmp_path) -> None:
     """Who takes part, with what numbers, and what stands there: from the setup and the world."""
     index = tick_index_of(open_recording(operated))
@@ -191,6 +195,7 @@ def test_a_recording_that_sets_in_late_is_compared_from_its_first_kick_off(opera
     assert f"ticks {kick_off - 5} to {kick_off - 1} are before the first tick" in result.stdout
 
 
+@pytest.mark.slow
 def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(
     operated: Path, verified: Verdict, edited
 ) -> None:
@@ -198,6 +203,7 @@ def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(
     assert verdict.identical and verdict.without_world == verified.ticks // 2
 
 
+@pytest.mark.slow
 def test_another_machine_is_reported_first(operated: Path, edited, json_of) -> None:
     from pydantic_core import to_json
 
@@ -213,6 +219,7 @@ def test_another_machine_is_reported_first(operated: Path, edited, json_of) -> N
     assert said[1].startswith("identical, ")
 
 
+@pytest.mark.slow
 def test_the_verdict_as_json(operated: Path, edited, at_tick, json_of) -> None:
     result = run(edited(operated, "host/applied", at_tick(200, faster)), "--json", "--jobs", "1")
     verdict = json_of(result.stdout)
@@ -235,6 +242,7 @@ def test_a_recording_of_no_notes_cannot_be_verified(operated: Path, edited) -> N
         verify(edited(operated, "host/applied", lambda _: None))
 
 
+@pytest.mark.slow
 def test_a_cut_off_recording_is_compared_up_to_the_cut(played: Path, tmp_path: Path) -> None:
     content = played.read_bytes()
     cut = tmp_path / "cut.mcap"
