@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from recordings.container.key_selection import KeySelection
 from recordings.container.manifest import EndReason
+from recordings.container.parts import parts_of
 from recordings.recorder.earlier_parts import read_earlier_parts
 from recordings.recorder.no_match_notice import NoMatchNotice
 from recordings.recorder.part_sink import PartSink
@@ -21,6 +22,8 @@ from schemas.wire.message import BadMessageError
 
 _ASK_S = 2.0
 """Wall time in which a host answers which it is."""
+_IDENTITY_S = 10.0
+"""The same where there are parts already: without it a recorder does not know its own, and ends."""
 
 
 def record(
@@ -45,7 +48,7 @@ def record(
     if client is None:
         return None
     with client as bus:
-        host = _stream_of_host(bus)
+        host = _stream_of_host(bus, _IDENTITY_S if parts_of(settings.out) else _ASK_S)
         earlier = read_earlier_parts(settings.out, host)
         if earlier.result is not None and earlier.result.ended is EndReason.FULL_TIME:
             return RecordingSummary(earlier.files, sum(file.stat().st_size for file in earlier.files), earlier.result)
@@ -66,10 +69,13 @@ def record(
             sink.abandon()
 
 
-def _stream_of_host(bus: Bus) -> int:
-    """The stream of the host's record batches; 0 if it does not answer."""
-    try:
-        payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), _ASK_S).payload(_ASK_S)
-        return read_reply(payload).stream
-    except (NoReplyError, BadMessageError):
-        return 0
+def _stream_of_host(bus: Bus, patience: float) -> int:
+    """The stream of the host's record batches; 0 if it does not answer within `patience` s of wall time."""
+    limit = bus.clock.now() + patience
+    while bus.clock.now() < limit:
+        try:
+            payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), _ASK_S).payload(_ASK_S)
+            return read_reply(payload).stream
+        except (NoReplyError, BadMessageError):
+            bus.clock.sleep_until(bus.clock.now() + _ASK_S / 10)
+    return 0

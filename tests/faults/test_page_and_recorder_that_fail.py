@@ -107,6 +107,8 @@ def test_a_killed_page_is_back_on_its_port_and_its_viewer_sees_the_match_go_on(m
 def test_a_killed_recorder_is_replaced_while_the_match_goes_on(match: WatchedMatch) -> None:
     match.kill("recorder")
     match.program.wait_for_error("recorder was ended by SIGKILL; started again (1 of 3)")
+    part = match.folder / "m.2.mcap"
+    wait_for(lambda: part.exists() and part.stat().st_size, "the next part of the recording", SHORT_LIMIT)
     match.until_time(match.time + 1.0)
 
 
