@@ -13,7 +13,7 @@ from schemas.messages.game import GameState, RefereeAction
 from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side
-from schemas.topics import BELIEF, EVENT, SETUP, STATE
+from schemas.topics import SETUP, STATE
 from support.messages import make_setup
 
 
@@ -71,42 +71,6 @@ def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_ma
             await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
             assert bench.live.events == []
             assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
-
-    asyncio.run(play())
-
-
-def test_events_of_another_host_before_its_first_state_count(opened: Any, until: Any) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            for _ in range(100):
-                bench.stage.say(phase=Phase.STOPPED)
-            bench.stage.tell("of the old match")
-            await until(lambda: bench.live.events and bench.live.state.tick > 90)
-            bench.stage.bus.close()
-            await until(lambda: not bench.live.host_present)
-            another = type(bench.stage)(bench.stage.medium, load_match(None, {}))
-            bench.start(another)
-            for number in range(3):
-                another.tell(f"of the new match, {number}")
-            await until(lambda: len(bench.live.events) == 3)
-            another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
-            await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
-            assert [event.text[-1] for event in bench.live.events] == ["0", "1", "2"]
-
-    asyncio.run(play())
-
-
-def test_a_replay_that_goes_back_keeps_the_events_of_before(opened: Any, until: Any) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            bench.stage.tell("at the beginning")
-            for _ in range(100):
-                bench.stage.say(phase=Phase.STOPPED)
-            bench.stage.tell("later")
-            await until(lambda: len(bench.live.events) == 2 and bench.live.state.tick > 90)
-            bench.stage.say(tick=10, time=0.2)
-            await until(lambda: bench.live.state.tick == 10)
-            assert [event.text for event in bench.live.events] == ["at the beginning"]
 
     asyncio.run(play())
 
@@ -192,18 +156,6 @@ def test_a_setup_that_changes_while_the_host_replies_is_queried_again(until: Any
         stop = asyncio.Event()
         stop.set()
         await live.serve(stop)
-
-    asyncio.run(play())
-
-
-def test_unreadable_messages_are_counted_and_left_out(opened: Any, until: Any) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            for topic, chunks in ((STATE, {}), (EVENT, {}), (BELIEF, {"side": "cyan", "robot": "cyan1"})):
-                bench.stage.bus.publisher(topic, **chunks).put_payload(b"{")
-            await until(lambda: bench.live.follower.unreadable >= 2)
-            assert bench.live.beliefs(list(Side)) == {}
-            assert bench.live.follower.unreadable == 3
 
     asyncio.run(play())
 

@@ -3,16 +3,13 @@
 import asyncio
 import contextlib
 import itertools
-import json
 import socket
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from coach_gateway.refbox import signal_queue
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.timing import BOX_PERIOD_S
 from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachMode
@@ -60,24 +57,6 @@ def test_every_restart_as_a_character_reaches_the_referee_for_the_right_side(met
             expected = [f"{word} {side}" for word in RESTARTS.values() for side in Side]
             assert asked(bench) == [*expected, "drop_ball"]
             assert client.counts["unreadable"] == 0
-
-    asyncio.run(play())
-
-
-@pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
-def test_fragments_and_several_commands_in_one_packet_are_all_read(protocol: BoxProtocol, met: Any, until: Any) -> None:
-    async def play() -> None:
-        async with met(protocol) as (bench, box, _):
-            bench.stage.say(phase=Phase.STOPPED)
-            text = b"".join(
-                json.dumps({"command": name, "targetTeam": CYAN_AT}).encode() + b"\x00" for name in RESTARTS
-            )
-            for at in range(0, len(text), 7):
-                box.send(text[at : at + 7])
-                await asyncio.sleep(0.002)
-            box.send(text)
-            await until(lambda: len(bench.stage.asked) == 2 * len(RESTARTS))
-            assert asked(bench) == [f"{word} cyan" for word in RESTARTS.values()] * 2
 
     asyncio.run(play())
 
@@ -263,31 +242,6 @@ def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, u
             first, second, third = (b - a for a, b in itertools.pairwise(came))
             assert first >= 0.24 and second >= 0.49 and third >= 0.99
             bench.stop.set()
-
-    asyncio.run(play())
-
-
-def test_of_too_many_commands_the_newest_count(met: Any, until: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(signal_queue, "MOST_WAITING", 3)
-
-    async def play() -> None:
-        async with met() as (bench, box, client):
-            bench.stage.say(phase=Phase.STOPPED)
-            state, bench.live.follower.state = (
-                bench.live.state,
-                None,
-            )  # no command is forwarded before the match is known
-            box.hang_up()
-            box.came = 0
-            await until(lambda: client.counts["connections"] == 2 and box.links)
-            box.send(
-                b"".join(json.dumps({"command": name, "targetTeam": CYAN_AT}).encode() + b"\0" for name in RESTARTS)
-            )
-            await until(lambda: client.counts["received"] >= len(RESTARTS) + 1)
-            bench.live.follower.state = state
-            await until(lambda: len(bench.stage.asked) == 3)
-            assert asked(bench) == [f"{word} cyan" for word in list(RESTARTS.values())[-3:]]
-            assert client.counts["dropped"] >= 3
 
     asyncio.run(play())
 

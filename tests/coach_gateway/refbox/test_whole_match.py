@@ -26,50 +26,6 @@ async def officiated(kicked_off: Callable[..., Any], until: Any, **words: Any) -
         await box.close()
 
 
-def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable[..., Any], until: Any) -> None:
-    """Kick-off, goal, goal taken back, corner, repair, the break, the second half, and the end; by hand only stop."""
-
-    async def play() -> None:
-        async with officiated(kicked_off, until) as (bench, box):
-            state = lambda: bench.stage.state  # noqa: E731  the referee's own
-
-            box.say("KICKOFF", CYAN_AT)
-            await until(lambda: (state().phase, state().side) == (Phase.KICK_OFF, Side.CYAN), "the kick-off")
-            box.say("FIRST_HALF")
-            box.say("START")
-            await until(lambda: state().running, "the first half")
-            by_hand = await bench.live.act(RefereeAction(action=ActionName.GOAL, side=Side.CYAN))
-            assert not by_hand.accepted and "referee box is connected" in by_hand.reason
-
-            box.say("STOP")
-            box.say("GOAL", MAGENTA_AT)
-            await until(lambda: state().score.magenta == 1, "the goal")
-            box.say("SUBGOAL", MAGENTA_AT)
-            await until(lambda: state().score.magenta == 0, "the goal taken back")
-            box.say("REPAIR", CYAN_AT, robotID=2)
-            await until(lambda: "cyan2" in state().participation.absences, "the repair")
-            box.say("CORNER", CYAN_AT)
-            await until(lambda: (state().phase, state().side) == (Phase.CORNER, Side.CYAN), "the corner")
-            box.say("START")
-            await until(lambda: state().running, "the corner's start")
-
-            box.say("STOP")
-            box.say("HALF_TIME")
-            await until(lambda: state().phase in (Phase.HALF_TIME, Phase.PARKING) or state().half == 2, "the break")
-            box.say("KICKOFF", MAGENTA_AT)
-            box.say("SECOND_HALF")
-            box.say("START")
-            await until(lambda: state().half == 2 and state().running, "the second half")
-            assert state().cyan_attacks == -1
-            box.say("GOAL", CYAN_AT)
-            await until(lambda: state().score.cyan == 1, "a goal")
-            box.say("END_GAME")
-            await until(lambda: bench.stage.host.simulation.over, "the end")
-            assert box.states, "nothing of the world was told"
-
-    asyncio.run(play())
-
-
 def test_a_game_of_longer_halves_with_cards_for_no_robot_ends_with_the_score_of_the_box(
     kicked_off: Callable[..., Any], until: Any
 ) -> None:

@@ -14,10 +14,9 @@ import pytest
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.udp import session as session_module
 from coach_gateway.udp.server import UdpServer
-from schemas.errors import TouchlineError
-from schemas.game import REFBOX, ActionName, Phase, Point
+from schemas.game import Phase, Point
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.game import ActionReply, RefereeAction
+from schemas.messages.game import ActionReply
 from schemas.messages.radio import Motion, Radio
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
@@ -182,30 +181,6 @@ def test_a_program_receives_a_bye_when_the_gateway_ends(served: Any, until: Any)
     asyncio.run(play())
 
 
-def test_a_coach_names_the_robot_that_the_referee_box_asks_for(served: Any, until: Any) -> None:
-    """Each coach for its own side; the question is part of the game's state in each frame."""
-
-    async def play() -> None:
-        async with served(real=True) as (bench, _, come):
-            await until(lambda: bench.stage.state.phase is not Phase.PRE_GAME)
-            cyan, magenta = await come("cyan"), await come("magenta")
-            bench.live.connect_refbox(Side.CYAN, connected=True)
-            card = RefereeAction(action=ActionName.YELLOW_CARD, side=Side.CYAN, source=REFBOX)
-            assert (await bench.live.act(card)).accepted
-            await until(lambda: (cyan.frame().get("state") or {}).get("questions"))
-            assert cyan.frame()["state"]["questions"][0]["side"] == "cyan"
-            answers = []
-            for program, robot in ((magenta, "cyan1"), (cyan, "cyan1"), (cyan, "cyan1")):
-                number = program.send("action", action={"action": "name_robot", "robot": robot})
-                await until(lambda program=program, number=number: program.acks(number))
-                answers.append(program.acks(number)[0])
-            assert [answer["accepted"] for answer in answers] == [False, True, False]
-            assert "cyan1 is not for magenta's coach" in answers[0]["reason"]
-            assert bench.stage.state.participation.cards["cyan1"].yellow == 1
-
-    asyncio.run(play())
-
-
 def test_frames_come_at_a_steady_rate_with_numbers_that_show_losses(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (_, _, come):
@@ -326,18 +301,6 @@ def test_a_program_that_falls_silent_receives_the_end_of_its_session(
             await until(lambda: quiet.acks(asked))
             assert "unknown session" in quiet.acks(asked)[0]["reason"]
             assert len(quiet.of("frame")) == frames
-
-    asyncio.run(play())
-
-
-def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
-    async def play() -> None:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
-            taken.bind(("127.0.0.1", 0))
-            async with opened() as bench:
-                server = UdpServer(bench.live, TOKENS.role_of, bench.logged.append, port=taken.getsockname()[1])
-                with pytest.raises(TouchlineError, match=r"--udp \d+ cannot be listened on"):
-                    await server.serve(bench.stop)
 
     asyncio.run(play())
 

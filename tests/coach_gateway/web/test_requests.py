@@ -2,18 +2,15 @@
 
 import threading
 from collections.abc import Callable
-from typing import Any
 
 import pytest
 
-from coach_gateway.match.host_client import HostClient
 from coach_gateway.web.manual_control import ManualControl
 from coach_gateway.web.pages import Page
 from coach_gateway.web.protocol import PageDrive
 from schemas.game import ActionName
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.manual import TIMEOUT_S, ManualDrive
-from schemas.side import Side
 from support.fake_host import FakeHost
 from support.page_gateway import SOON, TOKENS, Gateway
 from support.visitor import Visitor, wait_for
@@ -74,12 +71,6 @@ def test_of_two_orders_the_later_one_has_the_larger_number(visit: Visit, host: F
     assert len({order.sequence for order in orders}) == 3
 
 
-def test_an_order_that_makes_no_sense_is_refused_with_the_reason(visit: Visit, host: FakeHost) -> None:
-    page = visit("cyan")
-    reply = page.ask("order", side="cyan", order={"mode": "hold", "robot_a": "magenta1"})
-    assert (reply["accepted"], "no robot of cyan" in reply["reason"]) == (False, True)
-
-
 def test_the_token_of_each_message_counts_and_not_the_role_of_the_page(visit: Visit) -> None:
     page = visit("referee")
     assert page.ask("action", action={"action": "stop"})["accepted"]
@@ -107,25 +98,6 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
     slow.set()
     coach.close()
     referee.close()
-
-
-def test_orders_of_one_side_hold_up_none_of_the_other(
-    visit: Visit, host: FakeHost, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A coach with slow orders does not delay a stop of other robots."""
-    held, order = threading.Event(), HostClient.order
-
-    def slow(self: HostClient, side: Side, **content: Any) -> CoachOrder:
-        if side is Side.CYAN:
-            held.wait(20.0)
-        return order(self, side, **content)
-
-    monkeypatch.setattr(HostClient, "order", slow)
-    cyan, magenta = visit("cyan"), visit("magenta")
-    asked = [cyan.say("order", side="cyan", order={"mode": "play"}) for _ in range(3)]
-    assert magenta.ask("order", side="magenta", order={"mode": "hold"})["accepted"]
-    held.set()
-    assert all(cyan.hear("reply", id=number)["accepted"] for number in asked)
 
 
 def test_a_robot_is_driven_from_one_page_at_a_time(visit: Visit, host: FakeHost) -> None:

@@ -351,11 +351,6 @@ def test_a_page_takes_over_from_another_referee_and_leaves_the_seat(match, visit
         assert other.act(RefereeAction(action=ActionName.DROP_BALL, source="another page")).accepted
 
 
-def test_a_coach_has_no_buttons_for_the_seat_of_the_referee(match, visit) -> None:
-    tab = visit(match, "cyan")
-    assert not tab.button("take_seat").is_visible() and not tab.button("leave_seat").is_visible()
-
-
 def test_the_host_panel_names_the_numbers_of_the_match_with_their_versions(match, visit) -> None:
     tab = visit(match, "referee")
     tab.open("host")

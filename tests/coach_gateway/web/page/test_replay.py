@@ -106,13 +106,16 @@ def test_each_event_of_the_list_and_each_mark_leads_to_its_moment(replayed, visi
     tab.until(f"window.touchline.pitchCanvas.world?.time > {start + 0.3 * (end - start)}")
 
 
-def test_a_spectator_of_a_replay_watches(replayed, visit) -> None:
+def test_a_spectator_of_a_replay_watches_and_sees_no_controls_of_it(replayed, visit) -> None:
     tab = visit(replayed)
     tab.until("document.getElementById('play').disabled && document.getElementById('scrub').disabled")
     before = time_of(tab)
     for key in ("n", "ArrowRight", "Space"):
         tab.page.keyboard.press(key)
     tab.page.locator("#events li").last.click()
+    for control in ("#play", "#step", "#rate", "#loop", "#events button"):
+        assert not tab.page.locator(control).first.is_visible()
+    assert tab.page.locator("#moment").is_visible()
     assert tab.page.locator("#log li").count() == 0
     assert time_of(tab) == before
 

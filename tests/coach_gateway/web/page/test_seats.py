@@ -65,11 +65,3 @@ def test_the_referee_and_the_operator_have_a_page_each(match, visit) -> None:
     assert tab.page.locator("#role").inner_text() == "operator"  # of this tab, also when it is loaded again
     tab.page.locator("#seat").click()
     assert tab.button("kick_off", "cyan").is_visible()
-
-
-def test_a_spectator_of_a_replay_sees_no_controls_of_it(replayed, visit) -> None:
-    tab = visit(replayed)
-    tab.until("window.touchline.match.replay !== null && document.querySelectorAll('#events li').length > 0")
-    for control in ("#play", "#step", "#rate", "#loop", "#events button"):
-        assert not tab.page.locator(control).first.is_visible()
-    assert tab.page.locator("#moment").is_visible()
