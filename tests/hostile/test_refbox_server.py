@@ -1,9 +1,7 @@
 """Attacks on the port of our referee box: garbage, floods, taken places, and claims of the other side's team."""
 
 import asyncio
-import json
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import AbstractAsyncContextManager
 from typing import Any
 
 import pytest
@@ -11,78 +9,16 @@ import pytest
 from coach_gateway.refbox import peers
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.framing import BoxProtocol, Framer
-from coach_gateway.refbox.server import RefBoxServer, ServerAddress
-from schemas.game import Phase
+from coach_gateway.refbox.server import ServerAddress
 from schemas.side import Side
-from support.gateway_bench import Bench, opened, until
+from support.base_stations import Boxed, boxed
+from support.gateway_bench import until
 
 TOKENS = {"token-of-cyan": Side.CYAN, "token-of-magenta": Side.MAGENTA}
 
 
-class Station:
-    """A client of the box at an address of loopback, which may send anything."""
-
-    def __init__(self) -> None:
-        self.commands: list[str] = []
-        self.gone = False
-
-    async def connect(self, port: int, source: str) -> "Station":
-        self._reader, self.writer = await asyncio.open_connection("127.0.0.1", port, local_addr=(source, 0))
-        self._task = asyncio.create_task(self._read())
-        return self
-
-    def send(self, *objects: Any) -> None:
-        for one in objects:
-            self.writer.write(one if isinstance(one, bytes) else json.dumps(one).encode() + b"\x00")
-
-    async def close(self) -> None:
-        self.writer.transport.abort()
-        await self._task
-
-    async def _read(self) -> None:
-        try:
-            while True:
-                command = json.loads((await self._reader.readuntil(b"\x00"))[:-1])
-                self.commands.append(" ".join(str(word) for word in command.values() if word != ""))
-        except (OSError, asyncio.IncompleteReadError):
-            self.gone = True
-
-
-class Attacked:
-    """Our box beside a host, and ways to have clients come."""
-
-    def __init__(self, bench: Bench, box: RefBoxServer) -> None:
-        self.bench, self.box = bench, box
-        self.stations: list[Station] = []
-
-    async def connect(self, source: str = "127.0.0.2", hello: Any = None, port: int = 0) -> Station:
-        station = await Station().connect(self.box.ports[port], source)
-        self.stations.append(station)
-        if hello is not None:
-            station.send({"type": "hello", **hello})
-            await until(lambda: station.commands or station.gone)
-        return station
-
-    async def plays_on(self, *stations: Station) -> None:
-        """The commands of a game come to these base stations."""
-        self.bench.stage.say(phase=Phase.STOPPED, side=None)
-        self.bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
-        await until(lambda: all("CORNER Sapphire" in one.commands for one in stations), "the game's commands")
-
-
-@asynccontextmanager
-async def attacked(*addresses: ServerAddress) -> AsyncIterator[Attacked]:
-    async with opened(**{"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"}) as bench:
-        box = RefBoxServer(bench.live, addresses or (ServerAddress(0),), bench.logged.append, TOKENS.get)
-        bench.start(box)
-        await until(lambda: len(box.ports) == max(1, len(addresses)))
-        scene = Attacked(bench, box)
-        try:
-            yield scene
-        finally:
-            for station in scene.stations:
-                await station.close()
-            await bench.end()
+def attacked(*addresses: ServerAddress) -> AbstractAsyncContextManager[Boxed]:
+    return boxed(*addresses, of_token=TOKENS.get)
 
 
 GARBAGE = [
@@ -107,18 +43,18 @@ def test_garbage_of_every_kind_stops_no_base_station() -> None:
         faults: list[Any] = []
         asyncio.get_running_loop().set_exception_handler(lambda _, fault: faults.append(fault))
         async with attacked() as scene:
-            cyan = await scene.connect("127.0.0.3", {"team": "cyan"})
+            cyan = await scene.come(source="127.0.0.3", team="cyan")
             bench, ruby = scene.bench, scene.box.team_states[Side.MAGENTA]
             bench.start(AudienceFeed(bench.live, [("127.0.0.1", 9)], bench.logged.append, scene.box.team_states))
             for garbage in GARBAGE:
-                attacker = await scene.connect()
+                attacker = await scene.come()
                 attacker.send(garbage)
-                friend = await scene.connect("127.0.0.4", {"team": "magenta"})
+                friend = await scene.come(source="127.0.0.4", team="magenta")
                 friend.send(garbage + b"\x00", {"type": "worldstate", "teamName": "Ruby", "robots": []})
                 before = ruby.states
                 await until(lambda before=before, friend=friend: ruby.states > before or friend.gone)
-                await attacker.close()
-                await friend.close()
+                await attacker.leave()
+                await friend.leave()
             await scene.plays_on(cyan)
             assert all(not task.done() for task in bench.tasks)
         assert faults == []
@@ -136,24 +72,24 @@ def test_a_piece_of_very_many_or_very_deep_objects_costs_no_more_than_a_few() ->
 def test_a_name_alone_replaces_no_base_station_with_a_token_and_none_that_is_in_use_elsewhere() -> None:
     async def play() -> None:
         async with attacked() as scene:
-            cyan = await scene.connect("127.0.0.3", {"token": "token-of-cyan"})
-            magenta = await scene.connect("127.0.0.4", {"team": "magenta"})
+            cyan = await scene.come(source="127.0.0.3", token="token-of-cyan")
+            magenta = await scene.come(source="127.0.0.4", team="magenta")
             for claim in ({"team": "cyan"}, {"team": "Ruby"}, {"team": "magenta", "address": "mine"}):
-                thief = await scene.connect("127.0.0.2", claim)
+                thief = await scene.come(**claim)
                 await until(lambda thief=thief: thief.gone)
                 assert thief.commands == []
-            near = await scene.connect("127.0.0.3", {"team": "cyan"})  # even on the same machine
+            near = await scene.come(source="127.0.0.3", team="cyan")  # even on the same machine
             await until(lambda: near.gone)
-            by_name = await scene.connect("127.0.0.2")
+            by_name = await scene.come()
             by_name.send({"type": "worldstate", "teamName": "Ruby", "robots": [{"id": 1}]})
             await until(lambda: by_name.gone)
             assert scene.box.team_states[Side.MAGENTA].states == 0
             await scene.plays_on(cyan, magenta)
             assert (
-                "referee box: hello from 127.0.0.2 (it claims to be cyan's, and its base station has proven "
+                "referee box: hello from 127.0.0.1 (it claims to be cyan's, and its base station has proven "
                 "more; send the token of its coach in the hello); further ones are counted"
             ) in scene.bench.logged
-            again = await scene.connect("127.0.0.6", {"token": "token-of-cyan"})  # the same team from elsewhere
+            again = await scene.come(source="127.0.0.6", token="token-of-cyan")  # the same team from elsewhere
             await until(lambda: cyan.gone)
             await scene.plays_on(again)
 
@@ -167,8 +103,8 @@ def test_a_base_station_that_has_fallen_silent_is_replaced_from_another_address(
 
     async def play() -> None:
         async with attacked() as scene:
-            lost = await scene.connect("127.0.0.3", {"team": "cyan"})
-            found = await scene.connect("127.0.0.4", {"team": "cyan"})
+            lost = await scene.come(source="127.0.0.3", team="cyan")
+            found = await scene.come(source="127.0.0.4", team="cyan")
             await until(lambda: lost.gone)
             await scene.plays_on(found)
 
@@ -178,15 +114,15 @@ def test_a_base_station_that_has_fallen_silent_is_replaced_from_another_address(
 def test_the_port_of_one_team_is_not_for_the_other() -> None:
     async def play() -> None:
         async with attacked(ServerAddress(0, Side.CYAN), ServerAddress(0)) as scene:
-            cyan = await scene.connect("127.0.0.3", port=0)
+            cyan = await scene.come(0, source="127.0.0.3")
             await until(lambda: cyan.commands)
             for claim in ({"team": "magenta"}, {"token": "token-of-magenta"}):
-                stray = await scene.connect("127.0.0.2", port=0)
+                stray = await scene.come(0)
                 stray.send({"type": "hello", **claim})
                 await until(lambda stray=stray: stray.gone)
-            by_name = await scene.connect("127.0.0.2", {"team": "cyan"}, port=1)
+            by_name = await scene.come(1, team="cyan")
             await until(lambda: by_name.gone)
-            magenta = await scene.connect("127.0.0.4", {"token": "token-of-magenta"}, port=1)
+            magenta = await scene.come(1, source="127.0.0.4", token="token-of-magenta")
             await scene.plays_on(magenta)
 
     asyncio.run(play())
@@ -195,8 +131,8 @@ def test_the_port_of_one_team_is_not_for_the_other() -> None:
 def test_world_states_in_a_flood_hold_up_no_command_to_others() -> None:
     async def play() -> None:
         async with attacked() as scene:
-            cyan = await scene.connect("127.0.0.3", {"team": "cyan"})
-            flooder = await scene.connect("127.0.0.2", {"team": "magenta"})
+            cyan = await scene.come(source="127.0.0.3", team="cyan")
+            flooder = await scene.come(team="magenta")
             flooder.send(b'{"type": "worldstate", "teamName": "Ruby", "robots": []}\x00' * 50_000)
             await scene.plays_on(cyan)
             assert scene.box.team_states[Side.MAGENTA].states < 50_000

@@ -12,11 +12,9 @@ import pytest
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.refbox import server as server_module
 from coach_gateway.refbox.audience_feed import AudienceFeed
-from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
-from coach_gateway.refbox.server import RefBoxServer, ServerAddress
+from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.refbox.team_world_state import TeamWorldState
-from schemas.errors import TouchlineError
 from schemas.game import OffField, Phase, Score
 from schemas.league.calls import Call
 from schemas.league.findings import MOST
@@ -24,67 +22,17 @@ from schemas.league.lenient_json import _canonical
 from schemas.league.signals import BY_NAME
 from schemas.messages.game import DisciplinaryRecord
 from schemas.side import Side
+from support.base_stations import boxed
 
 
-class Team:
-    """A base station: reads commands, and may send objects."""
-
-    def __init__(self, port: int) -> None:
-        self.port = port
-        self.heard: list[dict[str, Any]] = []
-        self.gone = False
-
-    async def come(self) -> "Team":
-        self._reader, self.writer = await asyncio.open_connection("127.0.0.1", self.port)
-        self._task = asyncio.create_task(self._hear())
-        return self
-
-    def say(self, **said: Any) -> None:
-        self.writer.write(json.dumps(said).encode() + b"\x00")
-
-    async def leave(self) -> None:
-        self.writer.transport.abort()
-        await self._task
-
-    async def _hear(self) -> None:
-        try:
-            while True:
-                self.heard.append(json.loads((await self._reader.readuntil(b"\x00"))[:-1]))
-        except (OSError, asyncio.IncompleteReadError):
-            self.gone = True
-            self.writer.transport.abort()
-
-    def commands(self) -> list[str]:
-        """`KICKOFF SAPPHIRE`, `REPAIR RUBY 3`."""
-        return [" ".join(str(word) for word in one.values() if word != "") for one in self.heard]
-
-
-@pytest.fixture
-def boxed(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
+@pytest.fixture(name="boxed")
+def boxed_fixture() -> Callable[..., Any]:
     """Our box beside a host, and a way to have base stations come."""
 
     @asynccontextmanager
     async def make(*server_addresses: ServerAddress, **settings: Any) -> Any:
-        names = {"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"} | settings.pop("names", {})
-        async with opened(**names) as bench:
-            box = RefBoxServer(bench.live, server_addresses or (ServerAddress(0),), bench.logged.append, **settings)
-            bench.start(box)
-            await until(lambda: len(box.ports) == max(1, len(server_addresses)))
-            teams: list[Team] = []
-
-            async def come(port: int | None = None, **hello: Any) -> Team:
-                teams.append(await Team(port or box.ports[0]).come())
-                if hello:
-                    teams[-1].say(type="hello", **hello)
-                    await until(lambda: teams[-1].heard or teams[-1].gone)
-                return teams[-1]
-
-            try:
-                yield bench, box, come
-            finally:
-                for team in teams:
-                    await team.leave()
-                await bench.end()
+        async with boxed(*server_addresses, **settings) as scene:
+            yield scene.bench, scene.box, scene.come
 
     return make
 
@@ -131,15 +79,15 @@ def test_a_whole_game_is_sent_to_both_teams_in_the_leagues_terms(boxed: Any, unt
             say(phase=Phase.HALF_TIME)
             say(phase=Phase.KICK_OFF, side=Side.MAGENTA, half=2)
             say(phase=Phase.FULL_TIME, side=None)
-            await until(lambda: "GAMEOVER" in cyan.commands() and "GAMEOVER" in magenta.commands())
+            await until(lambda: "GAMEOVER" in cyan.commands and "GAMEOVER" in magenta.commands)
             game = [
                 *("FIRST_HALF", "KICKOFF Sapphire", "START"),
                 *("STOP", "GOAL Ruby", "REPAIR Sapphire 3", "YELLOW_CARD Ruby 2"),
                 *("SUBSTITUTION Sapphire 1", "CORNER Ruby", "REPAIR_END Sapphire 3", "START"),
                 *("STOP", "HALF_TIME", "PARK", "SECOND_HALF", "KICKOFF Ruby", "END_GAME", "GAMEOVER"),
             ]
-            assert cyan.commands() == ["WELCOME Sapphire", "STOP", *game]
-            assert magenta.commands() == ["WELCOME Ruby", "STOP", *game]
+            assert cyan.commands == ["WELCOME Sapphire", "STOP", *game]
+            assert magenta.commands == ["WELCOME Ruby", "STOP", *game]
 
     asyncio.run(play())
 
@@ -202,29 +150,13 @@ def test_software_of_before_2020_reads_the_game_as_single_characters(by: str, bo
             hello = {"type": "hello", "team": "cyan", "protocol": "characters"}
             sent = world_state("Sapphire", robots=[{"id": 1, "pose": [0.0, 1.0, 0.0]}])
             old = await OldTeam(box.ports[0]).come(*([hello, sent] if by == "hello" else [sent]))
-            new = await come(box.ports[1], team="magenta")
+            new = await come(1, team="magenta")
             await until(lambda: old.heard == b"WS" and box.team_states[Side.CYAN].states == 1)
             play_a_short_game(bench.stage.say)
-            await until(lambda: old.heard.endswith(b"z") and "GAMEOVER" in new.commands())
+            await until(lambda: old.heard.endswith(b"z") and "GAMEOVER" in new.commands)
             assert old.heard == b"WS" + GAME_IN_CHARACTERS
-            assert "SUBSTITUTION Sapphire 1" in new.commands() and "YELLOW_CARD Ruby 2" in new.commands()
+            assert "SUBSTITUTION Sapphire 1" in new.commands and "YELLOW_CARD Ruby 2" in new.commands
             await old.leave()
-
-    asyncio.run(play())
-
-
-def test_our_own_base_station_understands_our_box_in_characters(boxed: Any, until: Any) -> None:
-    """Both ends of the old protocol, against each other."""
-
-    async def play() -> None:
-        async with boxed(ServerAddress(0, protocol=BoxProtocol.CHARACTERS)) as (bench, box, _):
-            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", box.ports[0]), bench.logged.append)
-            bench.start(client)
-            bench.stage.show()
-            await until(lambda: client.connected and box.team_states[Side.CYAN].states)
-            play_a_short_game(bench.stage.say)
-            await until(lambda: client.counts["received"] == len(GAME_IN_CHARACTERS) + 2)
-            assert client.counts["unreadable"] == 0
 
     asyncio.run(play())
 
@@ -246,12 +178,12 @@ def test_software_without_a_hello_gets_the_league_address_of_its_side(boxed: Any
         async with boxed(addresses=addresses) as (bench, _, come):
             cyan, magenta = await come(), await come(team="Ruby")
             cyan.say(**world_state("Sapphire"))
-            await until(lambda: "WELCOME 224.16.32.44" in cyan.commands())
+            await until(lambda: "WELCOME 224.16.32.44" in cyan.commands)
             bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
-            await until(lambda: "CORNER 224.16.32.44" in magenta.commands())
+            await until(lambda: "CORNER 224.16.32.44" in magenta.commands)
             bench.stage.say(phase=Phase.STOPPED, side=None)
             bench.stage.say(phase=Phase.THROW_IN, side=Side.MAGENTA)
-            await until(lambda: "THROWIN Ruby" in cyan.commands())
+            await until(lambda: "THROWIN Ruby" in cyan.commands)
 
     asyncio.run(play())
 
@@ -260,9 +192,9 @@ def test_a_team_may_be_called_by_an_address_of_its_own(boxed: Any, until: Any) -
     async def play() -> None:
         async with boxed() as (bench, _, come):
             cyan = await come(team="Sapphire", address="224.16.32.44")
-            assert cyan.commands()[0] == "WELCOME 224.16.32.44"
+            assert cyan.commands[0] == "WELCOME 224.16.32.44"
             bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
-            await until(lambda: "CORNER 224.16.32.44" in cyan.commands())
+            await until(lambda: "CORNER 224.16.32.44" in cyan.commands)
 
     asyncio.run(play())
 
@@ -273,8 +205,8 @@ def test_a_team_against_itself_is_distinguished_by_its_suffix(boxed: Any) -> Non
     async def play() -> None:
         async with boxed(names={"teams.cyan.name": "Twins", "teams.magenta.name": "Twins"}) as (_, _, come):
             cyan, magenta = await come(team="cyan"), await come(team="magenta")
-            assert cyan.commands()[0] == "WELCOME Twins"
-            assert magenta.commands()[0] == "WELCOME Twins:1"
+            assert cyan.commands[0] == "WELCOME Twins"
+            assert magenta.commands[0] == "WELCOME Twins:1"
             assert (await come(team="Twins")).gone
 
     asyncio.run(play())
@@ -285,7 +217,7 @@ def test_a_token_identifies_the_side_and_an_unknown_one_is_turned_away(boxed: An
         tokens = {"secret-of-magenta": Side.MAGENTA}
         async with boxed(of_token=tokens.get) as (bench, _, come):
             right = await come(token="secret-of-magenta")
-            assert right.commands()[0] == "WELCOME Ruby"
+            assert right.commands[0] == "WELCOME Ruby"
             assert (await come(token="guessed", team="cyan")).gone
             assert any("unknown token" in line for line in bench.logged)
 
@@ -301,7 +233,7 @@ def test_half_a_letter_in_a_hello_is_an_unknown_name(boxed: Any, until: Any, wor
             stranger = await come(**{word: "\ud800"})
             await until(lambda: stranger.gone)
             assert any("hello from 127.0.0.1" in line for line in bench.logged)
-            assert (await come(team="cyan")).commands()[0].startswith("WELCOME")
+            assert (await come(team="cyan")).commands[0].startswith("WELCOME")
         assert faults == []
 
     def role_side(role: Any) -> Side | None:
@@ -312,14 +244,14 @@ def test_half_a_letter_in_a_hello_is_an_unknown_name(boxed: Any, until: Any, wor
 
 def test_software_that_knows_no_hello_is_known_by_its_world_states_or_by_its_port(boxed: Any, until: Any) -> None:
     async def play() -> None:
-        async with boxed(ServerAddress(0), ServerAddress(0, Side.CYAN)) as (_, box, come):
+        async with boxed(ServerAddress(0), ServerAddress(0, Side.CYAN)) as (_, _, come):
             by_state = await come()
             by_state.say(**world_state("ruby"))
             await until(lambda: by_state.heard)
-            assert by_state.commands()[0] == "WELCOME Ruby"
-            by_port = await come(box.ports[1])
+            assert by_state.commands[0] == "WELCOME Ruby"
+            by_port = await come(1)
             await until(lambda: by_port.heard)
-            assert by_port.commands()[0] == "WELCOME Sapphire"
+            assert by_port.commands[0] == "WELCOME Sapphire"
 
     asyncio.run(play())
 
@@ -335,7 +267,7 @@ def test_a_silent_base_station_is_welcomed_without_an_address_and_receives_the_g
             await until(lambda: shy.heard)
             bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
             await until(lambda: len(shy.heard) == 4)
-            assert shy.commands() == ["WELCOME", "STOP", "FIRST_HALF", "CORNER Sapphire"]
+            assert shy.commands == ["WELCOME", "STOP", "FIRST_HALF", "CORNER Sapphire"]
 
     asyncio.run(play())
 
@@ -347,7 +279,7 @@ def test_a_base_station_that_connects_while_the_game_runs_receives_start(boxed: 
             await until(lambda: bench.live.state.running)
             late = await come(team="cyan")
             await until(lambda: len(late.heard) == 2)
-            assert late.commands() == ["WELCOME Sapphire", "START"]
+            assert late.commands == ["WELCOME Sapphire", "START"]
 
     asyncio.run(play())
 
@@ -359,7 +291,7 @@ def test_a_base_station_that_comes_again_replaces_the_one_before(boxed: Any, unt
             second = await come(team="cyan")
             await until(lambda: first.gone)
             bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
-            await until(lambda: "CORNER Sapphire" in second.commands())
+            await until(lambda: "CORNER Sapphire" in second.commands)
 
     asyncio.run(play())
 
@@ -428,7 +360,7 @@ def test_a_base_station_that_leaves_in_the_middle_of_a_message_stops_no_other(bo
             magenta.writer.write(b'{"type": "worldst')
             await magenta.leave()
             bench.stage.say(phase=Phase.CORNER, side=Side.MAGENTA)
-            await until(lambda: "CORNER Ruby" in cyan.commands())
+            await until(lambda: "CORNER Ruby" in cyan.commands)
 
     asyncio.run(play())
 
@@ -464,20 +396,7 @@ def test_an_unidentified_base_station_gives_way_to_a_team(
             await until(lambda: silent[0].gone and silent[1].gone)
             assert not silent[2].gone
             bench.stage.say(phase=Phase.KICK_OFF, side=Side.CYAN)
-            await until(lambda: all("KICKOFF Sapphire" in team.commands() for team in (cyan, magenta, silent[2])))
-
-    asyncio.run(play())
-
-
-def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
-    async def play() -> None:
-        with socket.socket() as taken:
-            taken.bind(("127.0.0.1", 0))
-            taken.listen()
-            async with opened() as bench:
-                box = RefBoxServer(bench.live, [ServerAddress(taken.getsockname()[1])], bench.logged.append)
-                with pytest.raises(TouchlineError, match=r"--refbox-server \d+ cannot be listened on"):
-                    await box.serve(bench.stop)
+            await until(lambda: all("KICKOFF Sapphire" in team.commands for team in (cyan, magenta, silent[2])))
 
     asyncio.run(play())
 
