@@ -248,21 +248,6 @@ def test_no_robot_exceeds_the_ordered_top_speed(practice: Practice) -> None:
     assert 0.5 < max(speeds) < 0.65
 
 
-def test_the_machine_runs_once_in_the_papers_team_and_not_in_another() -> None:
-    practice = Practice("nubot", "paper")
-    practice.order("machine", robot_a="cyan2")
-    assert practice.run(practice.is_in_goal)
-    assert practice.run(lambda: practice.away("cyan2", -4.0, -2.0) < 0.1)
-    practice.play(3.0)
-    assert practice.away("cyan2", -4.0, -2.0) < 0.5
-    practice.close()
-    other = Practice("simple", "paper")
-    other.order("machine", robot_a="cyan2")
-    other.play(2.0)
-    assert other.away("cyan2", -2.0, 1.5) < 0.1
-    other.close()
-
-
 @pytest.mark.parametrize("team", BRAINS)
 def test_where_the_rules_bind_a_robot_brings_the_ball_without_a_foul(team: str) -> None:
     practice = Practice(team, "paper", **{"rules": "paper", "referee.mode": "automatic"})

@@ -2,18 +2,16 @@
 
 import csv
 import json
-from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 from recordings.reading.recording import open_recording
-from schemas.config.match_config import load_match
 from schemas.messages.command import Command
 from schemas.side import Side
 from touchline.command_line import app
 
-pytestmark = [pytest.mark.processes, pytest.mark.timeout(400)]
+pytestmark = [pytest.mark.processes, pytest.mark.long, pytest.mark.timeout(400)]
 
 NAMES = [f"{side.value}{number}" for side in Side for number in range(1, 12)]
 MATCH = """
@@ -83,23 +81,3 @@ def test_the_leagues_log_takes_eleven_robots_a_side_there_and_back(recording, fo
     run("import", folder / "log.zip", "--out", folder / "back.mcap")
     setup = open_recording(folder / "back.mcap").manifest.setup
     assert [name for team in setup.teams.values() for name in team.robots] == NAMES
-
-
-def test_a_replay_reaches_the_end_with_all_robots(start, recording, folder):
-    program = start(
-        "touchline",
-        "replay",
-        "eleven.mcap",
-        "--rate",
-        "20",
-        "--listen",
-        "tcp/127.0.0.1:0",
-        folder=folder,
-        name="replay",
-    )
-    assert program.status() == 0, program.err
-
-
-def test_a_match_file_that_ships_plays_eleven_a_side():
-    config = load_match(Path("matches/eleven.toml"))
-    assert {side: len(config.robots(side)) for side in Side} == dict.fromkeys(Side, 11)

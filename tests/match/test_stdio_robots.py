@@ -55,26 +55,6 @@ def test_garbage_is_named_in_the_robots_log_and_the_match_goes_on(tmp_path: Path
     assert "lines that were no JSON object, " in log.splitlines()[-1]
 
 
-def test_a_silent_program_is_named_and_the_match_goes_on_without_it(tmp_path: Path) -> None:
-    body = "if tick >= 100:\n    print('waiting', file=sys.stderr, flush=True)\n    signal.pause()"
-    played = StdioMatch(tmp_path, body, patience=1.0).play()
-    assert played.is_whole()
-    assert "cyan1: the program has not answered the sight of tick 100 for 1 s; does it write one line" in played.log(
-        "cyan1"
-    )
-    assert "waiting" in played.log("cyan1")
-
-
-def test_a_slow_program_in_a_match_that_does_not_wait_gets_the_newest_sight_each_time(tmp_path: Path) -> None:
-    body = "import time; time.sleep(0.1)\nprint('saw', tick, file=sys.stderr, flush=True)"
-    played = StdioMatch(tmp_path, body).play("--pace", "x4", "--duration", "1")
-    assert played.is_whole()
-    ticks = [int(line.split()[1]) for line in played.log("cyan1").splitlines() if line.startswith("saw ")]
-    assert 10 < len(ticks) < ticks[-1] / 2
-    assert ticks[-1] > 250  # no pile of old sights at the end
-    assert "cyan1 takes " in played.printed
-
-
 @needs_bubblewrap()
 def test_a_program_is_confined_as_its_agent_is(open_folder: Path) -> None:
     body = "if tick == 0: print(os.getcwd(), os.getpid() < 20, os.path.exists('/root'), file=sys.stderr, flush=True)"

@@ -5,7 +5,6 @@ import os
 import re
 import signal
 import socket
-import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -14,14 +13,13 @@ from typing import Any
 
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
-from websockets.sync.client import ClientConnection, connect
 
 from schemas.bus.endpoint import with_free_port
+from support.process_story import LIMIT, Program, wait_for
+from support.visitor import Visitor
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-LIMIT = 90.0
-"""Seconds after which something that should have happened will not; nothing depends on how soon it does."""
 TEAMS = """
 [teams.cyan]
 brain = "robot_agent.teams.simple:Simple"
@@ -32,75 +30,36 @@ size = 1
 """
 
 
-class Page:
-    """An open page that reads its messages."""
-
-    def __init__(self, socket: ClientConnection, token: str) -> None:
-        self.socket = socket
-        self.token = token
-        self._kept: list[dict[str, Any]] = []
-
-    def wait_for_match(self) -> None:
-        """Read until the welcome of a match, which is left to be read."""
-        while (welcome := self.hear("welcome"))["setup"] is None:
-            pass
-        self._kept.append(welcome)
-
-    def hear(self, kind: str, **fields: Any) -> dict[str, Any]:
-        """The next message of a kind with these fields."""
-        deadline = time.monotonic() + LIMIT
-        while True:
-            text = self.socket.recv(max(0.0, deadline - time.monotonic())) if not self._kept else None
-            message: dict[str, Any] = json.loads(text) if text is not None else self._kept.pop(0)
-            if message["kind"] == kind and all(message[name] == value for name, value in fields.items()):
-                return message
-
-    def ask(self, deed: str, **content: Any) -> dict[str, Any]:
-        self.say(deed, **content)
-        return self.hear("reply", id=7)
-
-    def until_accepted(self, deed: str, **content: Any) -> None:
-        """Ask again until it is accepted, as a person does who waits for the ball to lie."""
-        deadline = time.monotonic() + LIMIT
-        while not (reply := self.ask(deed, **content))["accepted"]:
-            assert time.monotonic() < deadline, reply
-            time.sleep(0.1)
-
-    def say(self, deed: str, **content: Any) -> None:
-        self.socket.send(json.dumps({"id": 7, "token": self.token, "deed": deed, **content}))
-
-
 @contextmanager
-def page_at(address: str) -> Iterator[Page]:
+def page_at(address: str) -> Iterator[Visitor]:
     """A page opened at the printed address; like any page it reconnects when it is disconnected."""
     origin, _, token = address.partition("/#token=")
-    deadline = time.monotonic() + LIMIT
-    while True:
-        try:
-            opening = connect(f"{origin.replace('http', 'ws')}/ws", origin=origin, max_size=None)  # type: ignore[arg-type]
-            opened = opening.__enter__()
-            page = Page(opened, token)
-            page.wait_for_match()
-            break
-        except (OSError, InvalidHandshake, ConnectionClosed):
-            assert time.monotonic() < deadline
-            time.sleep(0.05)
-    try:
-        yield page
-    finally:
-        with suppress(ConnectionClosed):  # a server that was killed does not take leave
-            opened.close()
+
+    def opened() -> Visitor | None:
+        with suppress(OSError, InvalidHandshake, ConnectionClosed):
+            page = Visitor(origin, token, patience=LIMIT)
+            page.hear_what_is_played()
+            return page
+        return None
+
+    page: Visitor = wait_for(opened, "a page at its address")
+    yield page
+    page.close()
 
 
-def said_address(program: Any) -> str:
+def ask_until_accepted(page: Visitor, action: dict[str, str]) -> None:
+    """Ask for an action again until it is accepted, as a person does who waits for the ball to lie."""
+    wait_for(lambda: page.ask("action", action=action)["accepted"], str(action))
+
+
+def said_address(program: Program) -> str:
     """The address of the referee's page that a program prints."""
-    deadline = time.monotonic() + LIMIT
-    while True:
-        found = re.search(r"(http://127\.0\.0\.1:\d+/#token=\S+)", program.out + program.err)
-        if found is not None:
-            return found[1]
-        assert time.monotonic() < deadline and program.popen.poll() is None, program.err
-        time.sleep(0.02)
+    address = r"(http://127\.0\.0\.1:\d+/#token=\S+)"
+    found = wait_for(
+        lambda: re.search(address, program.out + program.err) or program.popen.poll() is not None, "an address"
+    )
+    assert found is not True, program.err
+    return str(found[1])
 
 
 def is_served(address: str) -> bool:
@@ -146,7 +105,7 @@ def test_a_match_with_a_page_prints_its_address_survives_a_crash_of_the_server_a
         texts = []
         while not any("STOP" in text for text in texts):
             texts.append(page.hear("event")["event"]["text"])
-        assert page.ask("action", action={"action": "start"})["id"] == 7
+        page.ask("action", action={"action": "start"})
         page.hear("frame")
     processes = list(match.processes().values())
     assert len(processes) == 5
@@ -207,7 +166,7 @@ def test_a_replay_with_a_page_is_sought_and_paused_from_it_and_leaves_nothing(
     )
     address = said_address(replay)
     with page_at(address) as page:
-        assert page.hear("welcome", live=False)["setup"]["match"] == "small"
+        assert (page.welcome["live"], page.welcome["setup"]["match"]) == (False, "small")
         events = [page.hear("event")["event"]]
         while events[-1]["kind"] != "full_time":
             events.append(page.hear("event")["event"])
@@ -290,7 +249,7 @@ def test_a_person_runs_a_whole_match_from_the_page(start: Callable[..., Any], co
             {"action": "start"},
             {"action": "end_game"},
         ):
-            page.until_accepted("action", action=action)
+            ask_until_accepted(page, action)
         kept = page.hear("result")
         assert "--web" in kept["replay"] and kept["statistics"] is None  # they take a while
         kept = page.hear("result")

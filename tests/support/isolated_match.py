@@ -102,14 +102,6 @@ class PlayedMatch:
         return self.status == 0 and "full time" in self.printed
 
 
-def is_running(pid: int) -> bool:
-    """Whether a process is there, and no zombie."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
-
-
 def needs_bubblewrap() -> pytest.MarkDecorator:
     """Skips where bwrap is missing, or the kernel forbids what it needs."""
     probe = ["bwrap", "--ro-bind", "/", "/", "--unshare-pid", "--proc", "/proc", "--dev", "/dev", "true"]

@@ -16,14 +16,19 @@ from support.page_gateway import SOON, TOKENS
 class Visitor:
     """One open page."""
 
-    def __init__(self, origin: str, token: str = "", claims: str | None = None, **more: Any) -> None:
-        """`claims` is the origin that it sends, by default its own."""
+    def __init__(
+        self, origin: str, token: str = "", claims: str | None = None, patience: float = SOON, **more: Any
+    ) -> None:
+        """`claims` is the origin that it sends, by default its own; `patience` is in s."""
         self.token = token
+        self.welcome: dict[str, Any] = {}
+        """The newest one that `hear_what_is_played` has met."""
+        self._patience = patience
         self._numbers = itertools.count(1)
         opening = connect(
             f"{origin.replace('http', 'ws')}/ws",
             origin=origin if claims is None else claims,  # type: ignore[arg-type]
-            open_timeout=SOON,
+            open_timeout=patience,
             max_size=None,
             **more,
         )
@@ -34,7 +39,7 @@ class Visitor:
 
         So are signs of life, which come once a second between all else.
         """
-        deadline = time.monotonic() + SOON
+        deadline = time.monotonic() + self._patience
         while True:
             message: dict[str, Any] = json.loads(self.socket.recv(max(0.0, deadline - time.monotonic())))
             of_kind = message["kind"] == kind if kind else message["kind"] != "alive"
@@ -43,10 +48,10 @@ class Visitor:
 
     def hear_what_is_played(self) -> dict[str, Any]:
         """The first welcome with a setup: before it, requests are refused."""
-        welcome = self.hear("welcome")
-        while welcome["setup"] is None:
-            welcome = self.hear("welcome")
-        return welcome
+        self.welcome = self.hear("welcome")
+        while self.welcome["setup"] is None:
+            self.welcome = self.hear("welcome")
+        return self.welcome
 
     def ask(self, deed: str, token: str | None = None, **content: Any) -> dict[str, Any]:
         """What is answered to a query."""

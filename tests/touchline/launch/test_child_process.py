@@ -17,7 +17,8 @@ from schemas.config.confinement import Limits
 from schemas.config.match_config import load_match
 from schemas.process.clock import WallClock
 from schemas.side import Side
-from support.isolated_match import is_running, needs_bubblewrap
+from support.isolated_match import needs_bubblewrap
+from support.process_story import is_running
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.confinement import Confinement
 from touchline.launch.process_table import Process, ProcessKind

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from support.isolated_match import IsolatedMatch, is_running, needs_bubblewrap
+from support.isolated_match import IsolatedMatch, needs_bubblewrap
+from support.process_story import is_running
 
 pytestmark = pytest.mark.processes
 

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from support.isolated_match import IsolatedMatch, is_running
+from support.isolated_match import IsolatedMatch
+from support.process_story import is_running
 
 pytestmark = pytest.mark.processes
 
