@@ -25,7 +25,7 @@ def restore(match: Match) -> None:
     match.net.impair("cyan", LinkConditions())
 
 
-@pytest.mark.parametrize("seconds", [1, 3, 15])
+@pytest.mark.parametrize("seconds", [3, pytest.param(15, marks=pytest.mark.long)])
 def test_all_robots_of_a_team_play_again_after_a_cut(match: Match, seconds: int) -> None:
     """Also after 8 s, four times as long as the agents wait for a host that is gone."""
     restore(match)
@@ -36,6 +36,7 @@ def test_all_robots_of_a_team_play_again_after_a_cut(match: Match, seconds: int)
     assert match.log.robot("magenta1").answers - answers > (last - first) / 2, "the other team plays on"
 
 
+@pytest.mark.long
 def test_robots_play_again_after_their_interface_was_down(match: Match) -> None:
     net = match.net
     _, last = match.after_fault(lambda: net.interface_down("cyan"), 4 * SECOND, lambda: net.interface_up("cyan"))

@@ -17,14 +17,7 @@ time.time = lambda: time.time_ns() * 1e-9
 """
 
 
-def test_a_killed_agent_is_replaced(match: Match) -> None:
-    match.field.kill("cyan1")
-    match.log.until(lambda log: not log.robot("cyan1").alive, "the end of cyan1")
-    match.field.start_agent("cyan1", "cyan", PATIENCE_S)
-    match.until_playing("cyan1", since=match.log.tick)
-
-
-@pytest.mark.parametrize("seconds", [3, 8])
+@pytest.mark.parametrize("seconds", [3, pytest.param(8, marks=pytest.mark.long)])
 def test_suspended_agents_play_again(match: Match, seconds: int) -> None:
     stopped = ("cyan2", "cyan3")
     _, last = match.after_fault(
@@ -48,6 +41,7 @@ def test_a_robot_whose_clock_is_an_hour_off_plays(match: Match) -> None:
     assert program.popen.poll() is None
 
 
+@pytest.mark.long
 def test_a_match_goes_on_after_the_machine_was_suspended(match: Match) -> None:
     """All processes at once, for longer than the agents wait for a host.
 
@@ -62,10 +56,3 @@ def test_a_match_goes_on_after_the_machine_was_suspended(match: Match) -> None:
     match.field.resume(*everything)
     match.listen_again()
     match.until_playing(*CYAN, "magenta1", since=before + SECOND)
-
-
-def test_robots_play_in_the_match_of_a_host_that_was_killed_and_restarted(match: Match) -> None:
-    match.field.kill("host")
-    match.field.start_host()
-    match.listen_again()
-    match.until_playing(*CYAN, "magenta1")

@@ -19,16 +19,23 @@ FALSE_MS = 390.0
 """Time by which false time stamps are ahead."""
 ON_CYAN1 = ("flood", "flood_of_names", "flood_of_drives", "malformed")
 """Attacks on the key of cyan1, whose own commands are then over the limit, too."""
+SHORT = ("flood", "garbage", "huge_message", "long_keys", "malformed", "strange_tokens", "wildcard_puts")
+"""An attack of each kind: messages, bytes, sizes, keys, payloads, tokens, and keys with wildcards."""
 FLOODS = [
     (Account.CYAN_COACH, "flood_of_orders"),
-    (Account.CYAN_COACH, "flood_of_drives"),
-    (Account.OPERATOR, "scene_queries"),
-    (Account.OPERATOR, "parameter_queries"),
-    (Account.REFEREE, "action_queries"),
-    (Account.RECORDER, "histories"),
     (Account.VIEWER, "setup_queries"),
-    (Account.VIEWER, "deaf_readers"),
-    (Account.MAGENTA, "huge_message"),
+    *(
+        pytest.param(account, name, marks=pytest.mark.long)
+        for account, name in (
+            (Account.CYAN_COACH, "flood_of_drives"),
+            (Account.OPERATOR, "scene_queries"),
+            (Account.OPERATOR, "parameter_queries"),
+            (Account.REFEREE, "action_queries"),
+            (Account.RECORDER, "histories"),
+            (Account.VIEWER, "deaf_readers"),
+            (Account.MAGENTA, "huge_message"),
+        )
+    ),
 ]
 """Accounts, and floods on keys that they may write or read; what each may not is in `test_accounts.py`."""
 
@@ -48,7 +55,10 @@ def carry_out(target, name, robots, account=None):
     return target.memory_mb() - memory
 
 
-@pytest.mark.parametrize("name", [*ATTACKS, *RAW_ATTACKS])
+@pytest.mark.parametrize(
+    "name",
+    [*SHORT, *(pytest.param(one, marks=pytest.mark.long) for one in (*ATTACKS, *RAW_ATTACKS) if one not in SHORT)],
+)
 def test_without_credentials_the_match_goes_on_during_and_after_the_attack(target, name):
     robots = ["magenta1"] if name in ON_CYAN1 else ["cyan1", "magenta1"]
     assert carry_out(target, name, robots) < MEMORY_MB
