@@ -6,6 +6,8 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from typing import Any
 
+import pytest
+
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from schemas.game import ActionName, Phase
@@ -26,6 +28,7 @@ async def officiated(kicked_off: Callable[..., Any], until: Any, **words: Any) -
         await box.close()
 
 
+@pytest.mark.slow
 def test_a_game_of_longer_halves_with_cards_for_no_robot_ends_with_the_score_of_the_box(
     kicked_off: Callable[..., Any], until: Any
 ) -> None:
@@ -121,6 +124,7 @@ def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any]
     asyncio.run(play())
 
 
+@pytest.mark.long
 def test_a_team_of_the_league_receives_the_match_that_our_referee_officiates(
     kicked_off: Callable[..., Any], until: Any
 ) -> None:

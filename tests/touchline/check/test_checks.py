@@ -169,7 +169,10 @@ def test_without_a_brain_no_other_check_is_run(folder: Path) -> None:
     assert (result.name, result.kept) == ("build", False)
 
 
-@pytest.mark.parametrize("team", shipped_teams())
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "team", [pytest.param(team, marks=() if team == "simple" else pytest.mark.long) for team in shipped_teams()]
+)
 def test_the_teams_that_ship_keep_the_contract(team: str) -> None:
     subject = Subject(load_match(None, {"teams.cyan.remote": True}), brain_of(team))
     examination = Examination(subject, 6.0, SteppedClock())

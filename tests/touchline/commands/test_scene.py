@@ -22,7 +22,7 @@ from schemas.topics import SCENE
 from sim_host.match.simulation import Simulation
 from touchline.command_line import app
 from touchline.commands import scene
-from touchline.play import InProcessMatch, play_match
+from touchline.play import InProcessMatch
 
 
 @pytest.fixture
@@ -98,6 +98,7 @@ def test_the_scenes_are_listed_with_a_sentence_each_and_shown() -> None:
     assert json.loads(touchline("scene", "list", "penalty", "--json").stdout)["game"]["side"] == "cyan"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", shipped_scenes())
 def test_the_shipped_teams_play_every_scene(name: str) -> None:
     """A robot of each side that has an agent moves within two seconds."""
@@ -117,8 +118,3 @@ def test_the_shipped_teams_play_every_scene(name: str) -> None:
 def test_the_scene_selects_profile_and_rules_unless_the_match_does() -> None:
     assert (load_match(None, {"scene": "paper_static"}).profile, load_match(None).profile) == ("paper", "msl")
     assert load_match(None, {"scene": "paper_static", "profile": "msl"}).profile == "msl"
-
-
-def test_a_match_in_a_scene_is_the_same_each_time() -> None:
-    config = load_match(None, {"scene": "two_on_one", "seed": 3})
-    assert play_match(config, until=3.0).chain == play_match(config, until=3.0).chain

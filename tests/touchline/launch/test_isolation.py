@@ -86,6 +86,7 @@ def clean_etc() -> Iterator[None]:
     Path("/etc/stolen").unlink(missing_ok=True)
 
 
+@pytest.mark.long
 def test_without_isolation_a_robot_reads_what_its_user_may_read(tmp_path: Path, clean_etc: None) -> None:
     """What the two ways of isolation prevent."""
     played = IsolatedMatch(tmp_path, INTRUDER).play()

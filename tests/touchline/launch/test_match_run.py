@@ -19,7 +19,6 @@ from touchline.launch import match_run
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.processes import MatchPlan
-from touchline.launch.recording_outcome import NO_RECORDING
 from touchline.launch.result import MatchResult
 from touchline.watch.screen import PlainScreen
 
@@ -133,18 +132,6 @@ def test_a_match_that_reaches_full_time_has_score_events_and_recording(
     assert result.recording.losses == {"world": 2}
     assert "misses 2 messages" in result.recording.fault
     assert " 0:00.4  goal: goal by cyan3" in match.words.getvalue()
-
-
-def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    match = stage(tmp_path, monkeypatch, FULL_TIME, agent=CRASHES, recorder="")
-    assert match.play(awaited="not started again").recording == NO_RECORDING
-    words = [line for line in match.words.getvalue().splitlines() if "cyan1" in line]
-    outcomes = [f"started again ({count} of 3)" for count in (1, 2, 3)] + ["not started again"]
-    assert words == [
-        line for how in outcomes for line in (f"cyan1 ended with status 1; {how}", "  cyan1: brain raised")
-    ]
 
 
 def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(

@@ -46,7 +46,7 @@ def test_buttons_show_why_the_referee_has_refused(match, visit) -> None:
     tab.wait_for_log("Come back, cyan1 refused: enter: cyan1 is on the field")
 
 
-@pytest.mark.parametrize("side", list(Side))
+@pytest.mark.parametrize("side", [Side.CYAN, pytest.param(Side.MAGENTA, marks=pytest.mark.long)])
 def test_every_restart_can_be_given_to_either_side(match, visit, side: Side) -> None:
     tab = visit(match, "referee")
     for phase in (Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW_IN, Phase.CORNER, Phase.PENALTY):

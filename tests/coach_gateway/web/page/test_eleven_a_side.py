@@ -19,7 +19,15 @@ def crowd(officiated) -> Match:
     return officiated(teams=SIDES, rules="eleven")
 
 
-@pytest.mark.parametrize(("width", "height", "rows"), [(1440, 900, 2), (1360, 900, 2), (1100, 800, 3), (390, 844, 11)])
+@pytest.mark.parametrize(
+    ("width", "height", "rows"),
+    [
+        (1440, 900, 2),
+        pytest.param(1360, 900, 2, marks=pytest.mark.long),
+        pytest.param(1100, 800, 3, marks=pytest.mark.long),
+        (390, 844, 11),
+    ],
+)
 def test_every_robot_has_a_panel_in_the_order_of_the_numbers_and_nothing_is_cut(
     crowd, visit, width: int, height: int, rows: int
 ) -> None:
@@ -45,7 +53,7 @@ WITH_BADGES = """() => {
 }"""
 
 
-@pytest.mark.parametrize("width", [1440, 1100, 390])
+@pytest.mark.parametrize("width", [pytest.param(1440, marks=pytest.mark.long), 1100, 390])
 def test_a_badge_is_whole_in_every_panel(crowd, visit, width: int) -> None:
     tab = visit(crowd, "referee", width=width)
     if width < 1000:

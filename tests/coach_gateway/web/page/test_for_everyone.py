@@ -40,7 +40,7 @@ CONTRASTS = """() => {
 }"""
 
 
-@pytest.mark.parametrize("width", [320, 360, 768])
+@pytest.mark.parametrize("width", [320, *(pytest.param(width, marks=pytest.mark.long) for width in (360, 768))])
 def test_a_phone_shows_everything_without_scrolling_sideways(match, visit, width: int) -> None:
     tab = visit(match, "referee", width=width, height=780, has_touch=True)
     for name in TABS:

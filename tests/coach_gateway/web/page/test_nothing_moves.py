@@ -16,7 +16,7 @@ from support.fake_host import FakeHost
 from support.messages import make_event
 from support.visitor import Visitor
 
-SIZES = [(1366, 768), (390, 844), (844, 390)]
+SIZES = [(1366, 768), (390, 844), pytest.param(844, 390, marks=pytest.mark.long)]
 """A laptop, a phone, and the phone on its side."""
 
 WATCH = """() => {
@@ -114,7 +114,9 @@ def moved(before: dict[str, Any], after: dict[str, Any]) -> list[str]:
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
-@pytest.mark.parametrize("box", [False, True], ids=["no referee box", "a referee box"])
+@pytest.mark.parametrize(
+    "box", [pytest.param(False, marks=pytest.mark.long), True], ids=["no referee box", "a referee box"]
+)
 def test_no_element_moves_under_a_proposal_a_question_a_card_or_a_goal(
     staged: StagedMatch, visit: Callable[..., Any], width: int, height: int, box: bool
 ) -> None:
@@ -228,7 +230,7 @@ def test_a_press_meant_for_one_proposal_does_not_answer_the_next(
     tab.until("!document.getElementById('confirm').disabled")
 
 
-@pytest.mark.parametrize(("width", "height"), [*SIZES, (683, 384), (640, 360)])
+@pytest.mark.parametrize(("width", "height"), [*SIZES, pytest.param(683, 384, marks=pytest.mark.long), (640, 360)])
 def test_the_whole_field_and_stop_are_in_view_on_every_screen(
     staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
 ) -> None:

@@ -16,7 +16,7 @@ BUTTONS = """[...document.querySelectorAll("#buttons [data-action]")]
     .filter((one) => one.checkVisibility()).map((one) => one.dataset.action + one.dataset.side)"""
 
 
-@pytest.mark.parametrize("width", [1360, 390])
+@pytest.mark.parametrize("width", [1360, pytest.param(390, marks=pytest.mark.long)])
 def test_a_spectator_sees_no_command_and_no_dead_button(resting, visit, width: int) -> None:
     match = resting
     tab = visit(match, width=width)
