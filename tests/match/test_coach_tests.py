@@ -87,7 +87,10 @@ class Practice:
         return bool(ball["x"] > pitch.goal_line and abs(ball["y"]) < 0.5 * pitch.goal_width)
 
 
-@pytest.fixture(params=[("simple", "msl"), ("nubot", "paper")], ids=lambda param: "-".join(param))
+@pytest.fixture(
+    params=[("simple", "msl"), pytest.param(("nubot", "paper"), marks=pytest.mark.long)],
+    ids=lambda param: "-".join(param),
+)
 def practice(request: pytest.FixtureRequest) -> Iterator[Practice]:
     made = Practice(*request.param)
     yield made
@@ -151,7 +154,10 @@ def test_location_goes_from_one_point_to_the_other_and_back(practice: Practice) 
 
 
 @pytest.mark.parametrize("with_ball", [False, True])
-@pytest.mark.parametrize(("team", "profile"), [("simple", "msl"), ("nubot", "paper")])
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("team", "profile"), [("simple", "msl"), pytest.param("nubot", "paper", marks=pytest.mark.long)]
+)
 def test_a_circle_keeps_its_radius_round_after_round(team: str, profile: str, with_ball: bool) -> None:
     """As far as the robot knows where it is: without noise."""
     practice = Practice(team, profile, **{"noise.preset": "perfect"})

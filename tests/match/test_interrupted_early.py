@@ -32,7 +32,10 @@ MODULES = {
 }
 
 
-@pytest.mark.parametrize("moment", MODULES)
+@pytest.mark.parametrize(
+    "moment",
+    [pytest.param(moment, marks=pytest.mark.long if "simulation" in moment else ()) for moment in MODULES],
+)
 def test_ctrl_c_during_the_start_ends_the_match_without_a_traceback(moment: str, tmp_path: Path) -> None:
     (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(module=MODULES[moment]))
     path = os.pathsep.join([str(tmp_path), *filter(None, [os.environ.get("PYTHONPATH")])])

@@ -53,6 +53,7 @@ def test_a_side_that_its_ghosts_play_makes_the_recorded_match_again(played, star
     assert again.manifest.setup.teams["magenta"].name.endswith(", recorded")
 
 
+@pytest.mark.long
 def test_a_ghost_goes_on_with_what_it_did_when_the_live_side_does_something_else(played, start, folder):
     again = recorded(start, folder, "other", "--ghost", "magenta=first.mcap", "--seed", "8")
     first, second = ([applied.inputs for _, applied in recording.decoded(APPLIED.key)] for recording in (played, again))

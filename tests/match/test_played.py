@@ -94,6 +94,7 @@ def test_no_robot_missed_a_tick(folder, first):
     assert last.late_ticks == 0
 
 
+@pytest.mark.long
 def test_ten_processes_play_the_same_match_again_bit_for_bit(folder, run, first):
     run("again")
     worlds = payloads(folder, "first", "world")

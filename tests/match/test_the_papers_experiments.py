@@ -218,7 +218,8 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     assert static.play(lambda: all(static.sights[name].game.running for name in CYAN), 1.0)
 
 
-@pytest.mark.parametrize("robot", CYAN)
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", [CYAN[0], *(pytest.param(one, marks=pytest.mark.long) for one in CYAN[1:])])
 def test_two_each_robot_moves_as_in_the_state_machine_of_the_real_code(static: Experiment, robot: str) -> None:
     """Figure 5 of the paper with the constants of its code."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a=robot)
