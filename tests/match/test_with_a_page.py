@@ -43,8 +43,10 @@ def page_at(address: str) -> Iterator[Visitor]:
         return None
 
     page: Visitor = wait_for(opened, "a page at its address")
-    yield page
-    page.close()
+    try:
+        yield page
+    finally:
+        page.close()
 
 
 def ask_until_accepted(page: Visitor, action: dict[str, str]) -> None:
