@@ -1,33 +1,26 @@
 """Actions for a side that name no robot: the robots they may concern, and the question to the side's coach."""
 
-from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from collections.abc import Mapping
 
-from schemas.game import ActionName, EventKind
+from schemas.game import ActionName, Card, EventKind
 from schemas.league.robot_numbers import numbers_of
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
-from sim_host.referee.actions import double_yellow, enter, red_card, repair, substitute, yellow_card
+from sim_host.referee.actions import enter, repair, substitute
+from sim_host.referee.actions.action import Action
+from sim_host.referee.actions.card import card_action
 from sim_host.referee.game.question import ANSWER_S, Question
 from sim_host.referee.game.timing import reached
 from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.wording import display_name
 
-
-class RobotAction(NamedTuple):
-    """An action on a robot: a check whether it is legal, and its effect."""
-
-    why_illegal: Callable[[RulingDraft, RefereeAction], str | None]
-    apply: Callable[[RulingDraft, RefereeAction], None]
-
-
-ROBOT_ACTIONS: Mapping[ActionName, RobotAction] = {
-    ActionName.YELLOW_CARD: RobotAction(yellow_card.why_illegal, yellow_card.apply),
-    ActionName.DOUBLE_YELLOW: RobotAction(double_yellow.why_illegal, double_yellow.apply),
-    ActionName.RED_CARD: RobotAction(red_card.why_illegal, red_card.apply),
-    ActionName.REPAIR: RobotAction(repair.why_illegal, repair.apply),
-    ActionName.SUBSTITUTE: RobotAction(substitute.why_illegal, substitute.apply),
-    ActionName.ENTER: RobotAction(enter.why_illegal, enter.apply),
+ROBOT_ACTIONS: Mapping[ActionName, Action] = {
+    ActionName.YELLOW_CARD: card_action(Card.YELLOW),
+    ActionName.DOUBLE_YELLOW: card_action(Card.YELLOW, second=True),
+    ActionName.RED_CARD: card_action(Card.RED),
+    ActionName.REPAIR: Action(repair.why_illegal, repair.apply),
+    ActionName.SUBSTITUTE: Action(substitute.why_illegal, substitute.apply),
+    ActionName.ENTER: Action(enter.why_illegal, enter.apply),
 }
 """The actions that a side's coach may be asked to name the robot for."""
 

@@ -1,11 +1,19 @@
-"""Common parts of the seven restart actions: whether one is legal, and how it enters the restart sequence."""
+"""The restart actions: whether one is legal, and how it enters the restart sequence; a kick-off can do more."""
 
 from schemas.game import SIDED, Phase
 from schemas.messages.game import RefereeAction
+from sim_host.referee.actions.action import Action
 from sim_host.referee.actions.legality import FIXED, bad_place, has_side, in_shoot_out, no_half, no_side, place_is_fixed
 from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.procedures import restart
 from sim_host.referee.ruling_draft import RulingDraft
+
+
+def restart_action(phase: Phase) -> Action:
+    """The action that orders this restart."""
+    return Action(
+        lambda draft, action: why_illegal(draft, action, phase), lambda draft, action: apply(draft, action, phase)
+    )
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction, phase: Phase) -> str | None:
