@@ -140,7 +140,7 @@ def _tests() -> dict[str, str]:
     Files that name many rules come first: they are about rules. A test that names the rule through a constant or a
     function of its file comes last.
     """
-    root = Path(inspect.getfile(sys.modules["sim_host"])).parents[1]
+    root = Path(__file__).parents[2]
     files: list[tuple[str, list[tuple[str, str]]]] = []
     indirect: list[tuple[str, list[tuple[str, str]]]] = []
     for path in sorted((root / _TESTS).glob("test_*.py")):
