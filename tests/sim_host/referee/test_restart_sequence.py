@@ -7,7 +7,6 @@ import pytest
 from schemas.game import EventKind, Phase
 from schemas.side import Side
 
-"""The numbers of a rule book of before the others existed."""
 STOP, RESTART, START, IN_PLAY = EventKind.STOP, EventKind.RESTART, EventKind.START, EventKind.IN_PLAY
 
 
