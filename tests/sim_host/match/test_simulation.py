@@ -167,6 +167,16 @@ def test_equal_seeds_give_equal_matches_to_the_last_bit() -> None:
     assert chains[0][1] != chains[2][1], "another seed perceives otherwise"
 
 
+def test_noise_is_on_what_robots_perceive_and_never_on_the_physics() -> None:
+    """The NuBot simulation's plugin decides holds and kicks from noisy data."""
+    worlds = []
+    for preset in ("perfect", "paper"):
+        one = simulate(noise__preset=preset)
+        worlds.append(play(one, 80))
+        one.close()
+    assert worlds[0] == worlds[1]
+
+
 def test_the_order_in_which_answers_arrive_changes_nothing() -> None:
     sights = []
     for backwards in (False, True):
