@@ -32,8 +32,8 @@ class Intrusion(NamedTuple):
     """It was there at START, or an opponent pushed it there: it has time to retreat."""
 
 
-class Stray(NamedTuple):
-    """A robot that was in a wrong place at a penalty before the kick: its first fault."""
+class PositionFault(NamedTuple):
+    """A robot in a wrong position."""
 
     robot: str
     text: str
@@ -66,7 +66,7 @@ class SetPiece(NamedTuple):
     """Robots that are too near until the ball is in play, in the order of the roster; None before the first look."""
     appointed: str | None = None
     """At a penalty, the robot that was nearest to the ball at START, and takes it."""
-    strays: tuple[Stray, ...] = ()
+    strays: tuple[PositionFault, ...] = ()
     """At a penalty, robots that were in wrong places before the kick, each once, in order."""
 
     @property

@@ -7,9 +7,10 @@ from schemas.frames import Pose
 from sim_host.referee.areas import in_a_penalty_area
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.restart import Restart, Spot
+from sim_host.referee.game.set_piece import PositionFault
 from sim_host.referee.match_constants import MatchConstants
 from sim_host.referee.placement.clear_ground import clearance
-from sim_host.referee.placement.positions import LineUp, PositionFault, checks_of, line_up_of, min_distance
+from sim_host.referee.placement.positions import LineUp, checks_of, line_up_of, min_distance
 from sim_host.snapshot import Snapshot
 
 _ROOM = 0.2

@@ -7,7 +7,6 @@ the goalkeeper has its place until the kicker's side touches the ball, and the o
 
 from schemas.game import GameStage, Phase
 from sim_host.referee.game.referee_state import RefereeState
-from sim_host.referee.game.set_piece import Stray
 from sim_host.referee.match_constants import MatchConstants
 from sim_host.referee.placement.positions import kicker_of, penalty_faults
 from sim_host.snapshot import Snapshot
@@ -26,7 +25,7 @@ def with_strays(match: MatchConstants, state: RefereeState, snapshot: Snapshot) 
     known = {stray.robot for stray in piece.strays}
     free = _free_keepers(match, state) if in_shoot_out else ()
     new = [
-        Stray(*fault)
+        fault
         for fault in penalty_faults(match, state, piece, snapshot)
         if fault.robot not in known and fault.robot not in free
     ]

@@ -17,24 +17,12 @@ from schemas.game import GameStage, Phase
 from sim_host.referee.areas import in_goal_area, in_penalty_area
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.referee.game.restart import Restart, Spot
-from sim_host.referee.game.set_piece import SetPiece
+from sim_host.referee.game.set_piece import PositionFault, SetPiece
 from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 MAX_OVERLAP = 0.02
 """m that a hull may overlap the ball on its spot, since a taker may touch it."""
-
-
-class PositionFault(NamedTuple):
-    """A robot in a wrong position."""
-
-    robot: str
-    text: str
-    """The robot and its fault, as one clause."""
-    measured: float | None = None
-    """m."""
-    limit: float | None = None
-    """m; the required value."""
 
 
 class Violation(NamedTuple):

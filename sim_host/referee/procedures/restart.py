@@ -20,11 +20,12 @@ from schemas.game import Card, EventKind, GameStage, OfficiatingMode, Phase
 from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.referee.game import set_piece
 from sim_host.referee.game.restart import Restart
+from sim_host.referee.game.set_piece import PositionFault
 from sim_host.referee.game.timing import reached
 from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.clear_ground import clear_restart
 from sim_host.referee.placement.legal_poses import legal_poses
-from sim_host.referee.placement.positions import PositionFault, is_spot_covered, position_faults
+from sim_host.referee.placement.positions import is_spot_covered, position_faults
 from sim_host.referee.procedures import advantage, discipline, offences
 from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.situation import Situation

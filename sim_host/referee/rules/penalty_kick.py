@@ -20,7 +20,7 @@ from schemas.game import EventKind, GameStage, Phase
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.restart import Restart
-from sim_host.referee.game.set_piece import KICK_DURATION, SetPiece, Stray
+from sim_host.referee.game.set_piece import KICK_DURATION, PositionFault, SetPiece
 from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.rules import shoot_out
 from sim_host.referee.rules.foul import CARDS
@@ -74,12 +74,12 @@ def _is_stopped(situation: Situation, piece: SetPiece) -> bool:
     )
 
 
-def _side(situation: Situation, stray: Stray) -> Side:
+def _side(situation: Situation, stray: PositionFault) -> Side:
     return situation.match.roster.side_of(stray.robot)
 
 
 def _decision(
-    situation: Situation, strays: Sequence[Stray], outcome: str, restart: Restart, *, card: bool = True
+    situation: Situation, strays: Sequence[PositionFault], outcome: str, restart: Restart, *, card: bool = True
 ) -> Decision:
     first, ball = strays[0], situation.snapshot.ball
     robots = tuple([stray.robot for stray in strays])
