@@ -1,4 +1,4 @@
-"""The times of the launcher, in s of wall time, each with its reason."""
+"""The times of commands and launcher, in s of wall time, each with its reason."""
 
 POLL_S = 0.05
 """Between two looks at the processes of a match and at its bus: two and a half ticks."""
@@ -14,3 +14,19 @@ BUILD_S = 10.0
 """For a brain to be built where the match file allows less."""
 BUBBLEWRAP_S = 20.0
 """For bwrap to start a program that does nothing, on a busy machine."""
+HOST_S = 3.0
+"""For a host that runs to answer a command."""
+CONNECT_S = 2.0
+"""For one connection or handshake that is examined."""
+LISTEN_S = 1.5
+"""For which a host is heard when the way to it is examined: six of its reports."""
+ORDER_S = 2.0
+"""For the robots to acknowledge an order, where the command does not say."""
+PROGRAM_S = 30.0
+"""For a program that is checked to join, and for each of its commands: it may still load a model."""
+PROGRAM_ENDS_S = 1.5
+"""From SIGTERM to SIGKILL for a program that is checked, as in a match."""
+REFRESH_S = 0.1
+"""Between two states of what is shown on a terminal."""
+LINE_S = 5.0
+"""Between two lines of status on a stream that is no terminal."""

@@ -19,14 +19,7 @@ from schemas.process import leash
 from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, ROBOT_CLAIM, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
-
-_PATIENCE_S = 30.0
-"""Wall time for the program to join, and for each command."""
-_RESEND_S = 0.05
-"""Wall time after which an unanswered sight is sent again, as a host does."""
-_POLL_S = 0.01
-_END_S = 1.5
-"""Wall time from SIGTERM to SIGKILL, as in a match."""
+from touchline.timing import POLL_S, PROGRAM_ENDS_S, PROGRAM_S, WATCH_S
 
 
 class BusProgram:
@@ -70,12 +63,12 @@ class BusProgram:
             TouchlineError: it has ended, or does not answer.
         """
         self._bus.clock.sim_ns = round(sight.time * 1e9)
-        deadline, next_send = self._clock.now() + _PATIENCE_S, 0.0
+        deadline, next_send = self._clock.now() + PROGRAM_S, 0.0
         while self._clock.now() < deadline:
             if self._clock.now() >= next_send:
                 self._sights.put(sight)
-                next_send = self._clock.now() + _RESEND_S
-            received = self._commands.receive(_POLL_S)
+                next_send = self._clock.now() + POLL_S
+            received = self._commands.receive(WATCH_S)
             if received is not None:
                 try:
                     command = Command.decode(received.payload)
@@ -86,7 +79,7 @@ class BusProgram:
                     return command
             self._serve()
         raise TouchlineError(
-            f"{self._robot}: the program does not answer the sight of tick {sight.tick} within {_PATIENCE_S:g} s"
+            f"{self._robot}: the program does not answer the sight of tick {sight.tick} within {PROGRAM_S:g} s"
         )
 
     def close(self) -> None:
@@ -94,17 +87,17 @@ class BusProgram:
         for number in (signal.SIGTERM, signal.SIGKILL):
             self._popen.send_signal(number)
             with suppress(subprocess.TimeoutExpired):
-                self._popen.wait(_END_S)
+                self._popen.wait(PROGRAM_ENDS_S)
                 break
         self._bus.close()
 
     def _await_claim(self) -> None:
-        deadline = self._clock.now() + _PATIENCE_S
+        deadline = self._clock.now() + PROGRAM_S
         while not self._serve():
             if self._clock.now() >= deadline:
-                how = f"does not claim its robot within {_PATIENCE_S:g} s; see docs/protocol.md"
+                how = f"does not claim its robot within {PROGRAM_S:g} s; see docs/protocol.md"
                 raise TouchlineError(f"{self._robot}: the program {how}")
-            self._clock.sleep_until(self._clock.now() + _POLL_S)
+            self._clock.sleep_until(self._clock.now() + WATCH_S)
 
     def _serve(self) -> bool:
         """Reply to queries; returns whether the robot was claimed.

@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING
 
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
+from touchline.timing import HOST_S
 
 if TYPE_CHECKING:
     from schemas.bus.contract import Bus
-
-PATIENCE = 3.0
-"""Wall time to wait for a running host, s."""
 
 
 @contextmanager
@@ -24,7 +22,5 @@ def bus_client(connection: ClientSettings, account: Account = Account.VIEWER) ->
     from schemas.bus.zenoh.bus import open_client
     from schemas.process.clock import WallClock
 
-    with open_client(
-        connection.match, WallClock(), connection.connect, PATIENCE, connection.credentials, account
-    ) as bus:
+    with open_client(connection.match, WallClock(), connection.connect, HOST_S, connection.credentials, account) as bus:
         yield bus

@@ -12,8 +12,7 @@ from schemas.messages.admission import AdmissionRequest
 from schemas.topics import ADMISSION
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import from_options, with_option_groups
-
-_REPLY_S = 5.0
+from touchline.timing import HOST_S
 
 
 @with_option_groups
@@ -27,7 +26,7 @@ def recorder(
     request = from_options(AdmissionRequest, recorder=name)
     with bus_client(connection, Account.REFEREE) as bus:
         try:
-            bus.query(ADMISSION, request, _REPLY_S).result(_REPLY_S + 0.5)
+            bus.query(ADMISSION, request, HOST_S).result(HOST_S + 0.5)
         except NoReplyError as error:
             raise MatchFailedError(f'the host of "{bus.match}" does not answer ({error})') from None
     typer.echo(f"the host waits for {name}")

@@ -6,11 +6,12 @@ from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from touchline.cli import options
-from touchline.cli.bus_client import PATIENCE, bus_client
+from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
 from touchline.commands import orders
 from touchline.commands.bridge import bridge
 from touchline.commands.serve import serve
+from touchline.timing import HOST_S
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -36,7 +37,7 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
 
     with bus_client(connection, Account.REFEREE) as bus:
         follower = MatchFollower(bus)
-        found = follower.wait_for_state(PATIENCE)
+        found = follower.wait_for_state(HOST_S)
         names = HostClient(bus).team_names()
     if found is None and follower.health is not None:
         there = sum(robot.alive for robot in follower.health.robots.values())

@@ -10,8 +10,9 @@ import typer
 from schemas.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
 from touchline.cli import options
-from touchline.cli.bus_client import PATIENCE, bus_client
+from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
+from touchline.timing import HOST_S
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -75,7 +76,7 @@ def health(
     from touchline.health.live import LiveLedgers
 
     with bus_client(connection) as bus:
-        ledgers = LiveLedgers(bus, PATIENCE)
+        ledgers = LiveLedgers(bus, HOST_S)
         if not watch:
             _show(ledgers.newest(), json=json)
             return

@@ -16,12 +16,10 @@ from schemas.wire.struct import check
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import from_options, with_option_groups
+from touchline.timing import ORDER_S
 
 if TYPE_CHECKING:
     from coach_gateway.match.orders import Receipt
-
-ORDER_WAIT = 2.0
-"""Default wall time to wait for the robots' acknowledgements, s."""
 
 
 def _point(text: str) -> Point:
@@ -66,7 +64,7 @@ class OrderOptions:
 class AcknowledgementOptions:
     """How long to wait for acknowledgements, and how to print them."""
 
-    wait: Annotated[float, typer.Option(min=0.0, help="Time to wait for acknowledgements, s.")] = ORDER_WAIT
+    wait: Annotated[float, typer.Option(min=0.0, help="Time to wait for acknowledgements, s.")] = ORDER_S
     json: options.Json = False
 
 

@@ -10,17 +10,15 @@ from coach_gateway.settings import GatewaySettings
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import TouchlineError, did_you_mean
-from touchline.cli.bus_client import PATIENCE, bus_client
+from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
+from touchline.timing import HOST_S, REFRESH_S
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from schemas.bus.contract import Bus
     from schemas.messages.setup import Setup
-
-_EVERY = 0.1
-"""Wall time between two states of the panel, s."""
 
 
 @with_option_groups
@@ -66,11 +64,11 @@ def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
     from schemas.bus.contract import PresenceKind
     from touchline.watch.panel import panel
 
-    client, seen = HostClient(bus, PATIENCE), MatchFollower(bus, details=True)
+    client, seen = HostClient(bus, HOST_S), MatchFollower(bus, details=True)
     drawings, host_changes = DebugFollower(bus), 0
     setup, episode = client.setup(), 0
     _check_robot(robot, setup)
-    seen.host.wait(PATIENCE)
+    seen.host.wait(HOST_S)
     bus.declare_alive(PresenceKind.COACH, "watch")
     with Live(console=console, auto_refresh=False) as live:
         going = True
@@ -88,7 +86,7 @@ def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
             for row in rows:
                 row.truncate(console.width, overflow="ellipsis")
             live.update(Group(*rows), refresh=True)
-            bus.clock.sleep_until(bus.clock.now() + _EVERY)
+            bus.clock.sleep_until(bus.clock.now() + REFRESH_S)
 
 
 def _check_robot(robot: str | None, setup: "Setup") -> None:

@@ -15,9 +15,7 @@ from touchline.doctor.finding import Finding, Status
 from touchline.doctor.link import examine_link
 from touchline.doctor.machine import MachineFacts, examine_machine
 from touchline.doctor.route import examine_route
-
-_HANDSHAKE_S = 2.0
-"""Wall time for the handshake with the host, in s."""
+from touchline.timing import CONNECT_S
 
 
 def examine(connection: ClientSettings, clock: Clock, facts: MachineFacts) -> Iterator[Finding]:
@@ -51,9 +49,7 @@ def _examine_host(
         if finding.status is Status.FAILED:
             return
     try:
-        bus = open_client(
-            connection.match, clock, endpoint, _HANDSHAKE_S, connection.credentials, account=Account.VIEWER
-        )
+        bus = open_client(connection.match, clock, endpoint, CONNECT_S, connection.credentials, account=Account.VIEWER)
     except TouchlineError as error:
         yield _failed("host", error)
         return

@@ -15,12 +15,9 @@ from schemas.topics import HEALTH, WORLD
 from schemas.wire.message import VERSION, BadMessageError
 from touchline.doctor.clock_offset import ClockOffset, clock_offset
 from touchline.doctor.finding import Finding, Status
+from touchline.timing import HOST_S, LISTEN_S
 
 _ROUND_TRIPS = 50
-LISTEN_S = 1.5
-"""Wall time for which the host's messages are received, in s; it reports its health four times a second."""
-_REPLY_S = 3.0
-"""Wall time for the setup of the match, in s."""
 _OFFSET_S = 0.1
 """A larger difference of the clocks is reported, in s."""
 
@@ -28,7 +25,7 @@ _OFFSET_S = 0.1
 def examine_link(bus: ZenohBus) -> Iterator[Finding]:
     """The findings on a host that has accepted this client."""
     try:
-        setup = HostClient(bus, _REPLY_S).setup()
+        setup = HostClient(bus, HOST_S).setup()
     except (BadMessageError, TouchlineError) as error:
         yield _no_setup(bus, error)
         return

@@ -7,9 +7,8 @@ from contextlib import closing
 
 from schemas.bus.endpoint import ENCRYPTED, parse_endpoint
 from touchline.doctor.finding import Finding, Status
+from touchline.timing import CONNECT_S
 
-CONNECT_S = 2.0
-"""Wall time to wait for a connection, in s."""
 _STREAMS = ("tcp", "tls", "ws")
 _IP_MTU, _IPV6_MTU = 14, 24
 """Linux's numbers of the socket options with the path MTU of a connection."""

@@ -8,9 +8,7 @@ from schemas.bus.contract import Bus
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.health.ledger import Ledger, ledger_of
-
-_POLL_S = 0.05
-"""Wall time between two looks for a report, in s."""
+from touchline.timing import POLL_S
 
 
 class LiveLedgers:
@@ -53,4 +51,4 @@ class LiveLedgers:
         return {name: side for side, team in self._client.setup().teams.items() for name in team.robots}
 
     def _wait(self) -> None:
-        self._clock.sleep_until(self._clock.now() + _POLL_S)
+        self._clock.sleep_until(self._clock.now() + POLL_S)

@@ -9,11 +9,7 @@ from rich.progress import BarColumn, Progress, TextColumn
 from schemas.messages.replay import ReplayReply
 from schemas.process.clock import Clock
 from touchline.cli.console import console
-
-LINE_EVERY = 5.0
-"""Wall time between lines on a stream that is not a terminal, s."""
-_BAR_EVERY = 0.1
-"""Wall time between refreshes of the bar, s."""
+from touchline.timing import LINE_S, REFRESH_S
 
 
 class ProgressDisplay(Protocol):
@@ -48,11 +44,11 @@ def progress_on(stream: TextIO, clock: Clock) -> Iterator[ProgressDisplay]:
 
 def _bar(bar: Progress, clock: Clock) -> ProgressDisplay:
     task = bar.add_task("", total=1.0)
-    shown_at = -_BAR_EVERY
+    shown_at = -REFRESH_S
 
     def show(status: ReplayReply) -> None:
         nonlocal shown_at
-        if clock.now() - shown_at >= _BAR_EVERY:
+        if clock.now() - shown_at >= REFRESH_S:
             shown_at = clock.now()
             total = max(status.end - status.start, 1e-9)
             bar.update(
@@ -63,11 +59,11 @@ def _bar(bar: Progress, clock: Clock) -> ProgressDisplay:
 
 
 def _lines(stream: TextIO, clock: Clock) -> ProgressDisplay:
-    shown_at = -LINE_EVERY
+    shown_at = -LINE_S
 
     def show(status: ReplayReply) -> None:
         nonlocal shown_at
-        if clock.now() - shown_at >= LINE_EVERY:
+        if clock.now() - shown_at >= LINE_S:
             shown_at = clock.now()
             stream.write(status_text(status) + "\n")
             stream.flush()

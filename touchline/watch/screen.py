@@ -8,11 +8,7 @@ from rich.text import Text
 
 from schemas.process.clock import Clock
 from touchline.cli.console import console
-
-STATUS_EVERY = 5.0
-"""Wall time between status lines on a stream that is not a terminal, s."""
-REFRESH_EVERY = 0.1
-"""Wall time between refreshes of the live line, s."""
+from touchline.timing import LINE_S, REFRESH_S
 
 
 class Screen(Protocol):
@@ -45,12 +41,12 @@ class PlainScreen:
     def __init__(self, stream: TextIO, clock: Clock) -> None:
         self._stream = stream
         self._clock = clock
-        self._shown_at = -STATUS_EVERY
+        self._shown_at = -LINE_S
 
     def status(self, line: str) -> None:
-        """Print at most one line in `STATUS_EVERY` seconds."""
+        """Print at most one line in `LINE_S` seconds."""
         now = self._clock.now()
-        if now - self._shown_at >= STATUS_EVERY:
+        if now - self._shown_at >= LINE_S:
             self._shown_at = now
             self._write(line)
 
@@ -83,12 +79,12 @@ class LiveScreen:
         self._console = console(stream)
         self._live = Live(console=self._console, auto_refresh=False, transient=True)
         self._clock = clock
-        self._shown_at = -REFRESH_EVERY
+        self._shown_at = -REFRESH_S
 
     def status(self, line: str) -> None:
         """Rewrite the line."""
         now = self._clock.now()
-        if now - self._shown_at >= REFRESH_EVERY:
+        if now - self._shown_at >= REFRESH_S:
             self._shown_at = now
             self._live.update(Text(line, no_wrap=True, overflow="ellipsis"), refresh=True)
 

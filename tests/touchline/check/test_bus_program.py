@@ -44,7 +44,7 @@ def test_a_program_that_sends_no_commands_is_named(tmp_path: Path) -> None:
 )
 def test_a_program_that_does_not_join_is_named(code: str, how: str, monkeypatch: pytest.MonkeyPatch) -> None:
     if "claim" in how:
-        monkeypatch.setattr(bus_program, "_PATIENCE_S", 0.5)
+        monkeypatch.setattr(bus_program, "PROGRAM_S", 0.5)
     result = run_check(CHECKS[0], examination(sys.executable, "-c", code))
     assert not result.kept
     assert how in result.sentence
