@@ -67,14 +67,12 @@ class Log:
         self.memory: list[float] = []
         self.ended_at: dict[str, float] = {}
 
-    def planned(self, done: int, due: int) -> None:
-        """Nothing to show."""
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+    def __call__(self, planned: PlannedMatch, outcome: Outcome) -> str:
         """Note the time, and the memory in MB."""
         assert isinstance(outcome, Played), outcome
         self.ended_at[planned.identity] = time.time()
         self.memory.append(memory_mb())
+        return planned.label
 
 
 class TimedProcesses(FreshProcesses):

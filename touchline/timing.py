@@ -1,4 +1,4 @@
-"""The times of commands and launcher, in s of wall time, each with its reason."""
+"""The times of commands, launcher and planned matches, in s of wall time, each with its reason."""
 
 POLL_S = 0.05
 """Between two looks at the processes of a match and at its bus: two and a half ticks."""
@@ -12,6 +12,12 @@ BUILD_NOTICE_S = 3.0
 """After which a wait for brains that are built is reported."""
 BUILD_S = 10.0
 """For a brain to be built where the match file allows less."""
+DASK_CONNECT_S = 10.0
+"""To reach a Dask scheduler on another machine."""
+HANG_S = 10.0
+"""For which a brain may be silent in a planned match: a thousand times what a decision takes."""
+HANG_RENEW_S = 0.25
+"""Between two renewals of the deadline of a brain: each starts a thread."""
 BUBBLEWRAP_S = 20.0
 """For bwrap to start a program that does nothing, on a busy machine."""
 HOST_S = 3.0

@@ -25,24 +25,11 @@ brain = "random"
 """
 
 
-class ShownLines:
-    """Progress that keeps its sentences."""
-
-    def __init__(self) -> None:
-        self.lines: list[str] = []
-
-    def planned(self, done: int, due: int) -> None:
-        del done, due
-
-    def ended(self, sentence: str, *, failed: bool = False) -> None:
-        self.lines.append(f"failed: {sentence}" if failed else sentence)
-
-
-def play(run: CupRun, jobs: int, progress: ShownLines | None = None) -> CupState:
+def play(run: CupRun, jobs: int) -> CupState:
     """Play a cup in processes of this machine."""
     executor = FreshProcesses(jobs)
     try:
-        return run.play(executor, progress or ShownLines())
+        return run.play(executor)
     finally:
         executor.shutdown(cancel_futures=True)
 

@@ -51,6 +51,16 @@ StdioProgram = Annotated[
     ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
+Seeds = Annotated[str, typer.Option(metavar="SEEDS", help="A range and single seeds: 1-50, or 1-10,31.")]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Replace a key of the match file: radio.loss=0.2; repeatable."),
+]
+Jobs = Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")]
+Dask = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
+]
 
 
 def program_of(stdio: str | None) -> list[str]:

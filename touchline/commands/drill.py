@@ -28,14 +28,11 @@ def drill(
     opponents: Annotated[
         str, typer.Option(metavar="TEAM", help="The team of the other side's robots, if the scene has any.")
     ] = "simple",
-    seeds: Annotated[str, typer.Option(metavar="SEEDS", help="A range and single seeds: 1-50, or 1-10,31.")] = "1-20",
+    seeds: options.Seeds = "1-20",
     profile: options.Profile = None,
     rules: options.Rules = None,
-    change: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="A key of a match file: radio.loss=0.2; repeatable."),
-    ] = None,
-    jobs: Annotated[int, typer.Option(help="Number of drills at a time; 0 for one per core.")] = 0,
+    change: options.Changes = None,
+    jobs: options.Jobs = 0,
     json: options.Json = False,
 ) -> None:
     """Play a drill from many seeds in parallel, without a network, and print its score with an interval of 95 %.

@@ -2,7 +2,6 @@
 
 import json as json_text
 import signal
-from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,7 +13,6 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
-from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome
@@ -23,11 +21,6 @@ if TYPE_CHECKING:
 NEEDED = ("scipy", "pandas", "pyarrow", "matplotlib")
 _DEFAULT = "run"
 Folder = Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a study that was played.")]
-Jobs = Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")]
-Dask = Annotated[
-    str | None,
-    typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
-]
 Brains = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Where brains and functions are looked for; by default as then.")
 ]
@@ -66,8 +59,8 @@ def run(
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Play all matches again, also those that have a result.")
     ] = False,
-    jobs: Jobs = 0,
-    dask: Dask = None,
+    jobs: options.Jobs = 0,
+    dask: options.Dask = None,
     json: options.Json = False,
 ) -> None:
     """Play all matches of a study that have no result yet, and write results and report.
@@ -79,8 +72,7 @@ def run(
     Example: touchline experiment run studies/sides.toml --jobs 2
     """
     _need_packages()
-    from touchline.matches.engine.executors.chosen_executor import chosen_executor
-    from touchline.matches.engine.progress import ProgressReporter, progress_of
+    from touchline.matches.engine.session import session_of
     from touchline.matches.study.cells import cells_of
     from touchline.matches.study.comparisons import answers
     from touchline.matches.study.run_study import run_study
@@ -94,13 +86,19 @@ def run(
     home = (file.parent / study.match).parent if study.match is not None else file.parent
     folder = into or Path("runs") / study.name
     plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
-    with (
-        chosen_executor(jobs, dask) as chosen,
-        progress_of(len(plan.matches(study.first_seeds)), study.name, at_once=chosen.at_once, json=json) as progress,
-        _stoppable(folder),
-    ):
-        reporter = ProgressReporter(progress, _match_sentence)
-        result = run_study(plan, folder, chosen.executor, reporter, fresh=fresh, is_remote=chosen.is_remote)
+    with session_of(study.name, jobs, dask, json=json) as session, session.interruptible():
+        result = run_study(
+            plan,
+            folder,
+            session.executor,
+            _match_sentence,
+            session.progress,
+            fresh=fresh,
+            is_remote=session.is_remote,
+        )
+    if session.is_interrupted:
+        typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
+        raise typer.Exit(128 + signal.SIGINT)
     failed = result.failed
     stored = read_study(folder)
     responses = [name for name in study.responses if name in stored.table]
@@ -150,7 +148,7 @@ def verify(
     folder: Folder,
     sample: Annotated[int | None, typer.Option(min=0, help="Simulate only this many matches again.")] = None,
     brains: Brains = None,
-    jobs: Jobs = 0,
+    jobs: options.Jobs = 0,
     json: options.Json = False,
 ) -> None:
     """Check a study: digests, table, and matches simulated again. Exit status 1 if something does not fit.
@@ -163,7 +161,7 @@ def verify(
 
 
 @app.command()
-def reproduce(folder: Folder, brains: Brains = None, jobs: Jobs = 0, json: options.Json = False) -> None:
+def reproduce(folder: Folder, brains: Brains = None, jobs: options.Jobs = 0, json: options.Json = False) -> None:
     """Play all matches of a study again and compare the table of results to the byte. Exit status 1 if it differs.
 
     Example: touchline experiment reproduce studies/sides
@@ -177,15 +175,13 @@ def _check(
     _need_packages()
     from dataclasses import asdict
 
-    from touchline.matches.engine.executors.chosen_executor import chosen_executor
-    from touchline.matches.engine.progress import progress_of
+    from touchline.matches.engine.session import session_of
     from touchline.matches.study.verify_study import verify_study
 
-    with (
-        chosen_executor(jobs, None) as chosen,
-        progress_of(0, folder.name, at_once=chosen.at_once, json=json) as progress,
-    ):
-        verdict = verify_study(folder, chosen.executor, sample, brains, progress, from_recordings=from_recordings)
+    with session_of(folder.name, jobs, json=json) as session:
+        verdict = verify_study(
+            folder, session.executor, sample, brains, session.progress, from_recordings=from_recordings
+        )
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:
@@ -204,17 +200,6 @@ def _match_sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
     if isinstance(outcome, Failed):
         return f"{planned.label}: failed: {outcome.reason}"
     return f"{planned.label}: cyan {outcome.goals[Side.CYAN]} : {outcome.goals[Side.MAGENTA]} magenta"
-
-
-@contextmanager
-def _stoppable(folder: Path) -> Any:
-    """Ctrl-C, or SIGTERM, ends the study with a line on how to go on."""
-    try:
-        with sigterm_interrupts():
-            yield
-    except KeyboardInterrupt:
-        typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
-        raise typer.Exit(128 + signal.SIGINT) from None
 
 
 def _need_packages() -> None:

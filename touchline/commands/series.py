@@ -27,7 +27,7 @@ _TEAM_HELP = "The team in {}: the name of a shipped team, or module:Class; by de
 @with_option_groups
 def series(
     file: options.MatchFile = None,
-    seeds: Annotated[str, typer.Option(metavar="SEEDS", help="A range and single seeds: 1-50, or 1-10,31.")] = "1-20",
+    seeds: options.Seeds = "1-20",
     both_sides: Annotated[
         bool, typer.Option("--both-sides", help="Play each seed twice, the second time with sides swapped.")
     ] = False,
@@ -36,14 +36,11 @@ def series(
     scene: options.Scene = None,
     profile: options.Profile = None,
     rules: options.Rules = None,
-    change: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Replace a key of the match file: radio.loss=0.2; repeatable."),
-    ] = None,
+    change: options.Changes = None,
     record: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Keep a recording of each match in this folder.")
     ] = None,
-    jobs: Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")] = 0,
+    jobs: options.Jobs = 0,
     json: options.Json = False,
     *,
     changes: Annotated[dict[str, Any], FieldsOf(MatchConfig, "duration")],

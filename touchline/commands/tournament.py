@@ -2,7 +2,7 @@
 
 import json as json_text
 import signal
-from contextlib import ExitStack, closing
+from contextlib import closing, nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,7 +12,6 @@ import typer
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.errors import FAILED
-from touchline.cli.interrupts import sigterm_interrupts
 
 if TYPE_CHECKING:
     from touchline.matches.cup.cup_config import CupConfig
@@ -36,11 +35,8 @@ def tournament(
         Path | None, typer.Option(metavar="DIR", help="The folder of the cup; by default runs/ and its name.")
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with the cup of the folder.")] = False,
-    jobs: Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")] = 0,
-    dask: Annotated[
-        str | None,
-        typer.Option(metavar="ADDRESS", help="Play on the workers of this Dask scheduler: tcp://192.168.1.5:8786."),
-    ] = None,
+    jobs: options.Jobs = 0,
+    dask: options.Dask = None,
     until_significant: Annotated[
         int | None,
         typer.Option(metavar="MATCHES", help="Add rounds until the order is significant, up to this many matches."),
@@ -82,33 +78,24 @@ def tournament(
         raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
     from touchline.matches.cup.run_cup import CupRun
     from touchline.matches.cup.serve import served
-    from touchline.matches.engine.executors.chosen_executor import chosen_executor
-    from touchline.matches.engine.progress import progress_of
+    from touchline.matches.engine.session import session_of
 
     cup = _cup_of(file, until_significant)
     place = out or Path("runs") / cup.name
-    with ExitStack() as stack:
-        chosen = stack.enter_context(chosen_executor(jobs, dask))
-        run = stack.enter_context(closing(CupRun(cup, file.parent.resolve(), place, resume=resume)))
-        if web:
-            typer.echo(f"pages  {stack.enter_context(served(place, port))}", err=json)
-        state, interrupted = run.state, False
-        failed = sum(one.reason is not None for match in state.matches if (one := match.ended) is not None)
-        try:
-            with (
-                sigterm_interrupts(),
-                progress_of(
-                    len(state.due), cup.title or cup.name, at_once=chosen.at_once, failed=failed, json=json
-                ) as progress,
-            ):
-                state = run.play(chosen.executor, progress, is_remote=chosen.is_remote)
-        except KeyboardInterrupt:
-            interrupted, state = True, run.state
-    _print(state, place, json=json)
-    if interrupted:
+    with (
+        session_of(cup.title or cup.name, jobs, dask, json=json) as session,
+        closing(CupRun(cup, file.parent.resolve(), place, resume=resume)) as run,
+        served(place, port) if web else nullcontext() as address,
+    ):
+        if address is not None:
+            typer.echo(f"pages  {address}", err=json)
+        with session.interruptible():
+            run.play(session.executor, session.progress, is_remote=session.is_remote)
+    _print(run.state, place, json=json)
+    if session.is_interrupted:
         typer.echo(f"interrupted; --resume goes on with the matches that are missing in {place}", err=True)
         raise typer.Exit(128 + signal.SIGINT)
-    if not state.is_complete:
+    if not run.state.is_complete:
         raise typer.Exit(FAILED)
 
 
@@ -153,14 +140,10 @@ def _print_digest(brain: str) -> None:
 
 def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *, json: bool) -> None:
     from touchline.matches.cup.verify_cup import verify_cup
-    from touchline.matches.engine.executors.chosen_executor import chosen_executor
-    from touchline.matches.engine.progress import progress_of
+    from touchline.matches.engine.session import session_of
 
-    with (
-        chosen_executor(jobs, None) as chosen,
-        progress_of(0, f"verify {folder.name}", at_once=chosen.at_once, json=json) as progress,
-    ):
-        verdict = verify_cup(folder, chosen.executor, sample, brains, progress)
+    with session_of(f"verify {folder.name}", jobs, json=json) as session:
+        verdict = verify_cup(folder, session.executor, sample, brains, session.progress)
     if json:
         typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
     else:

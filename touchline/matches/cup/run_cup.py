@@ -1,7 +1,6 @@
 """Plays a cup: what is due is played, each outcome is stored at once, and the pages follow."""
 
 import json
-from collections.abc import Mapping
 from concurrent.futures import Executor
 from importlib.metadata import version
 from pathlib import Path
@@ -14,7 +13,7 @@ from touchline.matches.cup.cup_state import CupState, state_of
 from touchline.matches.cup.match_result import score_text
 from touchline.matches.cup.report import report_of
 from touchline.matches.cup.site import Site
-from touchline.matches.engine.outcome import Failed, Outcome
+from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import Progress
 from touchline.matches.engine.run import run_plan
@@ -42,6 +41,7 @@ class CupRun:
             self._store.close()
             raise
         self._site = Site(folder, digests)
+        self._outcomes = self._store.outcomes()
 
     def close(self) -> None:
         """Free the folder."""
@@ -50,22 +50,29 @@ class CupRun:
     @property
     def state(self) -> CupState:
         """How far the cup is."""
-        return self.plan.state(self._store.outcomes())
+        return self.plan.state(self._outcomes)
 
-    def play(self, executor: Executor, progress: Progress, *, is_remote: bool = False) -> CupState:
+    def play(self, executor: Executor, progress: Progress | None = None, *, is_remote: bool = False) -> CupState:
         """Play all matches that have no outcome yet; pages are written after each.
 
         `is_remote`: the workers do not see the folder of the cup.
         """
-        reporter = _Reporter(self.plan, self._store.outcomes(), self._site, progress)
-        self._site.write(reporter.state, running=True)
+        self._site.write(self.state, running=True)
+
+        def told(planned: PlannedMatch, outcome: Outcome) -> str:
+            self._outcomes[planned.identity] = outcome
+            state = self.state
+            self._site.write(state, running=True)
+            return _sentence(state, planned.label)
+
         try:
-            run_plan(self.plan, executor, self._store, reporter, is_remote=is_remote)
+            run_plan(self.plan, executor, self._store, told, progress, is_remote=is_remote)
         finally:
-            self._site.write(reporter.state, running=False)
-            text = json.dumps(report_of(reporter.state), ensure_ascii=False, indent=1)
+            state = self.state
+            self._site.write(state, running=False)
+            text = json.dumps(report_of(state), ensure_ascii=False, indent=1)
             (self.plan.folder / RESULT).write_text(text, "utf-8")
-        return reporter.state
+        return state
 
     def _begin(self, folder: Path, *, resume: bool) -> None:
         """Check the cup of the folder, or store this one.
@@ -94,28 +101,6 @@ def _begun(plan: CupPlan) -> StoredCup:
     return StoredCup(
         cup=plan.cup, digests=dict(plan.digests), code_folder=plan.code_folder, version=version("touchline")
     )
-
-
-class _Reporter:
-    """Writes the pages and shows the progress."""
-
-    def __init__(self, plan: CupPlan, outcomes: Mapping[str, Outcome], site: Site, progress: Progress) -> None:
-        self._plan = plan
-        self._outcomes = dict(outcomes)
-        self._site = site
-        self._progress = progress
-        self.state = plan.state(outcomes)
-
-    def planned(self, done: int, due: int) -> None:
-        """Show how many matches there are."""
-        self._progress.planned(done, due)
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-        """Write the pages with a match, and show it."""
-        self._outcomes[planned.identity] = outcome
-        self.state = self._plan.state(self._outcomes)
-        self._site.write(self.state, running=True)
-        self._progress.ended(_sentence(self.state, planned.label), failed=isinstance(outcome, Failed))
 
 
 def _sentence(state: CupState, name: str) -> str:

@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from schemas.process.clock import WallClock
+from touchline.timing import HANG_RENEW_S, HANG_S
 
-HANG_S = 10.0
-"""Wall time in s for which a brain may be silent. Chosen here: a thousand times what a decision takes."""
-_RENEW_S = 0.25
-"""Wall time in s between two renewals of the deadline: each starts a thread."""
 _ACTING, _STACK = "acting", "stack"
 _SIZE = 128
 """Bytes of the note, so that a new one covers the last one."""
@@ -51,9 +48,9 @@ class HangWatch:
     def renew(self) -> None:
         """Begin the time anew."""
         now = self._clock.now()
-        if self._stack is not None and now - self._renewed >= _RENEW_S:
+        if self._stack is not None and now - self._renewed >= HANG_RENEW_S:
             self._renewed = now
-            faulthandler.dump_traceback_later(self._seconds + _RENEW_S, exit=True, file=self._stack)
+            faulthandler.dump_traceback_later(self._seconds + HANG_RENEW_S, exit=True, file=self._stack)
 
     def close(self) -> None:
         """End the watch."""

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.side import Side
-from touchline.matches.engine.hang_watch import HANG_S
+from touchline.timing import HANG_S
 
 
 class Way(StrEnum):

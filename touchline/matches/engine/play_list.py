@@ -3,13 +3,11 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from touchline.cli.interrupts import sigterm_interrupts
-from touchline.matches.engine.executors.chosen_executor import chosen_executor
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.progress import ProgressReporter, progress_of
 from touchline.matches.engine.run import run_plan
+from touchline.matches.engine.session import session_of
 from touchline.play import InProcessMatch
 
 
@@ -41,14 +39,12 @@ def play_list(
     plan = ListPlan(tuple(matches))
     for one in {one.config.teams.model_dump_json(): one for one in reversed(matches)}.values():
         InProcessMatch(one.config, brain_folder=one.brain_folder).close()
-    with (
-        chosen_executor(jobs, None) as chosen,
-        progress_of(len(matches), title, at_once=chosen.at_once, json=json) as progress,
-    ):
-        reporter = ProgressReporter(progress, sentence_of)
-        try:
-            with sigterm_interrupts():
-                run_plan(plan, chosen.executor, None, reporter)
-        except KeyboardInterrupt:
-            return PlayedList(reporter.outcomes, is_interrupted=True)
-        return PlayedList(reporter.outcomes, is_interrupted=False)
+    outcomes: dict[str, Outcome] = {}
+
+    def told(planned: PlannedMatch, outcome: Outcome) -> str:
+        outcomes[planned.identity] = outcome
+        return sentence_of(planned, outcome)
+
+    with session_of(title, jobs, json=json) as session, session.interruptible():
+        run_plan(plan, session.executor, None, told, session.progress)
+    return PlayedList(outcomes, session.is_interrupted)

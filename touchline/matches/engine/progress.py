@@ -11,53 +11,32 @@ from typing import Protocol
 
 from schemas.process.clock import WallClock
 from touchline.cli.console import console
-from touchline.matches.engine.outcome import Failed, Outcome
-from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run_counts import RunCounts
 
 
 class Progress(Protocol):
     """What is shown while matches are played."""
 
-    def planned(self, done: int, due: int) -> None:
-        """Show that `done` matches have ended and `due` can be played now, those that are being played among them."""
+    def planned(self, done: int, due: int, failed: int = 0) -> None:
+        """Show that `done` matches have ended, `failed` of them not to their end, and `due` can be played now.
+
+        Those that are being played are due.
+        """
 
     def ended(self, sentence: str, *, failed: bool = False) -> None:
         """Show one sentence on a match that has ended; `failed` if it was not played to its end."""
 
 
-class ProgressReporter:
-    """The reporter of `run_plan` that shows progress."""
-
-    def __init__(self, progress: Progress, sentence_of: Callable[[PlannedMatch, Outcome], str]) -> None:
-        """`sentence_of` is what is shown for a match that has ended."""
-        self._progress = progress
-        self._sentence_of = sentence_of
-        self.outcomes: dict[str, Outcome] = {}
-        """Identity → outcome of the matches that have ended since then."""
-
-    def planned(self, done: int, due: int) -> None:
-        """Show how many matches there are."""
-        self._progress.planned(done, due)
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-        """Show a match."""
-        self.outcomes[planned.identity] = outcome
-        self._progress.ended(self._sentence_of(planned, outcome), failed=isinstance(outcome, Failed))
-
-
 @contextmanager
-def progress_of(total: int, title: str, *, at_once: int = 1, failed: int = 0, json: bool = False) -> Iterator[Progress]:
-    """Yields what shows the progress.
+def progress_of(title: str, *, at_once: int = 1, json: bool = False) -> Iterator[Progress]:
+    """Yields what shows the progress; no match is known before `planned` is called.
 
     Args:
-        total: matches that are to be played, as far as it is known before `planned` is called.
         title: of the bar.
         at_once: most matches that are played at a time.
-        failed: matches that have failed before this run.
         json: write one JSON object for each match.
     """
-    counts = RunCounts(WallClock(), total, at_once, failed=failed)
+    counts = RunCounts(WallClock(), at_once)
     if json:
         yield _Lines(counts, _json_line)
     elif not sys.stderr.isatty():
@@ -74,8 +53,8 @@ class _Lines:
         self._counts = counts
         self._line_of = line_of
 
-    def planned(self, done: int, due: int) -> None:
-        self._counts.done, self._counts.due = done, due
+    def planned(self, done: int, due: int, failed: int = 0) -> None:
+        self._counts.plan(done, due, failed)
 
     def ended(self, sentence: str, *, failed: bool = False) -> None:
         self._counts.add(failed=failed)
@@ -119,8 +98,8 @@ def _bar(counts: RunCounts, title: str) -> Iterator[Progress]:
     class Bar:
         """A bar, above it the matches that failed."""
 
-        def planned(self, done: int, due: int) -> None:
-            counts.done, counts.due = done, due
+        def planned(self, done: int, due: int, failed: int = 0) -> None:
+            counts.plan(done, due, failed)
             bar.update(task, total=counts.total, completed=counts.done)
 
         def ended(self, sentence: str, *, failed: bool = False) -> None:

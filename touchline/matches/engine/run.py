@@ -1,12 +1,12 @@
 """Plays a plan to its end on an executor, and stores each outcome as soon as it is there."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from schemas.errors import TouchlineError
 from touchline.matches.engine.fresh_process import DiedProcessError
@@ -15,6 +15,7 @@ from touchline.matches.engine.outcome import Failed, FailureKind, Outcome
 from touchline.matches.engine.plan import Plan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play import play
+from touchline.matches.engine.progress import Progress
 from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.worker import play_in_fresh_process
 
@@ -22,21 +23,12 @@ _ATTEMPTS = 3
 """How often a run begins a match whose process or machine is lost. One that is lost again is probably the reason."""
 
 
-class Reporter(Protocol):
-    """Shows how far a run is."""
-
-    def planned(self, done: int, due: int) -> None:
-        """`due` matches can be played now, with those that are being played; `done` have ended."""
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-        """A match has ended."""
-
-
 def run_plan(
     plan: Plan,
     executor: Executor,
     store: RunStore | None,
-    report: Reporter,
+    sentence_of: Callable[[PlannedMatch, Outcome], str],
+    progress: Progress | None = None,
     *,
     is_remote: bool = False,
     at_once: int | None = None,
@@ -50,7 +42,8 @@ def run_plan(
         plan: which matches are due.
         executor: where they are played.
         store: the state of the run; None for a run that nobody resumes.
-        report: is told of each match that has ended.
+        sentence_of: is called with each match that has ended, and returns what is shown of it.
+        progress: shows how far the run is.
         is_remote: the workers do not see the folder of the run.
         at_once: most matches that the executor is given at a time; None for all that are due.
     """
@@ -63,7 +56,9 @@ def run_plan(
     while True:
         begun = {one.identity for one in running.values()}
         due = plan.due(outcomes)
-        report.planned(len(outcomes), len(due))
+        if progress is not None:
+            failed = sum(isinstance(one, Failed) for one in outcomes.values())
+            progress.planned(len(outcomes), len(due), failed)
         waiting = (one for one in due if one.identity not in begun)
         for planned in islice(waiting, None if at_once is None else at_once - len(running)):
             running[_submitted(planned, executor, folder if is_remote else None)] = planned
@@ -82,7 +77,9 @@ def run_plan(
                 outcome = _relative(outcome, folder)
                 store.add(outcome)
             outcomes[planned.identity] = outcome
-            report.ended(planned, outcome)
+            sentence = sentence_of(planned, outcome)
+            if progress is not None:
+                progress.ended(sentence, failed=isinstance(outcome, Failed))
 
 
 def _submitted(planned: PlannedMatch, executor: Executor, folder: Path | None) -> "Future[Any]":

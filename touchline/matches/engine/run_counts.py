@@ -11,10 +11,10 @@ class RunCounts:
     """Counts of matches; those that had ended before this run began are done, too."""
 
     clock: Clock
-    due: int
-    """Matches that can be played now, with those that are being played."""
     at_once: int = 1
     """Most matches that are played at a time."""
+    due: int = 0
+    """Matches that can be played now, with those that are being played."""
     done: int = 0
     failed: int = 0
     """Those of `done` that were not played to their end."""
@@ -25,6 +25,10 @@ class RunCounts:
 
     def __post_init__(self) -> None:
         self.began = self.clock.now()
+
+    def plan(self, done: int, due: int, failed: int) -> None:
+        """So many matches are there."""
+        self.done, self.due, self.failed = done, due, failed
 
     def add(self, *, failed: bool) -> None:
         """A match has ended."""

@@ -10,9 +10,9 @@ from typing import Any
 
 from schemas.errors import MatchFailedError, TouchlineError
 from touchline.matches.engine.outcome import Failed, Outcome, Played
-from touchline.matches.engine.plan import Plan
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.run import Reporter, run_plan
+from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import FILE, RunStore
 from touchline.matches.study.digests import as_text, library_digest, team_digests, versions
 from touchline.matches.study.recording_functions import load_functions, measure
@@ -39,7 +39,8 @@ def run_study(
     plan: StudyPlan,
     folder: Path,
     executor: Executor,
-    report: Reporter,
+    sentence_of: Callable[[PlannedMatch, Outcome], str],
+    progress: Progress | None = None,
     *,
     fresh: bool = False,
     is_remote: bool = False,
@@ -59,7 +60,16 @@ def run_study(
     (folder / VERSIONS).write_text(as_text(versions(engine)), "utf-8")
     with RunStore(folder) as store:
         _check_code(store, code)
-        outcomes = play_measured(plan, plan, store, executor, functions, report, is_remote=is_remote)
+
+        def told(planned: PlannedMatch, outcome: Outcome) -> str:
+            _measure(plan, folder, functions, outcome)
+            if isinstance(outcome, Played) and planned.logs is not None:
+                shutil.rmtree(planned.logs, ignore_errors=True)
+            return sentence_of(planned, outcome)
+
+        for outcome in store.outcomes().values():
+            _measure(plan, folder, functions, outcome)
+        outcomes = run_plan(plan, executor, store, told, progress, is_remote=is_remote)
     seeds = plan.seeds_due(outcomes)
     failed = _failed(plan, seeds, outcomes)
     if len(failed) == len(plan.matches(seeds)):
@@ -71,41 +81,10 @@ def run_study(
     return StudyResult(seeds, len(table), failed)
 
 
-def play_measured(
-    study: StudyPlan,
-    due: Plan,
-    store: RunStore,
-    executor: Executor,
-    functions: Mapping[str, Callable[..., Any]],
-    report: Reporter,
-    *,
-    is_remote: bool,
-) -> dict[str, Outcome]:
-    """Play all that is due, and apply the study's functions to each recording."""
-
-    def add(outcome: Outcome) -> None:
-        if isinstance(outcome, Played) and outcome.recording is not None:
-            study.measured[outcome.identity] = measure(functions, store.folder / outcome.recording)
-
-    class Measuring:
-        """Measures each recording as soon as it is there, and removes the logs of matches that were played."""
-
-        def planned(self, done: int, due: int) -> None:
-            """Show how many matches there are."""
-            report.planned(done, due)
-
-        def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-            """Measure a match, and show it."""
-            if functions:
-                add(outcome)
-            if isinstance(outcome, Played) and planned.logs is not None:
-                shutil.rmtree(planned.logs, ignore_errors=True)
-            report.ended(planned, outcome)
-
-    if functions:
-        for outcome in store.outcomes().values():
-            add(outcome)
-    return run_plan(due, executor, store, Measuring(), is_remote=is_remote)
+def _measure(plan: StudyPlan, folder: Path, functions: Mapping[str, Callable[..., Any]], outcome: Outcome) -> None:
+    """Apply the study's functions to the recording of a match that was played."""
+    if functions and isinstance(outcome, Played) and outcome.recording is not None:
+        plan.measured[outcome.identity] = measure(functions, folder / outcome.recording)
 
 
 def _check_code(store: RunStore, code: Mapping[str, str]) -> None:

@@ -9,7 +9,7 @@ import pytest
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from support.dask_cluster import Cluster
-from touchline.matches.engine.executors import dask_cluster
+from touchline.matches.engine.dask_cluster import dask_cluster
 from touchline.matches.engine.outcome import Outcome, to_json
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
@@ -33,14 +33,12 @@ class LosesWorker:
         self._cluster = cluster
         self.ended_matches = 0
 
-    def planned(self, done: int, due: int) -> None:
-        del done, due
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+    def __call__(self, planned: PlannedMatch, outcome: Outcome) -> str:
         del planned, outcome
         self.ended_matches += 1
         if self.ended_matches == 1:
             self._cluster.workers[0].kill()
+        return ""
 
 
 def test_a_run_on_two_workers_of_which_one_is_killed_ends_with_the_same_outcomes(
@@ -48,7 +46,7 @@ def test_a_run_on_two_workers_of_which_one_is_killed_ends_with_the_same_outcomes
 ) -> None:
     plan = ListPlan(tuple(PlannedMatch(match_of(seed=seed), brain_folder=folder) for seed in range(1, 9)))
     log = LosesWorker(cluster)
-    with dask_cluster.DaskCluster(cluster.address) as executor:
+    with dask_cluster(cluster.address) as (executor, _):
         there = run_plan(plan, executor, None, log, is_remote=True)
     with ThreadPoolExecutor(1) as executor:
         here = run_plan(plan, executor, None, LosesWorker(cluster))
@@ -56,7 +54,6 @@ def test_a_run_on_two_workers_of_which_one_is_killed_ends_with_the_same_outcomes
     assert log.ended_matches == 8
 
 
-def test_a_scheduler_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dask_cluster, "CONNECT_S", 0.5)
-    with pytest.raises(TouchlineError, match="no scheduler answers"):
-        dask_cluster.DaskCluster("tcp://127.0.0.1:9")
+def test_a_scheduler_that_does_not_answer_is_named() -> None:
+    with pytest.raises(TouchlineError, match="no scheduler answers"), dask_cluster("tcp://127.0.0.1:9", connect_s=0.5):
+        pass

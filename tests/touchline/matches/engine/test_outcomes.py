@@ -26,16 +26,6 @@ from touchline.verify.resimulate import verify
 MatchOf = Callable[..., MatchConfig]
 
 
-class Silent:
-    """Shows nothing."""
-
-    def planned(self, done: int, due: int) -> None:
-        del done, due
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
-        del planned, outcome
-
-
 def in_fresh_process(planned: PlannedMatch) -> Outcome:
     """Play a match in a process of its own."""
     with FreshProcesses(1) as executor:
@@ -92,7 +82,7 @@ def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf,
         for brain in ends
     ]
     with FreshProcesses(2) as executor:
-        outcomes = run_plan(ListPlan(tuple(planned)), executor, None, Silent())
+        outcomes = run_plan(ListPlan(tuple(planned)), executor, None, lambda one, _: one.label)
     for one in planned:
         outcome = outcomes[one.identity]
         assert isinstance(outcome, Failed)

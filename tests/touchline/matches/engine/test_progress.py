@@ -3,14 +3,11 @@
 import json
 import sys
 from io import StringIO
-from pathlib import Path
 
 import pytest
 
 from schemas.process.clock import SteppedClock
-from touchline.matches.engine.outcome import Failed, FailureKind
-from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.progress import ProgressReporter, progress_of
+from touchline.matches.engine.progress import progress_of
 from touchline.matches.engine.run_counts import RunCounts
 
 
@@ -28,7 +25,7 @@ def counts(at_once: int = 2) -> tuple[RunCounts, SteppedClock]:
 
 def test_the_end_is_estimated_from_the_matches_that_have_ended_in_this_run() -> None:
     run, clock = counts()
-    run.done = 10
+    run.plan(10, 4, 0)
     assert run.remaining is None
     clock.sleep_until(6.0)
     run.add(failed=False)
@@ -54,10 +51,11 @@ def test_an_end_on_another_day_has_its_date() -> None:
 
 
 def test_without_a_terminal_each_match_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    with progress_of(3, "cup") as progress:
+    with progress_of("cup") as progress:
+        progress.planned(0, 3)
         progress.ended("one: 1 : 0")
         progress.ended("two: failed: no brain", failed=True)
-        progress.planned(2, 3)
+        progress.planned(2, 3, 1)
         progress.ended("three: 0 : 0")
     lines = capsys.readouterr().err.splitlines()
     assert lines[0].startswith("1/3 one: 1 : 0   (1 running, ends ")
@@ -66,7 +64,8 @@ def test_without_a_terminal_each_match_is_one_line(capsys: pytest.CaptureFixture
 
 
 def test_as_json_each_match_is_one_object(capsys: pytest.CaptureFixture[str]) -> None:
-    with progress_of(2, "cup", json=True) as progress:
+    with progress_of("cup", json=True) as progress:
+        progress.planned(0, 2)
         progress.ended("one: 1 : 0")
         progress.ended("two: failed", failed=True)
     captured = capsys.readouterr()
@@ -88,20 +87,10 @@ def test_on_a_terminal_a_match_that_fails_stays_above_the_bar(monkeypatch: pytes
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setenv("COLUMNS", "120")
-    with progress_of(2, "[b]cup[/b]") as progress:
+    with progress_of("[b]cup[/b]") as progress:
+        progress.planned(0, 2)
         progress.ended("[i]one: failed: no brain", failed=True)
         progress.ended("two: 1 : 0")
     text = terminal.getvalue()
     assert "[b]cup[/b]" in text and "2/2" in text and "two: 1 : 0" in text
     assert text.count("[i]one: failed: no brain") == 1
-
-
-def test_the_reporter_of_a_run_shows_outcomes_as_sentences(
-    capsys: pytest.CaptureFixture[str], match_of: object, folder: Path
-) -> None:
-    planned = PlannedMatch(match_of(), label="final")  # type: ignore[operator]
-    with progress_of(0, "cup") as progress:
-        reporter = ProgressReporter(progress, lambda one, outcome: f"{one.label} {type(outcome).__name__}")
-        reporter.planned(6, 1)
-        reporter.ended(planned, Failed(planned.identity, FailureKind.CRASHED, "no idea"))
-    assert capsys.readouterr().err == "7/7 final Failed   (1 failed)\n"

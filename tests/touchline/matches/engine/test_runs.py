@@ -34,12 +34,10 @@ class Log:
 
     ended_labels: list[str] = field(default_factory=list)
 
-    def planned(self, done: int, due: int) -> None:
-        del done, due
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+    def __call__(self, planned: PlannedMatch, outcome: Outcome) -> str:
         del outcome
         self.ended_labels.append(planned.label)
+        return planned.label
 
 
 def matches(match_of: MatchOf, folder: Path, number: int, recordings: Path | None = None) -> list[PlannedMatch]:

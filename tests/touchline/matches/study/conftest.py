@@ -91,12 +91,10 @@ class Labels:
 
     played: list[str]
 
-    def planned(self, done: int, due: int) -> None:
-        del done, due
-
-    def ended(self, planned: PlannedMatch, outcome: Outcome) -> None:
+    def __call__(self, planned: PlannedMatch, outcome: Outcome) -> str:
         del outcome
         self.played.append(planned.label)
+        return planned.label
 
 
 @pytest.fixture

@@ -1,0 +1,70 @@
+"""What a command plays its matches with: an executor that its options ask for, progress on stderr, and Ctrl-C."""
+
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from schemas.errors import TouchlineError
+from touchline.cli.interrupts import sigterm_interrupts
+from touchline.matches.engine.dask_cluster import dask_cluster
+from touchline.matches.engine.fresh_process import FreshProcesses, cores
+from touchline.matches.engine.progress import Progress, progress_of
+
+
+@dataclass(slots=True)
+class Session:
+    """Where the matches of a command are played, and what shows them."""
+
+    executor: Executor
+    progress: Progress
+    is_remote: bool
+    """Whether the workers do not see the folder of the run."""
+    is_interrupted: bool = False
+    """Whether Ctrl-C or SIGTERM has ended a block of `interruptible`."""
+
+    @contextmanager
+    def interruptible(self) -> Iterator[None]:
+        """Ctrl-C or SIGTERM ends the block without an exception, and is noted."""
+        try:
+            with sigterm_interrupts():
+                yield
+        except KeyboardInterrupt:
+            self.is_interrupted = True
+
+
+@contextmanager
+def session_of(title: str, jobs: int, dask: str | None = None, *, json: bool = False) -> Iterator[Session]:
+    """Yields the session; matches that are being played at the end of the block, as after Ctrl-C, are ended.
+
+    Args:
+        title: of the bar that shows progress.
+        jobs: matches at a time on this machine; 0 for one per core.
+        dask: address of a Dask scheduler; None for this machine.
+        json: show progress as JSON lines.
+
+    Raises:
+        TouchlineError: an option is invalid, Dask is not installed, or no scheduler answers.
+    """
+    with _executor(jobs, dask) as (executor, at_once), progress_of(title, at_once=at_once, json=json) as progress:
+        yield Session(executor, progress, is_remote=dask is not None)
+
+
+@contextmanager
+def _executor(jobs: int, dask: str | None) -> Iterator[tuple[Executor, int]]:
+    """The executor, and the number of matches that it plays at a time."""
+    if jobs < 0:
+        raise TouchlineError(f"--jobs is {jobs}; give a number of matches at a time, or 0 for one per core")
+    if dask is not None:
+        if jobs:
+            raise TouchlineError(
+                f"--jobs is {jobs}, and --dask plays one match on each thread of its workers; leave one out"
+            )
+        with dask_cluster(dask) as chosen:
+            yield chosen
+        return
+    local = FreshProcesses(jobs or cores())
+    try:
+        yield local, jobs or cores()
+    finally:
+        local.shutdown(cancel_futures=True)
