@@ -3,7 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from recordings.stats.figures import MatchFigures, SideFigures
+from recordings.stats.figures import MatchFigures
+from schemas.side import Side
 from touchline.matches.engine.outcome import Failed, Outcome, Played
 from touchline.matches.series.plan import SeedMatch, SeriesPlan
 
@@ -78,7 +79,7 @@ def rows_of(plan: SeriesPlan, outcomes: Mapping[str, Outcome]) -> list[Row]:
 
 def _played_row(number: int, match: SeedMatch, played: Played) -> MatchRow:
     figures = played.figures
-    first, second = (_team_row(figures, figures.sides[side]) for side in match.sides)
+    first, second = (_team_row(figures, side) for side in match.sides)
     return MatchRow(
         number=number,
         identity=played.identity,
@@ -94,20 +95,17 @@ def _played_row(number: int, match: SeedMatch, played: Played) -> MatchRow:
     )
 
 
-def _team_row(figures: MatchFigures, side: SideFigures) -> TeamRow:
-    name = next(one for one, of_side in figures.sides.items() if of_side is side)
-    field = [robot for robot in figures.robots if robot.side == name and not robot.keeper]
-    kicks = side.kicks
+def _team_row(figures: MatchFigures, side: Side) -> TeamRow:
+    team = figures.sides[side]
+    field = [robot for robot in figures.robots if robot.side == side and not robot.keeper]
+    kicked = ("passes", "passes_completed", "shots", "shots_on_goal")
     return TeamRow(
-        goals=side.goals or 0,
-        passes=kicks.passes if kicks is not None else 0,
-        passes_completed=kicks.passes_completed if kicks is not None else 0,
-        shots=kicks.shots if kicks is not None else 0,
-        shots_on_goal=kicks.shots_on_goal if kicks is not None else 0,
-        saves=side.saves or 0,
-        fouls=sum(side.fouls.values()),
-        cards=sum(side.cards.values()),
-        possession_s=side.possession_s or 0.0,
+        goals=team.goals or 0,
+        **{name: getattr(team.kicks, name, 0) for name in kicked},
+        saves=team.saves or 0,
+        fouls=sum(team.fouls.values()),
+        cards=sum(team.cards.values()),
+        possession_s=team.possession_s or 0.0,
         field_robots=len(field),
         field_distance=sum(robot.clock_distance for robot in field),
     )

@@ -16,7 +16,10 @@ MINUTE = 60.0
 SHARE = 1.0
 """Units of figures: a rate in so many s, or a share."""
 Value = Estimate | int | None
-Of = Callable[[MatchRow, TeamRow], float]
+Teams = Sequence[TeamRow]
+Choice = Callable[[MatchRow], Teams]
+"""The teams of a match that a value is about: one of them, or both."""
+Of = Callable[[MatchRow, Teams], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,87 +56,67 @@ class Summary:
 def summary_of(rows: Sequence[MatchRow]) -> Summary:
     """The figures of these matches."""
     rows = sorted(rows, key=lambda row: row.number)
+    each: list[Choice] = [lambda row: row.teams[:1], lambda row: row.teams[1:]]
+    sides: list[Choice] = [lambda row: _by_side(row)[:1], lambda row: _by_side(row)[1:]]
+    both: list[Choice] = [lambda row: row.teams]
     return Summary(
         matches=len(rows),
-        teams=[*_results(rows, lambda row: row.teams), *(_by_team(rows, *figure) for figure in _TEAM)],
-        sides=_results(rows, _by_side),
-        match=[_of_match(rows, *figure) for figure in _MATCH] if rows else [],
+        teams=[*_results(rows, each), *(_figure(rows, each, *figure) for figure in _TEAM)],
+        sides=_results(rows, sides),
+        match=[_figure(rows, both, *figure) for figure in _MATCH] if rows else [],
         longest=[Longest(name, max(map(of, rows)), max(rows, key=of)) for name, of in _LONGEST if rows],
     )
 
 
-def _by_side(row: MatchRow) -> tuple[TeamRow, TeamRow]:
-    first, second = row.teams
-    return (second, first) if row.swapped else (first, second)
+def _by_side(row: MatchRow) -> Teams:
+    return row.teams[::-1] if row.swapped else row.teams
 
 
-def _results(rows: Sequence[MatchRow], pair: Callable[[MatchRow], tuple[TeamRow, TeamRow]]) -> list[Figure]:
-    leads = [pair(row)[0].goals - pair(row)[1].goals for row in rows]
+def _results(rows: Sequence[MatchRow], choices: Sequence[Choice]) -> list[Figure]:
+    """What two teams have won and scored."""
+    first, second = choices
+    leads = [first(row)[0].goals - second(row)[0].goals for row in rows]
     won, lost = sum(lead > 0 for lead in leads), sum(lead < 0 for lead in leads)
     drawn = len(leads) - won - lost
+    points = (share(won + drawn / 2, len(leads)), share(lost + drawn / 2, len(leads)))
     return [
         Figure("won", (won, lost)),
         Figure("drawn", (drawn, drawn)),
         Figure("lost", (lost, won)),
-        Figure(
-            "share of points, draws half",
-            (share(won + drawn / 2, len(leads)), share(lost + drawn / 2, len(leads))),
-            percent=True,
-        ),
-        Figure("goals in ten minutes", tuple(_goals(rows, pair, which) for which in (0, 1))),
+        Figure("share of points, draws half", points, percent=True),
+        _figure(rows, choices, "goals in ten minutes", _of("goals"), _time, TEN_MINUTES),
     ]
 
 
-def _goals(
-    rows: Sequence[MatchRow], pair: Callable[[MatchRow], tuple[TeamRow, TeamRow]], which: int
-) -> Estimate | None:
-    return _rate(rows, lambda row: pair(row)[which].goals, _playing, TEN_MINUTES)
+def _figure(rows: Sequence[MatchRow], choices: Sequence[Choice], name: str, count: Of, size: Of, unit: float) -> Figure:
+    return Figure(name, tuple(_rate(rows, one, count, size, unit) for one in choices), percent=unit == SHARE)
 
 
-def _rate(
-    rows: Sequence[MatchRow], count: Callable[[MatchRow], float], size: Callable[[MatchRow], float], unit: float
-) -> Estimate | None:
+def _rate(rows: Sequence[MatchRow], teams: Choice, count: Of, size: Of, unit: float) -> Estimate | None:
     """Counts by sizes; all matches of a seed are one sample."""
     counts: dict[int, float] = defaultdict(float)
     sizes: dict[int, float] = defaultdict(float)
     for row in rows:
-        counts[row.seed] += count(row)
-        sizes[row.seed] += size(row)
+        counts[row.seed] += count(row, teams(row))
+        sizes[row.seed] += size(row, teams(row))
     found = ratio(list(counts.values()), list(sizes.values()), most=1.0 if unit == SHARE else math.inf)
     return found.scaled(unit) if found is not None else None
 
 
-def _playing(row: MatchRow) -> float:
-    return row.playing_time
-
-
-def _by_team(rows: Sequence[MatchRow], name: str, count: Of, size: Of, unit: float) -> Figure:
-    values = tuple(
-        _rate(
-            rows,
-            lambda row, which=which: count(row, row.teams[which]),  # type: ignore[misc]
-            lambda row, which=which: size(row, row.teams[which]),  # type: ignore[misc]
-            unit,
-        )
-        for which in (0, 1)
-    )
-    return Figure(name, values, percent=unit == SHARE)
-
-
-def _time(row: MatchRow, _: TeamRow) -> float:
-    return row.playing_time
-
-
-def _field_robots_time(row: MatchRow, team: TeamRow) -> float:
-    return team.field_robots * row.playing_time
-
-
-def _controlled_time(row: MatchRow, _: TeamRow) -> float:
-    return sum(team.possession_s for team in row.teams)
-
-
 def _of(field: str) -> Of:
-    return lambda _, team: float(getattr(team, field))
+    return lambda _, teams: float(sum(getattr(team, field) for team in teams))
+
+
+def _time(row: MatchRow, _: Teams) -> float:
+    return row.playing_time
+
+
+def _field_robots_time(row: MatchRow, teams: Teams) -> float:
+    return sum(team.field_robots for team in teams) * row.playing_time
+
+
+def _controlled_time(row: MatchRow, _: Teams) -> float:
+    return sum(team.possession_s for team in row.teams)
 
 
 _TEAM: tuple[tuple[str, Of, Of, float], ...] = (
@@ -147,31 +130,16 @@ _TEAM: tuple[tuple[str, Of, Of, float], ...] = (
     ("cards in ten minutes", _of("cards"), _time, TEN_MINUTES),
     ("m of a field robot in ten minutes", _of("field_distance"), _field_robots_time, TEN_MINUTES),
 )
-"""Name, what is counted, by what it is divided, and the unit."""
-
-
-def _of_match(
-    rows: Sequence[MatchRow],
-    name: str,
-    count: Callable[[MatchRow], float],
-    size: Callable[[MatchRow], float],
-    unit: float,
-) -> Figure:
-    return Figure(name, (_rate(rows, count, size, unit),), percent=unit == SHARE)
-
-
-def _both(field: str) -> Callable[[MatchRow], float]:
-    return lambda row: float(sum(getattr(team, field) for team in row.teams))
-
-
-_MATCH: tuple[tuple[str, Callable[[MatchRow], float], Callable[[MatchRow], float], float], ...] = (
-    ("goals of both in ten minutes", _both("goals"), _playing, TEN_MINUTES),
-    ("passes of both completed a minute", _both("passes_completed"), _playing, MINUTE),
-    ("passes of both completed", _both("passes_completed"), _both("passes"), SHARE),
-    ("ball in play", lambda row: row.in_play_s, _playing, SHARE),
-    ("fouls of both a minute", _both("fouls"), _playing, MINUTE),
-    ("three or more robots within 1 m of the ball", lambda row: row.crowded_s, lambda row: row.in_play_s, SHARE),
+"""Figures of each team: name, what is counted, by what it is divided, and the unit."""
+_MATCH: tuple[tuple[str, Of, Of, float], ...] = (
+    ("goals of both in ten minutes", _of("goals"), _time, TEN_MINUTES),
+    ("passes of both completed a minute", _of("passes_completed"), _time, MINUTE),
+    ("passes of both completed", _of("passes_completed"), _of("passes"), SHARE),
+    ("ball in play", lambda row, _: row.in_play_s, _time, SHARE),
+    ("fouls of both a minute", _of("fouls"), _time, MINUTE),
+    ("three or more robots within 1 m of the ball", lambda row, _: row.crowded_s, lambda row, _: row.in_play_s, SHARE),
 )
+"""Figures of both teams together."""
 _LONGEST: tuple[tuple[str, Callable[[MatchRow], float]], ...] = (
     ("longest time with three or more robots within 1 m of the ball", lambda row: row.longest_crowd_s),
     ("longest time that a robot was stuck", lambda row: row.longest_stuck_s),
