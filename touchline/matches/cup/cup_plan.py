@@ -10,16 +10,20 @@ from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
 from schemas.game import Card
 from schemas.side import Side
+from schemas.wire.message import Part
 from touchline.matches.cup.cup_config import CupConfig, TeamEntry
 from touchline.matches.cup.cup_state import CupState, Ended, Slot, state_of
 from touchline.matches.cup.match_result import MatchResult, Pair
 from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.store import RunStore
 from touchline.matches.series.team_names import brain_of
 
 RECORDINGS, LOGS = "recordings", "logs"
 """Folders in a cup's folder: a recording of each match; logs of processes, and tracebacks."""
+_DOCUMENT = "cup"
+"""Name of the document of a run that has its cup."""
 _FORFEITS = {
     FailureKind.DID_NOT_START: "did not start",
     FailureKind.CRASHED: "crashed",
@@ -102,6 +106,29 @@ class CupPlan:
         result = MatchResult((first, second), goals, forfeited_by=culprit)
         reason = f"{culprit} {_FORFEITS[failed.kind]}: {failed.reason}"
         return Ended(result, failed.identity, reason, evidence=failed.evidence)
+
+
+class _Begun(Part):
+    """What the state of a run has on its cup, besides outcomes."""
+
+    cup: CupConfig
+    digests: dict[str, str]
+    code_folder: Path
+
+
+def stored_plan(store: RunStore) -> CupPlan | None:
+    """The plan of the cup of a folder; None before it has begun."""
+    text = store.document(_DOCUMENT)
+    if text is None:
+        return None
+    begun = _Begun.model_validate_json(text)
+    return CupPlan(begun.cup, begun.code_folder, store.folder, begun.digests)
+
+
+def store_plan(store: RunStore, plan: CupPlan) -> None:
+    """Store the plan of a cup that begins."""
+    begun = _Begun(cup=plan.cup, digests=dict(plan.digests), code_folder=plan.code_folder)
+    store.set_document(_DOCUMENT, begun.model_dump_json())
 
 
 def digests_of(cup: CupConfig, code_folder: Path) -> dict[str, str]:

@@ -9,6 +9,9 @@ from touchline.matches.cup.site import signed
 from touchline.matches.series.table import aligned
 from touchline.matches.statistics.ratings import rate
 
+RESULT = "result.json"
+"""The file of tables, matches, ratings and winner, in the folder of a cup."""
+
 
 def report_of(state: CupState) -> dict[str, Any]:
     """Tables, matches, ratings and winner."""

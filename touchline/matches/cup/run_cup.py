@@ -2,16 +2,21 @@
 
 import json
 from concurrent.futures import Executor
-from importlib.metadata import version
 from pathlib import Path
 
 from schemas.errors import TouchlineError
 from touchline.matches.cup.cup_config import CupConfig
-from touchline.matches.cup.cup_documents import RESULT, StoredCup, store_cup, stored_cup
-from touchline.matches.cup.cup_plan import CupPlan, check_submitted, digests_of, match_config
+from touchline.matches.cup.cup_plan import (
+    CupPlan,
+    check_submitted,
+    digests_of,
+    match_config,
+    store_plan,
+    stored_plan,
+)
 from touchline.matches.cup.cup_state import CupState, state_of
 from touchline.matches.cup.match_result import score_text
-from touchline.matches.cup.report import report_of
+from touchline.matches.cup.report import RESULT, report_of
 from touchline.matches.cup.site import Site
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
@@ -81,9 +86,9 @@ class CupRun:
             TouchlineError: the cup cannot be begun or resumed.
         """
         plan, store = self.plan, self._store
-        stored = stored_cup(store)
+        stored = stored_plan(store)
         if stored is None:
-            store_cup(store, _begun(plan))
+            store_plan(store, plan)
             return
         if not resume:
             raise TouchlineError(f"{folder}: has a cup already; add --resume to go on, or give another --out")
@@ -95,12 +100,6 @@ class CupRun:
                     f'the files of team "{team}" have changed since the cup began; restore them, or give another --out'
                 )
         store.forget_lost()
-
-
-def _begun(plan: CupPlan) -> StoredCup:
-    return StoredCup(
-        cup=plan.cup, digests=dict(plan.digests), code_folder=plan.code_folder, version=version("touchline")
-    )
 
 
 def _sentence(state: CupState, name: str) -> str:

@@ -3,17 +3,16 @@
 import json
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.launch.team_code import team_code
-from touchline.matches.cup.cup_documents import RESULT, StoredCup, stored_cup
-from touchline.matches.cup.cup_plan import CupPlan, config_with, digests_of
+from touchline.matches.cup.cup_plan import CupPlan, config_with, digests_of, stored_plan
 from touchline.matches.cup.cup_state import CupState
-from touchline.matches.cup.report import report_of
+from touchline.matches.cup.report import RESULT, report_of
 from touchline.matches.cup.site import standings
 from touchline.matches.engine.outcome import Played
 from touchline.matches.engine.progress import Progress
@@ -59,10 +58,10 @@ def verify_cup(
     """
     folder = folder.absolute()
     with RunStore(folder, read_only=True) as store:
-        stored, outcomes = stored_cup(store), store.outcomes()
-    if stored is None:
+        plan, outcomes = stored_plan(store), store.outcomes()
+    if plan is None:
         raise TouchlineError(f"{folder}: its cup has not begun; nothing can be verified")
-    plan = CupPlan(stored.cup, code_folder or stored.code_folder, folder, stored.digests)
+    plan = replace(plan, code_folder=code_folder or plan.code_folder)
     state = plan.state(outcomes)
     matches = [plan.match(one.slot) for one in state.matches]
     known = {one.identity for one in matches}
@@ -71,7 +70,7 @@ def verify_cup(
     ]
     played = [one for one in matches if isinstance(outcomes.get(one.identity), Played)]
     again = {one.identity for one in sampled(played, sample)}
-    code_faults, notes = _code_checks(stored, plan.code_folder)
+    code_faults, notes = _code_checks(plan)
     faults += code_faults
     ticks = 0
     ended = [one for one in matches if one.identity in outcomes]
@@ -85,14 +84,14 @@ def verify_cup(
     return CupVerdict(faults, notes, len(again), ticks)
 
 
-def _code_checks(stored: StoredCup, code_folder: Path) -> tuple[list[str], list[str]]:
+def _code_checks(plan: CupPlan) -> tuple[list[str], list[str]]:
     """Faults and notes on the files of the teams."""
     faults, notes = [], []
-    now = digests_of(stored.cup, code_folder)
-    for team in stored.cup.teams:
-        if now[team.name] == stored.digests.get(team.name):
+    now = digests_of(plan.cup, plan.code_folder)
+    for team in plan.cup.teams:
+        if now[team.name] == plan.digests.get(team.name):
             continue
-        if team_code(config_with(team, stored.cup), Side.CYAN, code_folder).own:
+        if team_code(config_with(team, plan.cup), Side.CYAN, plan.code_folder).own:
             faults.append(f'the files of team "{team.name}" have changed since the cup began')
         else:
             notes.append(f'the files of team "{team.name}" are not here, or of another version; they were not checked')
