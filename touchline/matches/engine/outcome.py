@@ -1,7 +1,8 @@
 """How a match of a plan ended. An outcome holds no wall time: equal matches have equal outcomes, byte by byte."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field, TypeAdapter
@@ -66,6 +67,19 @@ class Failed:
 Outcome = Played | Failed
 _ADAPTER: TypeAdapter[Outcome] = TypeAdapter(Annotated[Outcome, Field(union_mode="left_to_right")])
 """Either type has required fields that the other lacks, so the first that fits is the right one."""
+
+
+def relative_to(outcome: Outcome, folder: Path) -> Outcome:
+    """The outcome with paths that hold where this folder is moved; those outside of it stay."""
+    if isinstance(outcome, Failed):
+        return replace(outcome, evidence=_relative(outcome.evidence, folder))
+    return replace(outcome, recording=_relative(outcome.recording, folder))
+
+
+def _relative(path: str | None, folder: Path) -> str | None:
+    if path is None or not Path(path).resolve().is_relative_to(folder.resolve()):
+        return path
+    return Path(path).resolve().relative_to(folder.resolve()).as_posix()
 
 
 def to_json(outcome: Outcome) -> bytes:

@@ -11,7 +11,7 @@ from typing import Any
 from schemas.errors import TouchlineError
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.in_process import outcome_of_death
-from touchline.matches.engine.outcome import Failed, FailureKind, Outcome
+from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, relative_to
 from touchline.matches.engine.plan import Plan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play import play
@@ -74,7 +74,7 @@ def run_plan(
                     continue  # it is due still
             _write(files, folder)
             if store is not None:
-                outcome = _relative(outcome, folder)
+                outcome = outcome if is_remote else relative_to(outcome, folder)
                 store.add(outcome)
             outcomes[planned.identity] = outcome
             sentence = sentence_of(planned, outcome)
@@ -102,19 +102,6 @@ def _delivered(future: "Future[Any]", planned: PlannedMatch) -> tuple[Outcome, M
         reason = f"its worker failed: {type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
         return Failed(planned.identity, FailureKind.WORKER, reason), {}
     return delivered if isinstance(delivered, tuple) else (delivered, {})
-
-
-def _relative(outcome: Outcome, folder: Path) -> Outcome:
-    """The outcome with paths that hold where the folder of the run is moved; those outside of it stay."""
-    if isinstance(outcome, Failed):
-        return replace(outcome, evidence=_relative_path(outcome.evidence, folder))
-    return replace(outcome, recording=_relative_path(outcome.recording, folder))
-
-
-def _relative_path(path: str | None, folder: Path) -> str | None:
-    if path is None or not Path(path).resolve().is_relative_to(folder.resolve()):
-        return path
-    return Path(path).resolve().relative_to(folder.resolve()).as_posix()
 
 
 def _write(files: Mapping[str, bytes], folder: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
 from touchline.matches.engine.in_process import outcome_of_death
-from touchline.matches.engine.outcome import Failed, Outcome
+from touchline.matches.engine.outcome import Outcome, relative_to
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play import play
 
@@ -15,7 +15,7 @@ from touchline.matches.engine.play import play
 def play_in_fresh_process(planned: PlannedMatch, folder: Path) -> tuple[Outcome, Mapping[str, bytes]]:
     """Play a match whose files belong into `folder`, the run's on the machine that asks.
 
-    Returns the outcome, and path in the folder of the run → content of all files of the match.
+    Returns the outcome with paths in that folder, and path in it → content of all files of the match.
     """
     with tempfile.TemporaryDirectory(prefix="touchline-") as temporary:
         here = Path(temporary)
@@ -27,18 +27,10 @@ def play_in_fresh_process(planned: PlannedMatch, folder: Path) -> tuple[Outcome,
                 outcome: Outcome = process.submit(play, moved).result()
             except DiedProcessError as error:
                 outcome = outcome_of_death(moved, error)
+        outcome = relative_to(outcome, here)
         files = {path.relative_to(here).as_posix(): path.read_bytes() for path in here.rglob("*") if path.is_file()}
-    return _with_paths(outcome, str(here), str(folder)), files
+    return outcome, files
 
 
 def _moved(path: Path | None, folder: Path, to: Path) -> Path | None:
     return to / path.relative_to(folder) if path is not None else None
-
-
-def _with_paths(outcome: Outcome, here: str, folder: str) -> Outcome:
-    """The outcome with the paths that its files will have."""
-    if isinstance(outcome, Failed):
-        evidence = outcome.evidence
-        return replace(outcome, evidence=evidence.replace(here, folder, 1)) if evidence else outcome
-    recording = outcome.recording
-    return replace(outcome, recording=recording.replace(here, folder, 1)) if recording else outcome
