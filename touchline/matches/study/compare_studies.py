@@ -57,16 +57,14 @@ def _compared(
     first: "pd.Series[float]", second: "pd.Series[float]", one: StoredStudy, other: StoredStudy
 ) -> tuple[Comparison, bool]:
     names = str(other.folder), str(one.folder)
-    each = sum(2 if study.plan.study.both_sides else 1 for study in (one, other))
+    sides = [2 if study.plan.study.both_sides else 1 for study in (one, other)]
     common = first.index.intersection(second.index)
     if len(common) >= 2 or min(len(first), len(second)) < 2:
-        return comparison_of(second[common] - first[common], *names, each), True
+        return comparison_of(second[common] - first[common], *names, sum(sides)), True
     test = stats.ttest_ind(second, first, equal_var=False)
     interval = test.confidence_interval(LEVEL)
     value = float(second.mean() - first.mean())
     estimate = MeanEstimate(value, float(interval.low), float(interval.high), len(first) + len(second))
-    matches = len(first) * (2 if one.plan.study.both_sides else 1) + len(second) * (
-        2 if other.plan.study.both_sides else 1
-    )
+    matches = len(first) * sides[0] + len(second) * sides[1]
     spread = float(((first.var() + second.var()) / 2) ** 0.5)
     return Comparison(*names, estimate, value / spread if spread else None, float(test.pvalue), matches), False

@@ -35,7 +35,6 @@ class StudyPlan:
     """The folder of the study, which gets recordings, where it wants any, and logs; None for neither."""
     measured: dict[str, Mapping[str, Value]] = field(default_factory=dict, repr=False, compare=False)
     """Identity of a match → values of the study's functions."""
-    _swapped: dict[int, MatchConfig] = field(init=False, default_factory=dict, repr=False, compare=False)
     _of_seeds: dict[int, tuple[SeedMatch, ...]] = field(init=False, default_factory=dict, repr=False, compare=False)
     _narrow: dict[int, bool] = field(init=False, default_factory=dict, repr=False, compare=False)
     """Number of seeds, all of which were played → whether the interval is narrow enough."""
@@ -78,9 +77,9 @@ class StudyPlan:
     def _of_seed(self, seed: int) -> Iterator[SeedMatch]:
         for number, cell in enumerate(self.cells):
             for swapped in (False, True) if self.study.both_sides else (False,):
-                config = self._config(number, cell, swapped=swapped).model_copy(update={"seed": seed})
+                config = with_sides_swapped(cell.config) if swapped else cell.config
                 label = f"cell {number + 1}, seed {seed}{', sides swapped' if swapped else ''}"
-                yield SeedMatch(self._planned(config, label), swapped, number)
+                yield SeedMatch(self._planned(config.model_copy(update={"seed": seed}), label), swapped, number)
 
     def _planned(self, config: MatchConfig, label: str) -> PlannedMatch:
         """The match as it is played."""
@@ -91,13 +90,6 @@ class StudyPlan:
             return planned
         recording = folder / recording_name(planned.identity) if study.record or study.functions else None
         return replace(planned, recording=recording, logs=folder / LOGS / planned.identity)
-
-    def _config(self, number: int, cell: Cell, *, swapped: bool) -> MatchConfig:
-        if not swapped:
-            return cell.config
-        if number not in self._swapped:
-            self._swapped[number] = with_sides_swapped(cell.config)
-        return self._swapped[number]
 
     @cached_property
     def _all_seeds(self) -> list[int]:
