@@ -14,7 +14,7 @@ from schemas.config.match_config import load_match
 from schemas.messages.command import Command, Drive
 from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.wire.message import VERSION
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.match.simulation import Simulation
 from sim_host.physics.engine import Engine
 

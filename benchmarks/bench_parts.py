@@ -20,7 +20,7 @@ from schemas.messages.command import Command, Drive
 from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.messages.record_batch import Entry, payload_fields, write_batch
 from schemas.wire.message import VERSION
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.match.world_fields import world_fields
 
 SIZES = (10, 22, 50, 100)

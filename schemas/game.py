@@ -3,11 +3,10 @@
 from enum import StrEnum
 from typing import Annotated
 
-from pydantic import Field
+from msgspec import Meta
 
 from schemas.side import Side
-from schemas.wire.message import Part
-from schemas.wire.struct import Struct
+from schemas.wire.part import Part
 from schemas.wire.units import Metres
 
 
@@ -110,7 +109,7 @@ class TeamPhase(StrEnum):
         return self.startswith("their_")
 
 
-class Point(Struct, frozen=True, kw_only=True):
+class Point(Part):
     """A point on the ground, in the frame that its owner names."""
 
     x: Metres
@@ -122,9 +121,9 @@ class Point(Struct, frozen=True, kw_only=True):
 class Score(Part):
     """Goals of both sides."""
 
-    cyan: Annotated[int, Field(ge=0)] = 0
+    cyan: Annotated[int, Meta(ge=0)] = 0
     """Goals of cyan."""
-    magenta: Annotated[int, Field(ge=0)] = 0
+    magenta: Annotated[int, Meta(ge=0)] = 0
     """Goals of magenta."""
 
     def of(self, side: Side) -> int:

@@ -6,7 +6,7 @@ from enum import StrEnum
 from functools import cache
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 MAX_CHUNK = 64
 """Most characters of one chunk of a key that is read."""
@@ -48,7 +48,7 @@ class Topic:
 
     key: str
     """Key below `touchline/{match}/`, with its variable chunks in braces."""
-    message: type[WireMessage] | None
+    message: type[Message] | None
     """The message, or the request of a query; None for a liveliness token."""
     writer: Party
     readers: tuple[Party, ...]
@@ -57,7 +57,7 @@ class Topic:
     delivery: Delivery
     recorded: bool
     description: str
-    reply: type[WireMessage] | None = None
+    reply: type[Message] | None = None
     """The reply of a query."""
     cache_size: int = 1500
     """Messages that the publisher of a `recovered` topic keeps for each key: 30 s of ticks in real time."""

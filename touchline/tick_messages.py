@@ -5,6 +5,7 @@ from typing import Any
 
 from schemas.messages.applied import Applied
 from schemas.messages.world import World
+from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.match.state_schedule import StateSchedule
 
@@ -23,5 +24,5 @@ class TickMessages:
             yield log_ns, event
         if self._schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
             yield log_ns, state.game_state(tick.tick, tick.time, episode)
-        yield log_ns, World.model_validate(tick.world)
+        yield log_ns, validated(World, tick.world)
         yield log_ns, Applied.decode(tick.applied_encoded)

@@ -19,8 +19,8 @@ from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, PARAMETERS, REFEREE_SEAT, REPLAY_CONTROL, SCENE, SETUP
 from schemas.wire.faults import FaultError
-from schemas.wire.message import BadMessageError, WireMessage
-from schemas.wire.struct_faults import validated
+from schemas.wire.message import BadMessageError, Message
+from schemas.wire.part_faults import validated
 
 M = TypeVar("M", RefereeAction, SeatRequest)
 
@@ -80,7 +80,7 @@ class HostClient:
         """The request with the name of this referee, whose presence the host sees as long as its connection is open."""
         if self._stays:
             self._bus.declare_alive(PresenceKind.REFEREE, self._referee)
-        return request.model_copy(update={"referee": self._referee})
+        return request.replace(referee=self._referee)
 
     def parameters(self, request: ParametersRequest) -> ParametersReply:
         """Ask for live parameters, or change them; the reply has whether it was accepted, and why not.
@@ -163,7 +163,7 @@ class HostClient:
         after = max(active.order.sequence if active is not None else 0, setup.orders.get(side, 0))
         return max(self._sequence + 1, after + 1, self._bus.clock.unix_ns() // 1_000_000)
 
-    def _ask(self, topic: Topic, request: WireMessage) -> Any:
+    def _ask(self, topic: Topic, request: Message) -> Any:
         try:
             return self._bus.query(topic, request, self._patience).result(self._patience)
         except NoReplyError as error:

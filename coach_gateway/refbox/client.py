@@ -231,7 +231,7 @@ class RefBoxClient:
 
     def _named(self, action: RefereeAction) -> RefereeAction:
         """The action with the name of the box, which is one referee for all base stations that are connected to it."""
-        return action.model_copy(update={"referee": box_name(self._box.host, self._box.port)})
+        return action.replace(referee=box_name(self._box.host, self._box.port))
 
     async def _start(self, action: RefereeAction) -> None:
         """Repeat START until the game runs, unless the box changes the game otherwise meanwhile.

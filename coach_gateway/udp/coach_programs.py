@@ -7,15 +7,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pydantic import ValidationError
-
 from coach_gateway.access import rights
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import COACHES, Role
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
 from coach_gateway.udp.protocol import (
     MAX_BYTES,
-    PROGRAM_REQUEST,
     Ack,
     Bye,
     Hello,
@@ -30,7 +27,8 @@ from schemas.game import ActionName
 from schemas.messages.coach import CoachMode
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
-from schemas.wire.faults import fault_of
+from schemas.wire.faults import FaultError
+from schemas.wire.part_faults import decoded
 
 MOST_WAITING = 8
 """Datagrams of one program that may wait for the host's reply; a stop is always accepted."""
@@ -124,7 +122,7 @@ class CoachPrograms:
             known = session.answer(hello.sequence)
             if known is not None and known.of == "hello":
                 session.heard_at = now
-                return known.model_copy(update={"duplicate": True})
+                return known.replace(duplicate=True)
         if sum(other.role is role for at, other in self.sessions.items() if at != address) >= MOST_OF_A_ROLE:
             return _refused(hello, f"{MOST_OF_A_ROLE} programs with {role.value}'s token are connected: the limit")
         session = Session(secrets.token_urlsafe(12), role, hello.name, now, hello.rate)
@@ -142,7 +140,7 @@ class CoachPrograms:
             return _NOTHING
         if status is SequenceStatus.ANSWERED:
             before = session.answer(ask.sequence)
-            return DatagramResult(before.model_copy(update={"duplicate": True})) if before is not None else _NOTHING
+            return DatagramResult(before.replace(duplicate=True)) if before is not None else _NOTHING
         done = self._do(session, ask, address, robots)
         if isinstance(done, PendingRequest) and session.waiting > MOST_WAITING and not done.is_stop:
             done = f"{MOST_WAITING} datagrams of this program still wait for their acknowledgements"
@@ -173,15 +171,15 @@ def _read(data: bytes) -> Any:
     if len(data) > MAX_BYTES:
         return Ack(sequence=None, accepted=False, reason=f"{len(data)} bytes, at most {MAX_BYTES}")
     try:
-        return PROGRAM_REQUEST.validate_json(data)
-    except ValidationError as error:
+        return decoded(ProgramRequest, data)
+    except FaultError as error:
         said = _object(data)
         number, kind = said.get("sequence"), said.get("kind")
         return Ack(
             sequence=number if isinstance(number, int) and not isinstance(number, bool) else None,
             of=kind if isinstance(kind, str) and len(kind) <= 20 else "",
             accepted=False,
-            reason=fault_of(error).sentence()[:300],
+            reason=str(error)[:300],
         )
 
 
@@ -208,7 +206,7 @@ def _act(
     if why is not None:
         return why
     return PendingRequest(
-        session, address, sequence, kind, action=action.model_copy(update={"source": f"coach program {session.name}"})
+        session, address, sequence, kind, action=action.replace(source=f"coach program {session.name}")
     )
 
 

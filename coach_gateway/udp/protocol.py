@@ -4,9 +4,9 @@ Each datagram of a coach has a number larger than those before it, and gets an `
 without an `ack` may be sent again with its number: it is carried out once, and acknowledged again.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated
 
-from pydantic import Field, StringConstraints, TypeAdapter
+from msgspec import Meta
 
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
@@ -14,7 +14,9 @@ from coach_gateway.udp.coach_record import MatchMode
 from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.radio import Belief
 from schemas.side import Side
-from schemas.wire.message import Name, Part
+from schemas.wire.message import PRINTABLE, Name
+from schemas.wire.part import Part
+from schemas.wire.units import MAX_WHOLE
 
 MAX_BYTES = 8192
 """A datagram that is longer is refused unread."""
@@ -22,90 +24,81 @@ DEFAULT_RATE, MAX_RATE = 20.0, 50.0
 """Frames per second of wall time."""
 
 
-class _NumberedRequest(Part):
+class _NumberedRequest(Part, tag_field="kind"):
     """Fields of every datagram of a coach."""
 
-    sequence: Annotated[int, Field(ge=1, lt=2**53, strict=True)]
+    sequence: Annotated[int, Meta(ge=1, le=MAX_WHOLE)]
     """Larger than the sequence of every datagram before it in this session."""
+
+    @property
+    def kind(self) -> str:
+        """Its kind, as in the datagram."""
+        return str(self.__struct_config__.tag)
 
 
 class _InSession(_NumberedRequest):
-    session: Annotated[str, StringConstraints(max_length=64)]
+    session: Annotated[str, Meta(max_length=64)]
     """The session in the acknowledgement of the hello."""
 
 
-class Hello(_NumberedRequest):
+class Hello(_NumberedRequest, tag="hello"):
     """Begins a session; a further hello from the same address begins another one."""
 
-    kind: Literal["hello"]
-    token: Annotated[str, StringConstraints(max_length=200)]
+    token: Annotated[str, Meta(max_length=200)]
     """The token of a side's coach, or of the referee."""
-    name: Annotated[str, StringConstraints(max_length=40, pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")] = "coach"
+    name: Annotated[str, Meta(max_length=40, pattern=PRINTABLE)] = "coach"
     """The name that the match records for its actions."""
-    rate: Annotated[float, Field(ge=1.0, le=MAX_RATE)] = DEFAULT_RATE
+    rate: Annotated[float, Meta(ge=1.0, le=MAX_RATE)] = DEFAULT_RATE
     """Frames per second of wall time."""
 
 
-class ProgramOrder(_InSession):
+class ProgramOrder(_InSession, tag="order"):
     """Sends a side its new order."""
 
-    kind: Literal["order"]
     side: Side | None = None
     """By default the coach's own side; required from the referee."""
     order: OrderContent
     """A `CoachOrder` without its number; points in that team's frame, SI."""
-    test_mode: Annotated[int, Field(ge=0, le=99)] | None = None
+    test_mode: Annotated[int, Meta(ge=0, le=99)] | None = None
     """The paper's number of a test, in place of `mode`, `test`, `with_ball` and `avoid` in the order."""
 
 
-class ProgramMatchMode(_InSession):
+class ProgramMatchMode(_InSession, tag="match_mode"):
     """Requests what is to be played, by a word or number of the paper's coach record."""
 
-    kind: Literal["match_mode"]
     mode: MatchMode | int
     side: Side | None = None
     """The side whose point of view it is; by default the coach's own, cyan for the referee."""
 
 
-class ProgramAction(_InSession):
+class ProgramAction(_InSession, tag="action"):
     """Asks the referee for an action."""
 
-    kind: Literal["action"]
     action: RefereeAction
 
 
-class ProgramEvents(_InSession):
+class ProgramEvents(_InSession, tag="events"):
     """Asks for past events again, after one was lost."""
 
-    kind: Literal["events"]
-    since: Annotated[int, Field(ge=0)]
+    since: Annotated[int, Meta(ge=0)]
     """Number of the first event to send."""
 
 
-class KeepAlive(_InSession):
+class KeepAlive(_InSession, tag="alive"):
     """Keeps the session alive, as does any other datagram."""
 
-    kind: Literal["alive"]
 
-
-class Bye(_InSession):
+class Bye(_InSession, tag="bye"):
     """Ends the session."""
 
-    kind: Literal["bye"]
+
+ProgramRequest = Hello | ProgramOrder | ProgramMatchMode | ProgramAction | ProgramEvents | KeepAlive | Bye
+"""Any datagram of a coach."""
 
 
-ProgramRequest = Annotated[
-    Hello | ProgramOrder | ProgramMatchMode | ProgramAction | ProgramEvents | KeepAlive | Bye,
-    Field(discriminator="kind"),
-]
-PROGRAM_REQUEST: TypeAdapter[ProgramRequest] = TypeAdapter(ProgramRequest)
-"""Reads a datagram of a coach."""
-
-
-class Ack(Part):
+class Ack(Part, tag_field="kind", tag="ack"):
     """The acknowledgement of the datagram of that number."""
 
-    kind: Literal["ack"] = "ack"
     sequence: int | None
     """None where the number of the datagram could not be read."""
     of: str = ""
@@ -151,10 +144,9 @@ class BelievedObstacle(Part):
     """The robots that believe it, the nearest first."""
 
 
-class Frame(Part):
+class Frame(Part, tag_field="kind", tag="frame"):
     """The state of the match, at the rate of the hello."""
 
-    kind: Literal["frame"] = "frame"
     number: int
     """Counts this session's frames, from 1; a gap is a loss."""
     host: bool
@@ -170,10 +162,9 @@ class Frame(Part):
     """Opponents and other bodies as the coach's own side believes them; as both sides do for the referee."""
 
 
-class BeliefUpdate(Part):
+class BeliefUpdate(Part, tag_field="kind", tag="belief"):
     """A robot's newest belief; sent after a frame for every robot with a new one."""
 
-    kind: Literal["belief"] = "belief"
     number: int
     """Number of the frame that it belongs to."""
     side: Side
@@ -181,17 +172,15 @@ class BeliefUpdate(Part):
     """In its team's frame."""
 
 
-class EventUpdate(Part):
+class EventUpdate(Part, tag_field="kind", tag="event"):
     """Something that happened, sent once; `events` requests a lost one."""
 
-    kind: Literal["event"] = "event"
     number: int
     """Counts the match's events, from 0."""
     event: GameEvent
 
 
-class SessionEnd(Part):
+class SessionEnd(Part, tag_field="kind", tag="bye"):
     """The session is over."""
 
-    kind: Literal["bye"] = "bye"
     reason: str

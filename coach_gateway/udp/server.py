@@ -19,7 +19,7 @@ from coach_gateway.udp.session import Address, Session
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
 from schemas.side import Side
-from schemas.wire.message import Part
+from schemas.wire.part import Part
 
 _EVENTS_AT_ONCE = 50
 """Events sent at most with one frame, or for one request for events: more would be lost in a full buffer."""
@@ -189,4 +189,4 @@ class UdpServer(asyncio.DatagramProtocol):
 
     def _send(self, message: Part, address: Address) -> None:
         if self._transport is not None and not self._transport.is_closing():
-            self._transport.sendto(message.model_dump_json().encode(), address)
+            self._transport.sendto(message.json().encode(), address)

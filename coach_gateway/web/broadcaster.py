@@ -77,11 +77,11 @@ class PageBroadcaster:
             orders=self._orders_of(role),
             scenes=self._scenes,
         )
-        page.queue.restart(welcome.model_dump_json())
+        page.queue.restart(welcome.json())
         for text in feed.snapshot():
             page.queue.put(text)
         if self._result.result is not None:
-            page.queue.put(self._result.result.model_dump_json())
+            page.queue.put(self._result.result.json())
         page.queue.put(feed.orders(self._orders_of(role)))
         frame = feed.frame(self._beliefs_of(role), self._debug_of(role))
         if frame is not None:
@@ -116,7 +116,7 @@ class PageBroadcaster:
 
     def send_replay(self, reply: ReplayReply) -> None:
         """Send all pages the status of the replay."""
-        self._pages.send(ReplayUpdate(replay=reply).model_dump_json())
+        self._pages.send(ReplayUpdate(replay=reply).json())
 
     def _beliefs_of(self, role: Role) -> list[Side]:
         """The sides whose robots' beliefs a role is shown."""
@@ -225,7 +225,7 @@ class PageBroadcaster:
             if len(self._pages):
                 seen_at = clock.now()
             if self._result.update() and self._result.result is not None:
-                self._pages.send(self._result.result.model_dump_json())
+                self._pages.send(self._result.result.json())
             if self._result.result is not None and clock.now() - seen_at > RELOAD_S:
                 return
             await asyncio.sleep(STATUS_S)

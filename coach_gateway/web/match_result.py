@@ -4,6 +4,7 @@ from pathlib import Path
 
 from coach_gateway.web.protocol import ResultUpdate
 from schemas.process.whole_file import written_whole
+from schemas.wire.part_faults import decoded
 
 FILE = "result.json"
 STATISTICS = "statistics.html"
@@ -16,7 +17,7 @@ def write_result(folder: Path, result: ResultUpdate) -> None:
     """Write the result into a folder atomically: a reader sees the new one or the previous one, whole."""
     folder.mkdir(parents=True, exist_ok=True)
     with written_whole(folder / FILE, private=True) as draft:
-        draft.write_text(result.model_dump_json(), "utf-8")
+        draft.write_text(result.json(), "utf-8")
 
 
 class ResultReader:
@@ -36,7 +37,7 @@ class ResultReader:
             written_at = self._file.stat().st_mtime_ns
             if written_at == self._read_at:
                 return False
-            self.result = ResultUpdate.model_validate_json(self._file.read_bytes())
+            self.result = decoded(ResultUpdate, self._file.read_bytes())
         except FileNotFoundError:
             return False
         self._read_at = written_at

@@ -16,7 +16,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import BELIEF, HEALTH, STATE, WORLD
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 
 _EVENTS_KEPT = 2000
 """Events of a match that are sent to a new page, the newest."""
@@ -106,7 +106,7 @@ class PageFeed:
                 shown[side.value] = SideOrders(
                     order=active.order, acknowledged=active.acknowledged, refused=active.refused
                 )
-        return OrdersUpdate.model_validate(shown).model_dump_json()
+        return OrdersUpdate(**shown).json()
 
     def _host(self) -> str:
         return f'{{"kind":"host","there":{"true" if self.host_present else "false"}}}'
@@ -114,7 +114,7 @@ class PageFeed:
     def _refbox(self) -> str:
         connected = self._match.refboxes
         team = Side(connected[0]) if len(connected) == 1 and connected[0] in list(Side) else None
-        return RefBoxUpdate(connected=bool(connected), team=team).model_dump_json()
+        return RefBoxUpdate(connected=bool(connected), team=team).json()
 
     def _event(self, event: GameEvent) -> list[str]:
         """The message of an event; none for an event that was sent before: a replay repeats what has happened."""
@@ -178,4 +178,4 @@ class PageFeed:
 
 
 def _event_text(event: GameEvent) -> str:
-    return EventUpdate(event=event).model_dump_json()
+    return EventUpdate(event=event).json()

@@ -8,9 +8,9 @@ of the page gets one `Reply` with its `id`; a `drive` only if it is refused.
 Messages of the host are passed on whole, below a field that names them: an event has a `kind` of its own.
 """
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
-from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
+from msgspec import Meta
 
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
@@ -27,14 +27,16 @@ from schemas.messages.scene import SceneRequest
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
-from schemas.wire.faults import fault_of
-from schemas.wire.message import Name, Part
+from schemas.wire.faults import FaultError, FaultKind
+from schemas.wire.message import Name
+from schemas.wire.part import Part
+from schemas.wire.part_faults import decoded
+from schemas.wire.units import MAX_WHOLE
 
 
-class Welcome(Part):
+class Welcome(Part, tag_field="kind", tag="welcome"):
     """The page's role, and what is played; everything sent before is void."""
 
-    kind: Literal["welcome"] = "welcome"
     role: Role
     match: Name | None
     setup: Setup | None
@@ -54,20 +56,18 @@ class Welcome(Part):
     """Scenes that can be loaded by name, with their descriptions."""
 
 
-class HostUpdate(Part):
+class HostUpdate(Part, tag_field="kind", tag="host"):
     """Whether the host of the match is there."""
 
-    kind: Literal["host"] = "host"
     there: bool
 
 
-class Frame(Part):
+class Frame(Part, tag_field="kind", tag="frame"):
     """The newest tick, at most 25 times per second of wall time; ticks in between are left out.
 
     Numbers are rounded to three decimals: mm, mm/s, mrad, ms.
     """
 
-    kind: Literal["frame"] = "frame"
     tick: int
     time: float
     world: World
@@ -77,24 +77,21 @@ class Frame(Part):
     """Drawings of robots of the sides in `Welcome.debug` that belong to this tick, or to one of the last 0.5 s."""
 
 
-class StateUpdate(Part):
+class StateUpdate(Part, tag_field="kind", tag="state"):
     """The state of the game."""
 
-    kind: Literal["state"] = "state"
     state: GameState
 
 
-class EventUpdate(Part):
+class EventUpdate(Part, tag_field="kind", tag="event"):
     """Something that happened. In a replay all events of the recording come after the welcome, and none again."""
 
-    kind: Literal["event"] = "event"
     event: GameEvent
 
 
-class HealthUpdate(Part):
+class HealthUpdate(Part, tag_field="kind", tag="health"):
     """The health of the host and of each robot's agent."""
 
-    kind: Literal["health"] = "health"
     health: Health
 
 
@@ -108,34 +105,30 @@ class SideOrders(Part):
     """Robot that does not carry it out → the reason."""
 
 
-class OrdersUpdate(Part):
+class OrdersUpdate(Part, tag_field="kind", tag="orders"):
     """The orders of the sides in `Welcome.orders`; None for the others."""
 
-    kind: Literal["orders"] = "orders"
     cyan: SideOrders | None = None
     magenta: SideOrders | None = None
 
 
-class ReplayUpdate(Part):
+class ReplayUpdate(Part, tag_field="kind", tag="replay"):
     """The status of a replay, several times a second."""
 
-    kind: Literal["replay"] = "replay"
     replay: ReplayReply
 
 
-class RefBoxUpdate(Part):
+class RefBoxUpdate(Part, tag_field="kind", tag="refbox"):
     """Whether a league's referee box is connected: while it is, all actions of the referee except stop are locked."""
 
-    kind: Literal["refbox"] = "refbox"
     connected: bool
     team: Side | None = None
     """Side whose base station is connected; None where both are, or where it is not known."""
 
 
-class ResultUpdate(Part):
+class ResultUpdate(Part, tag_field="kind", tag="result"):
     """What is left of a match that is over; sent again when more of it is known."""
 
-    kind: Literal["result"] = "result"
     figures: list[tuple[str, str, str]] = []
     """Name of a figure, its value for cyan and for magenta; empty until they are known, and without a recording."""
     statistics: str | None = None
@@ -144,16 +137,13 @@ class ResultUpdate(Part):
     """The command that plays the recording again; None without one."""
 
 
-class Alive(Part):
+class Alive(Part, tag_field="kind", tag="alive"):
     """Sent twice a second. A page that receives nothing for several seconds has lost the connection."""
 
-    kind: Literal["alive"] = "alive"
 
-
-class Reply(Part):
+class Reply(Part, tag_field="kind", tag="reply"):
     """The reply to the page's message of this number."""
 
-    kind: Literal["reply"] = "reply"
     id: int | None
     """None where the number of the message could not be read."""
     accepted: bool
@@ -163,10 +153,9 @@ class Reply(Part):
     """Content of the host's `ParametersReply`, `SceneReply` or `ReplayReply`; of an order, the order as sent."""
 
 
-class Refusal(Part):
+class Refusal(Part, tag_field="kind", tag="refusal"):
     """Why the server closes this connection; the page may try again after a while."""
 
-    kind: Literal["refusal"] = "refusal"
     reason: str
 
 
@@ -187,96 +176,87 @@ ServerMessage = (
 )
 """Any message of the server."""
 
-Token = Annotated[str, StringConstraints(max_length=200)]
+Token = Annotated[str, Meta(max_length=200)]
 
 
-class _PageRequest(Part):
+class _PageRequest(Part, tag_field="deed"):
     """Fields of every message of the page."""
 
-    id: Annotated[int, Field(ge=0, lt=2**53)]
+    id: Annotated[int, Meta(ge=0, le=MAX_WHOLE)]
     """Counted by the page; the reply has the same."""
     token: Token = ""
     """Empty for a spectator."""
 
+    @property
+    def deed(self) -> str:
+        """Its kind, as in the message."""
+        return str(self.__struct_config__.tag)
 
-class PageAction(_PageRequest):
+
+class PageAction(_PageRequest, tag="action"):
     """Asks the referee for an action; `source` is filled in by the server."""
 
-    deed: Literal["action"]
     action: RefereeAction
 
 
-class PageOrder(_PageRequest):
+class PageOrder(_PageRequest, tag="order"):
     """Sends a side its new order; points in that team's frame."""
 
-    deed: Literal["order"]
     side: Side
     order: OrderContent
 
 
-class PageScene(_PageRequest):
+class PageScene(_PageRequest, tag="scene"):
     """Places, adds or removes bodies, loads a scene, or starts over."""
 
-    deed: Literal["scene"]
     request: SceneRequest
 
 
-class PageParameters(_PageRequest):
+class PageParameters(_PageRequest, tag="parameters"):
     """Reads, sets or resets live parameters."""
 
-    deed: Literal["parameters"]
     request: ParametersRequest
 
 
-class PageDrive(_PageRequest):
+class PageDrive(_PageRequest, tag="drive"):
     """Drives a robot in place of its brain, 20 times a second; gets a reply only if it is refused."""
 
-    deed: Literal["drive"]
     robot: Name
     manual: ManualDrive
 
 
-class PageReplay(_PageRequest):
+class PageReplay(_PageRequest, tag="replay"):
     """Controls a replay: play, pause, step, seek."""
 
-    deed: Literal["replay"]
     request: ReplayRequest
 
 
-class PageSeat(_PageRequest):
+class PageSeat(_PageRequest, tag="referee_seat"):
     """Shows, takes or leaves the seat of the referee."""
 
-    deed: Literal["referee_seat"]
     operation: SeatOperation
 
 
-class PageTokenCheck(_PageRequest):
+class PageTokenCheck(_PageRequest, tag="token"):
     """Checks the token: a new welcome comes with another role; an unknown token is refused."""
 
-    deed: Literal["token"]
 
-
-PageRequest = Annotated[
-    PageAction | PageOrder | PageScene | PageParameters | PageDrive | PageReplay | PageSeat | PageTokenCheck,
-    Field(discriminator="deed"),
-]
+PageRequest = PageAction | PageOrder | PageScene | PageParameters | PageDrive | PageReplay | PageSeat | PageTokenCheck
 """Any message of the page."""
-
-PAGE_REQUEST: TypeAdapter[PageRequest] = TypeAdapter(PageRequest)
-"""Reads a message of the page."""
-_ENVELOPE = {"action": "action", "order": "order", "scene": "request", "parameters": "request", "replay": "request"}
-_ENVELOPE |= {"drive": "manual", "token": ""}
-"""Deed → the field of its message that holds what people have entered."""
+_ENTERED = frozenset({"action", "order", "request", "manual"})
+"""Fields that hold what people have entered."""
 
 
-def fault_sentence(error: ValidationError) -> str:
-    """What is wrong with a message of the page, without the names of what is around the value that was entered."""
-    fault = fault_of(error)
-    steps = fault.path[1:] if fault.path and fault.path[0] in _ENVELOPE else fault.path
-    if len(fault.path) > 1 and steps[:1] == (_ENVELOPE.get(str(fault.path[0])),):
-        steps = steps[1:]
-    return fault._replace(path=steps).sentence()
+def read_request(text: str) -> PageRequest:
+    """A message of the page.
 
-
-SERVER_MESSAGE: TypeAdapter[ServerMessage] = TypeAdapter(Annotated[ServerMessage, Field(discriminator="kind")])
-"""Reads a message of the server."""
+    Raises:
+        FaultError: it is invalid; the path begins at the value that was entered.
+    """
+    try:
+        request: PageRequest = decoded(PageRequest, text)
+    except FaultError as error:
+        fault = error.fault
+        is_entered = bool(_ENTERED & {*fault.path[:1]}) and (len(fault.path) > 1 or fault.kind is FaultKind.RULE)
+        raise FaultError(fault._replace(path=fault.path[1:]) if is_entered else fault) from None
+    return request

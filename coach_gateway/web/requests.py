@@ -26,7 +26,7 @@ from schemas.messages.coach import CoachOrder
 from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
 from schemas.topics import MANUAL
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
 """Role → the source that the match records for a request."""
@@ -78,13 +78,13 @@ class RequestHandler:
         source = {"source": SOURCES.get(role, role.value)}
         match request:
             case PageAction():
-                action = request.action.model_copy(update=source)
+                action = request.action.replace(**source)
                 return lambda: self.client.act(action)
             case PageScene():
-                scene = request.request.model_copy(update=source)
+                scene = request.request.replace(**source)
                 return lambda: self.client.scene(scene)
             case PageParameters():
-                parameters = request.request.model_copy(update=source)
+                parameters = request.request.replace(**source)
                 return lambda: self.client.parameters(parameters)
             case PageReplay():
                 replay = request.request
@@ -127,6 +127,6 @@ def _accepted(request: PageRequest, order: CoachOrder) -> Reply:
     return Reply(id=request.id, accepted=True, answer=_content(order))
 
 
-def _content(reply: WireMessage) -> dict[str, Any] | None:
+def _content(reply: Message) -> dict[str, Any] | None:
     """The fields of a reply besides `accepted` and `reason`."""
     return {name: value for name, value in reply.plain().items() if name not in _IN_EVERY_REPLY} or None

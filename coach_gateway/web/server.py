@@ -59,7 +59,7 @@ class WebServer:
 
     async def _send_alive(self) -> None:
         """Send all pages a sign of life."""
-        text = Alive().model_dump_json()
+        text = Alive().json()
         while True:
             self.pages.send(text)
             await asyncio.sleep(PAGE_ALIVE_S)

@@ -6,7 +6,6 @@ Before there is a match, pages learn whether their token is right, and command n
 import asyncio
 import contextlib
 
-from pydantic import ValidationError
 from pydantic_core import from_json
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
@@ -18,7 +17,6 @@ from coach_gateway.timing import PAGE_CLOSING_S, PAGE_TOKEN_S
 from coach_gateway.web.broadcaster import PageBroadcaster
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import (
-    PAGE_REQUEST,
     HostUpdate,
     PageDrive,
     PageRequest,
@@ -26,9 +24,10 @@ from coach_gateway.web.protocol import (
     Refusal,
     Reply,
     Welcome,
-    fault_sentence,
+    read_request,
 )
 from coach_gateway.web.requests import is_stop
+from schemas.wire.faults import FaultError
 
 _MOST_PENDING = 8
 """Requests of one page that may wait for their replies."""
@@ -76,10 +75,10 @@ class SocketEndpoint:
 
     async def _first_with_token(self, socket: WebSocket) -> str | None:
         """The first message of a page, if it has a known token: it is admitted however many people watch."""
-        with contextlib.suppress(TimeoutError, ValidationError, WebSocketDisconnect):
+        with contextlib.suppress(TimeoutError, FaultError, WebSocketDisconnect):
             async with asyncio.timeout(PAGE_TOKEN_S):
                 text = await socket.receive_text()
-            if self._tokens.role_of(PAGE_REQUEST.validate_json(text).token) not in (None, Role.SPECTATOR):
+            if self._tokens.role_of(read_request(text).token) not in (None, Role.SPECTATOR):
                 return text
         return None
 
@@ -89,8 +88,8 @@ class SocketEndpoint:
             return
         name = self._match_name
         welcome = Welcome(role=page.role, match=name, setup=None, live=True, deeds=[], beliefs=[], orders=[])
-        page.queue.restart(welcome.model_dump_json())
-        page.queue.put(HostUpdate(there=False).model_dump_json())
+        page.queue.restart(welcome.json())
+        page.queue.put(HostUpdate(there=False).json())
 
     async def _run(self, socket: WebSocket, page: Page) -> None:
         """Serve a page until it leaves, or does not read what it is sent."""
@@ -139,9 +138,9 @@ class SocketEndpoint:
             why = "only text messages are read"
         else:
             try:
-                return PAGE_REQUEST.validate_json(text)
-            except ValidationError as error:
-                number, why = _number(text), fault_sentence(error)
+                return read_request(text)
+            except FaultError as error:
+                number, why = _number(text), str(error)
         self._refusals.note("unreadable message", page.address, why)
         _refuse(page, number, why)
         return None
@@ -149,7 +148,7 @@ class SocketEndpoint:
     def _handle(self, page: Page, role: Role, request: PageRequest) -> None:
         match = self.match
         if isinstance(request, PageTokenCheck):
-            page.queue.put(Reply(id=request.id, accepted=True).model_dump_json())
+            page.queue.put(Reply(id=request.id, accepted=True).json())
             if role is not page.role:
                 page.role = role
                 self._welcome(page)
@@ -167,7 +166,7 @@ class SocketEndpoint:
     async def _answer(self, match: PageBroadcaster, page: Page, role: Role, request: PageRequest) -> None:
         """Send a request to the match, and the reply to the page."""
         reply = await match.requests.answer(role, request)
-        page.queue.put(reply.model_dump_json())
+        page.queue.put(reply.json())
 
 
 def _why_busy(page: Page, request: PageRequest) -> str | None:
@@ -178,14 +177,14 @@ def _why_busy(page: Page, request: PageRequest) -> str | None:
 
 
 def _refuse(page: Page, number: int | None, why: str) -> None:
-    page.queue.put(Reply(id=number, accepted=False, reason=why).model_dump_json())
+    page.queue.put(Reply(id=number, accepted=False, reason=why).json())
 
 
 async def _close(socket: WebSocket, why: str) -> None:
     """Send a page why it is closed, and close it, without waiting for a page that does not read."""
     with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError):
         async with asyncio.timeout(PAGE_CLOSING_S):
-            await socket.send_text(Refusal(reason=why).model_dump_json())
+            await socket.send_text(Refusal(reason=why).json())
             await socket.close(_TRY_AGAIN, why)
 
 

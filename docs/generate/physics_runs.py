@@ -77,10 +77,7 @@ def play(
     placements = [Placement(body=name, x=x, y=y, heading=heading) for name, (x, y, heading) in poses.items()]
     if launch is not None:
         (vx, vy, vz), z = launch, profile.ball.radius + height
-        placements = [
-            at.model_copy(update={"vx": vx, "vy": vy, "vz": vz, "z": z}) if at.body == "ball" else at
-            for at in placements
-        ]
+        placements = [at.replace(vx=vx, vy=vy, vz=vz, z=z) if at.body == "ball" else at for at in placements]
     world.place(placements)
     rest = dict.fromkeys(NAMES, told())
     snapshots = [world.snapshot()]

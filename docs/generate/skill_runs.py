@@ -14,6 +14,7 @@ from schemas.messages.command import Command, Drive, Kick
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.messages.world import World
+from schemas.wire.part_faults import validated
 from touchline import skills
 from touchline.play import InProcessMatch
 
@@ -188,9 +189,9 @@ def play(run: Run) -> tuple[Setup, list[World]]:
     match = InProcessMatch(config, {"cyan2": _Still()})
     setup = match.simulation.setup()
     match.brains["cyan2"] = _Brain(run.skill, setup.for_robot("cyan2"))
-    worlds = [World.model_validate(match.simulation.now.world)]
+    worlds = [validated(World, match.simulation.now.world)]
     while worlds[-1].time < run.seconds:
-        worlds.append(World.model_validate(match.step().world))
+        worlds.append(validated(World, match.step().world))
     match.simulation.close()
     return setup, worlds
 

@@ -1,14 +1,13 @@
 """The files attached to a recording, before its first message."""
 
-from pydantic_core import to_json
-
 from recordings.container.json_schema import whole_schema
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import profile_tables
 from schemas.config.rule_book import rule_book_tables
 from schemas.topic import Delivery
 from schemas.topics import TOPICS
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
+from schemas.wire.part import encode
 
 MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
 """Suffix of an attachment → its media type."""
@@ -20,14 +19,14 @@ RULE_BOOK = "rules.json"
 
 def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
     """Return the full schemas of all messages, and match file, profile and rule book if there is a `config`."""
-    models: dict[str, type[WireMessage]] = {
+    models: dict[str, type[Message]] = {
         topic.message.__name__: topic.message
         for topic in TOPICS.values()
         if topic.message is not None and topic.delivery is not Delivery.QUERY  # queries are not recorded
     }
-    files = {"message_schemas.json": to_json({name: whole_schema(model) for name, model in models.items()})}
+    files = {"message_schemas.json": encode({name: whole_schema(model) for name, model in models.items()})}
     if config is not None:
-        files["match.json"] = to_json(config)
-        files[PROFILE] = to_json(config.profile_tables or profile_tables(config.profile))
-        files[RULE_BOOK] = to_json(config.rule_book_tables or rule_book_tables(config.rules))
+        files["match.json"] = encode(config)
+        files[PROFILE] = encode(config.profile_tables or profile_tables(config.profile))
+        files[RULE_BOOK] = encode(config.rule_book_tables or rule_book_tables(config.rules))
     return files

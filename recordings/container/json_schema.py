@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from functools import cache
 from typing import Any
 
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 _KEPT = ("title", "description", "enum", "contentEncoding")
 """Keywords that a viewer may show for a field, besides its type."""
@@ -19,7 +19,7 @@ _BY_ROBOT = frozenset({"robots", "inputs"})
 
 
 @cache
-def whole_schema(model: type[WireMessage]) -> dict[str, Any]:
+def whole_schema(model: type[Message]) -> dict[str, Any]:
     """The full JSON Schema of a message as it is sent on the bus. Callers must not modify it.
 
     Generating the schemas of all messages takes as long as a dozen ticks, so a recorder does it once, before the first.
@@ -27,7 +27,7 @@ def whole_schema(model: type[WireMessage]) -> dict[str, Any]:
     return model.json_schema()
 
 
-def flat_schema(model: type[WireMessage], robots: Iterable[str] = ()) -> dict[str, Any]:
+def flat_schema(model: type[Message], robots: Iterable[str] = ()) -> dict[str, Any]:
     """The schema without `$ref`, `$defs` and unions; a field that may be None has the type of its other values.
 
     Mappings from robots have a property for each of `robots`, so that viewers can complete `robots.cyan1.x`; others are

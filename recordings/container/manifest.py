@@ -2,19 +2,16 @@
 
 from datetime import UTC, datetime
 from enum import StrEnum
-from typing import Any
-
-from pydantic import model_validator
 
 from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.container.scene_by_name import with_scene
 from schemas.config.match_config import MatchConfig
 from schemas.game import Phase, Score
 from schemas.messages.setup import Setup
 from schemas.process.clock import Clock
 from schemas.topics import EVENT
-from schemas.wire.message import VERSION, Name, Part
+from schemas.wire.message import VERSION, Name
+from schemas.wire.part import Part
 
 MANIFEST = "manifest"
 RESULT = "result"
@@ -43,8 +40,6 @@ class Manifest(Part):
     """The setup that the host reported; None if it reported none."""
     config: MatchConfig | None = None
     """The match file; None if the recorder was not given one."""
-    missing_scene: str | None = None
-    """The scene that `config` names, if it could not be read: `config.robots` is incomplete without it."""
     include: list[str] = []
     """Key expressions of the recorded keys; empty if all keys were recorded."""
     exclude: list[str] = []
@@ -59,11 +54,6 @@ class Manifest(Part):
     """Attachment → blake2b of its content, hex."""
     made: str = "recorded"
     """`recorded`, or `filtered` for a copy of a part of a recording."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _embed_scene(cls, fields: Any) -> Any:
-        return with_scene(fields) if isinstance(fields, dict) else fields
 
 
 class EndReason(StrEnum):
@@ -127,7 +117,7 @@ class Result(Part):
         """The same result with these counts, and with their totals."""
         totals = {name: sum(getattr(count, name) for count in keys.values()) for name in _SUMMED_COUNTS}
         events = keys.get(EVENT.key, KeyCount()).messages
-        return self.model_copy(update={"keys": keys, "events": events, **totals})
+        return self.replace(keys=keys, events=events, **totals)
 
 
 _SUMMED_COUNTS = ("messages", "lost", "missed_before_start")

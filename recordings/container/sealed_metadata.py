@@ -6,14 +6,15 @@ are None are left out.
 
 import hashlib
 import types
-from typing import Any, TypeVar, get_args
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
-from pydantic import ValidationError
-from pydantic_core import from_json, to_json, to_jsonable_python
+import msgspec
+from pydantic_core import from_json
 
 from schemas.errors import TouchlineError
-from schemas.wire.faults import fault_of
-from schemas.wire.message import Part
+from schemas.wire.faults import FaultError
+from schemas.wire.part import Part, encode
+from schemas.wire.part_faults import validated
 
 _DIGEST = "digest"
 
@@ -22,10 +23,10 @@ P = TypeVar("P", bound=Part)
 
 def to_metadata(part: Part) -> dict[str, str]:
     """The fields of a part as MCAP metadata, sealed."""
-    fields = to_jsonable_python(part)
+    fields = part.plain()
     return sealed(
         {
-            name: value if isinstance(value, str) else to_json(value).decode()
+            name: value if isinstance(value, str) else encode(value).decode()
             for name, value in fields.items()
             if value is not None
         }
@@ -35,7 +36,7 @@ def to_metadata(part: Part) -> dict[str, str]:
 def sealed(metadata: dict[str, str]) -> dict[str, str]:
     """The metadata with a digest over all its fields. MCAP has checksums for chunks, but none for metadata."""
     fields = {name: value for name, value in metadata.items() if name != _DIGEST}
-    return {**fields, _DIGEST: digest(to_json(sorted(fields.items())))}
+    return {**fields, _DIGEST: digest(encode(sorted(fields.items())))}
 
 
 def digest(content: bytes) -> str:
@@ -54,18 +55,18 @@ def from_metadata(model: type[P], metadata: dict[str, str]) -> P:
     Raises:
         TouchlineError: the metadata is not a valid part of this kind.
     """
-    written = {field.alias or name: field.annotation for name, field in model.model_fields.items()}
+    written = {field.name: field.type for field in msgspec.structs.fields(model)}
     known = {name: kind for name, kind in written.items() if name in metadata}
     try:
         fields = {name: metadata[name] if _is_text(kind) else from_json(metadata[name]) for name, kind in known.items()}
-        return model.model_validate_json(to_json(fields))
-    except ValidationError as error:
-        raise TouchlineError(fault_of(error, model).sentence()) from None
+        return validated(model, fields)
+    except FaultError as error:
+        raise TouchlineError(str(error)) from None
     except ValueError as error:
         raise TouchlineError(f"not JSON: {error}") from None
 
 
 def _is_text(kind: Any) -> bool:
-    if isinstance(kind, types.UnionType):
+    if get_origin(kind) in (Annotated, Union, types.UnionType):
         return any(_is_text(choice) for choice in get_args(kind))
     return isinstance(kind, type) and issubclass(kind, str)

@@ -17,7 +17,7 @@ from schemas.process.clock import WallClock
 from schemas.process.whole_file import written_whole
 from schemas.topic import Topic
 from schemas.topics import STATE
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 _BATCH = 500
 """Messages that are passed to the writer at a time."""
@@ -29,7 +29,7 @@ class TimedMessage(NamedTuple):
     sim_ns: int
     topic: Topic
     key: str
-    message: WireMessage
+    message: Message
 
 
 def compose(path: Path, manifest: Manifest, attachments: dict[str, bytes], messages: Iterable[TimedMessage]) -> Result:

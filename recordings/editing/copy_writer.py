@@ -44,7 +44,7 @@ class CopyWriter:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
         self._begins_ns = manifest.begins_ns
         attached = {name: digest(content) for name, content in attachments.items()}
-        metadata = to_metadata(manifest.model_copy(update={"attached": attached}))
+        metadata = to_metadata(manifest.replace(attached=attached))
         self._mcap.start(profile="", library=library())
         self._mcap.add_metadata(MANIFEST, metadata)
         for name, data in attachments.items():

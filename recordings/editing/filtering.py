@@ -74,14 +74,12 @@ def _copies(
 
 def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start_ns: int | None) -> Manifest:
     """The manifest of a copy: part 1, whatever the original was."""
-    return manifest.model_copy(
-        update={
-            "made": "filtered",
-            "part": 1,
-            "begins_ns": manifest.begins_ns if start_ns is None else max(0, start_ns),
-            "include": [*manifest.include, *selection.include],
-            "exclude": [*manifest.exclude, *selection.exclude],
-        }
+    return manifest.replace(
+        made="filtered",
+        part=1,
+        begins_ns=manifest.begins_ns if start_ns is None else max(0, start_ns),
+        include=[*manifest.include, *selection.include],
+        exclude=[*manifest.exclude, *selection.exclude],
     )
 
 

@@ -95,7 +95,7 @@ def _of_match_file(recording: Recording) -> Iterator[str]:
 def _of_setup(recording: Recording) -> Iterator[str]:
     """The setup that the host reported, and what follows from the match file."""
     setup = recording.manifest.setup
-    if setup is None or recording.manifest.missing_scene is not None:
+    if setup is None:
         return
     try:
         config = config_of(recording)

@@ -118,7 +118,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         tick=ending.tick,
         time=ending.time,
         phase=ending.phase.value if ending.phase is not None else None,
-        score=ending.score.model_dump() if ending.score is not None else None,
+        score=ending.score.plain() if ending.score is not None else None,
         ended=ending.ended,
         events=ending.keys.get(EVENT.key, KeyCount()).messages,
         messages=sum(count.messages for count in ending.keys.values()),

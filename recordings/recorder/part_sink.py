@@ -95,7 +95,7 @@ class PartSink:
     def _begin_part(self) -> None:
         manifest, attachments = self._make_header()
         place = {"part": len(self.files), "begins_ns": self._begins_ns}
-        self._writer.begin(manifest.model_copy(update=place), attachments, self._roster)
+        self._writer.begin(manifest.replace(**place), attachments, self._roster)
         self._writer.write(self._latched.messages())
 
     def _write_batch(self, batch: list[LoggedMessage]) -> None:

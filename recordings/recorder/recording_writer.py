@@ -11,8 +11,6 @@ from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
 
-from pydantic_core import to_json
-
 from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
 from recordings.container.json_schema import flat_schema
@@ -30,6 +28,7 @@ from schemas.process.clock import Clock
 from schemas.process.idle_time import run_in_idle_time, start_thread
 from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import VERSION
+from schemas.wire.part import encode
 
 FLUSH_S = 0.5
 """Wall time in s after which messages are in the file."""
@@ -77,9 +76,7 @@ class RecordingWriter:
         self._roster = roster or RosterMetadata(manifest.setup)
         self._flush_at = self._clock.now() + FLUSH_S
         start_thread(self._thread)
-        manifest = manifest.model_copy(
-            update={"attached": {name: digest(content) for name, content in attachments.items()}}
-        )
+        manifest = manifest.replace(attached={name: digest(content) for name, content in attachments.items()})
         if self._viz and manifest.setup is not None:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
         self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
@@ -192,7 +189,7 @@ class RecordingWriter:
         assert model is not None
         name = model.__name__
         if name not in self._schemas:
-            data = to_json(flat_schema(model, self._roster.robots))
+            data = encode(flat_schema(model, self._roster.robots))
             self._schemas[name] = self._mcap.register_schema(f"touchline.{name}", "jsonschema", data)
         return self._schemas[name]
 

@@ -69,7 +69,7 @@ class SequenceTracker:
 
     def count(self) -> KeyCount:
         """The current counts."""
-        return KeyCount(**{name: getattr(self, name) for name in KeyCount.model_fields})
+        return KeyCount(**{name: getattr(self, name) for name in KeyCount.__struct_fields__})
 
     def _out_of_order(self, stamp: Stamp) -> None:
         """Count a message that is not the next of the writer of the last message."""

@@ -41,11 +41,7 @@ class ReplayHost:
         """`make_player` is called with `publish` and `can_publish`; `setup` is the recorded setup, or None."""
         self._bus = bus
         self._clock = bus.clock
-        self._setup = (
-            setup.model_copy(update={"match": bus.match, "version": VERSION, "claims": False})
-            if setup is not None
-            else None
-        )
+        self._setup = setup.replace(match=bus.match, version=VERSION, claims=False) if setup is not None else None
         self._publishers: dict[str, Publisher | None] = {}
         self._setups, self._controls = bus.serve(SETUP), bus.serve(REPLAY_CONTROL)
         self._refused: list[tuple[Server, Callable[[], Message]]] = [

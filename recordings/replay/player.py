@@ -152,7 +152,7 @@ class Player:
         except TouchlineError as error:
             return self.status(accepted=False, reason=str(error))
         events = self._events() if request.operation is ReplayOperation.EVENTS else []
-        return self.status().model_copy(update={"events": events})
+        return self.status().replace(events=events)
 
     def status(self, *, accepted: bool = True, reason: str = "") -> ReplayReply:
         """The state of the replay, as a reply."""

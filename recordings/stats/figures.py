@@ -152,7 +152,7 @@ class MatchFigures:
     def to_json(self) -> dict[str, Any]:
         """The figures as plain lists, numbers and strings."""
         fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        events = [event.model_dump(mode="json", exclude={"version"}) for event in fields.pop("events")]
+        events = [event.plain("version") for event in fields.pop("events")]
         plain: dict[str, Any] = _plain(fields)
         return plain | {"events": events}
 

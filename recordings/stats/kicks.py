@@ -199,8 +199,7 @@ def _ball_as_kicked(match_tick: MatchTick, kicker: str) -> BallTruth:
     if robot is None:
         return ball
     speed = match_tick.kick.speed if match_tick.kick is not None else math.hypot(ball.vx, ball.vy)
-    along = {"vx": speed * math.cos(robot.heading), "vy": speed * math.sin(robot.heading), "vz": 0.0}
-    return ball.model_copy(update=along)
+    return ball.replace(vx=speed * math.cos(robot.heading), vy=speed * math.sin(robot.heading), vz=0.0)
 
 
 def _pass_outcome(match_tick: MatchTick, flight: _Flight) -> KickOutcome:

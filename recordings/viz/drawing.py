@@ -24,6 +24,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import ObstacleTruth
 from schemas.topics import APPLIED, DEBUG, EVENT, STATE, WORLD
 from schemas.wire.message import BadMessageError
+from schemas.wire.part_faults import validated
 
 TF, FIELD, ROBOTS, BALL, GAME, EVENTS = "/tf", "/viz/field", "/viz/robots", "/viz/ball", "/viz/game", "/viz/events"
 DRAWINGS = "/viz/debug"
@@ -120,7 +121,7 @@ class Drawing:
         return out
 
     def _field(self, obstacles: dict[str, Any]) -> list[SceneEntity]:
-        entities = [obstacle_entity(name, ObstacleTruth.model_validate(one)) for name, one in obstacles.items()]
+        entities = [obstacle_entity(name, validated(ObstacleTruth, one)) for name, one in obstacles.items()]
         return [*field_entities(self._setup.pitch), *entities]
 
     def _robots(self, appearance: list[tuple[str, str | None]]) -> list[SceneEntity]:

@@ -20,7 +20,7 @@ from schemas.messages.sight import Sight
 from schemas.process.clock import Clock, WallClock
 from schemas.process.process_log import Level, log_line
 from schemas.wire.message import VERSION
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 
 _MOST_GIVEN_UP = 100
 """Newest sights without an answer that are remembered, to recognize a late answer."""

@@ -5,14 +5,14 @@ from collections.abc import Sequence
 
 from pydantic import Field
 
+from schemas.config.config_model import ConfigModel
 from schemas.errors import TouchlineError
-from schemas.wire.message import Part
 
 LOOPBACK_NAMES = ("localhost", "127.0.0.1", "::1")
 """Names of the host for clients of its own machine, which every certificate has."""
 
 
-class Certificate(Part):
+class Certificate(ConfigModel):
     """The certificate of a host."""
 
     root: str

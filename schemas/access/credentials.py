@@ -15,9 +15,9 @@ from pydantic import Field, ValidationError
 from schemas.access.accounts import Account
 from schemas.access.certificates import Certificate
 from schemas.access.private_file import check_private
+from schemas.config.config_model import ConfigModel
 from schemas.errors import TouchlineError
 from schemas.process.whole_file import written_whole
-from schemas.wire.message import Part
 
 _PASSWORD_BYTES = 32
 HOST_FILE = "host.json"
@@ -25,10 +25,10 @@ HOST_FILE = "host.json"
 
 Password = Annotated[str, Field(min_length=16, max_length=200, pattern=r"^[A-Za-z0-9_\-]+$")]
 """A password, which is in no representation of its owner."""
-C = TypeVar("C", bound=Part)
+C = TypeVar("C", bound=ConfigModel)
 
 
-class Credentials(Part):
+class Credentials(ConfigModel):
     """What one account needs to join a match."""
 
     user: Account
@@ -43,7 +43,7 @@ class Credentials(Part):
     """Root certificate, PEM, by which the client knows the host; None for a host without TLS."""
 
 
-class HostCredentials(Part):
+class HostCredentials(ConfigModel):
     """What a host needs to know its clients, and to show that it is their host."""
 
     passwords: dict[Account, Password] = Field(repr=False)
@@ -87,7 +87,7 @@ def write_credentials(folder: Path, credentials: HostCredentials, connect: str |
         OSError: the folder or a file cannot be written.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    contents: Mapping[Path, Part] = {
+    contents: Mapping[Path, ConfigModel] = {
         folder / HOST_FILE: credentials,
         **{account_file(folder, account): credentials.of(account, connect) for account in Account},
     }

@@ -14,7 +14,8 @@ from typing import Self
 
 from schemas.bus.endpoint import local_endpoint
 from schemas.process.whole_file import written_whole
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
+from schemas.wire.part import Part, decoder
 
 _HOSTS = Path("touchline") / "hosts"
 
@@ -69,7 +70,7 @@ def announced(announcement: Announcement, path: Path) -> Iterator[None]:
         with written_whole(path, private=True) as draft:
             file = stack.enter_context(draft.open("w", encoding="utf-8"))
             fcntl.flock(file, fcntl.LOCK_EX)  # first: a file of this name is always complete and locked
-            file.write(announcement.model_dump_json() + "\n")
+            file.write(announcement.json() + "\n")
             file.flush()
         try:
             yield
@@ -103,7 +104,7 @@ def announcement_in(path: Path) -> Announcement | None:
     """The announcement of a host that runs; None without one."""
     try:
         with path.open(encoding="utf-8") as file:
-            return None if _is_stale(file.fileno()) else Announcement.model_validate_json(file.read())
+            return None if _is_stale(file.fileno()) else decoder(Announcement).decode(file.read())
     except (OSError, ValueError):
         return None
 

@@ -17,8 +17,8 @@ from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from schemas.tokens import PresenceKind as PresenceKind
 from schemas.topic import Delivery, Topic
-from schemas.wire.message import VERSION, BadMessageError, WireMessage
-from schemas.wire.struct import encode
+from schemas.wire.message import VERSION, BadMessageError, Message
+from schemas.wire.part import encode
 
 
 class BusError(TouchlineError):
@@ -92,7 +92,7 @@ class Publisher(ABC):
         self.topic = topic
         self.key = key
 
-    def put(self, message: WireMessage) -> Stamp:
+    def put(self, message: Message) -> Stamp:
         """Publish a message, without waiting for subscribers."""
         return self.put_payload(message.encode())
 
@@ -151,7 +151,7 @@ class Query(ABC):
         return self.topic.message.decode(self.payload)
 
     @abstractmethod
-    def reply(self, reply: WireMessage) -> None:
+    def reply(self, reply: Message) -> None:
         """Send the reply; once."""
 
     @abstractmethod
@@ -241,7 +241,7 @@ class Bus(ABC):
 
     @abstractmethod
     def query(
-        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+        self, topic: Topic, request: Message, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
         """Send a query; it is open for `timeout` s.
 

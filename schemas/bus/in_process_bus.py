@@ -26,7 +26,7 @@ from schemas.bus.contract import (
 from schemas.bus.mailbox import FifoMailbox, Mailbox, NewestMailbox
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 
 @dataclass(eq=False)
@@ -125,7 +125,7 @@ class _Query(Query):
         super().__init__(topic, key, payload)
         self._answer = answer
 
-    def reply(self, reply: WireMessage) -> None:
+    def reply(self, reply: Message) -> None:
         self.reply_payload(reply.encode())
 
     def reply_payload(self, payload: bytes) -> None:
@@ -222,7 +222,7 @@ class InProcessBus(Bus):
         return server
 
     def query(
-        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+        self, topic: Topic, request: Message, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
         self.check_open()
         del timeout, droppable  # a request waits with its server or is refused at once

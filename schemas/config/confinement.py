@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from schemas.wire.message import Part
+from schemas.config.config_model import ConfigModel
 
 CpuTime = Annotated[float, Field(ge=1, le=1e9)]
 Memory = Annotated[float, Field(ge=0.1, le=10_000)]
@@ -23,7 +23,7 @@ class Isolation(StrEnum):
     """A read-only view of the system and process ids of its own for each robot, by the program `bwrap`."""
 
 
-class Limits(Part):
+class Limits(ConfigModel):
     """What the processes of one robot may use of its machine; all of them inherit these limits."""
 
     cpu_time: CpuTime = 3600.0
@@ -53,7 +53,7 @@ _BREACHES = {
 """Limit → what exceeds it."""
 
 
-class TeamLimits(Part):
+class TeamLimits(ConfigModel):
     """Limits of the robots of one team that replace the match's."""
 
     cpu_time: CpuTime | None = None

@@ -5,9 +5,10 @@ from typing import Annotated
 
 from pydantic import Field, field_validator
 
+from schemas.config.config_model import ConfigModel
 from schemas.errors import did_you_mean
 from schemas.side import Side
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
 
 OCCURRENCES = {
     "goal": "the referee gave a goal; WHO has scored",
@@ -36,7 +37,7 @@ class DrillResult(StrEnum):
     FAILURE = "failure"
 
 
-class Drill(Part):
+class Drill(ConfigModel):
     """The end of a scene and its verdict: it ends when a condition is met; a failure comes before a success."""
 
     seconds: Annotated[float, Field(gt=0, le=600)]
@@ -60,7 +61,7 @@ class Drill(Part):
         return occurred
 
 
-class Variation(Part):
+class Variation(ConfigModel):
     """How far a body of a drill may start from its place in the scene, to both sides; equally likely."""
 
     body: Name

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
+from schemas.config.config_model import ConfigModel
 from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_parts import (
     PROGRAM_KINDS,
@@ -38,7 +39,7 @@ from schemas.config.toml_file import read_tables, validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import OfficiatingMode
 from schemas.side import Side
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
 
 REMOTE = "remote"
 """In place of a team: `magenta = "remote"` below [teams], short for `[teams.magenta]` with `remote = true`."""
@@ -89,7 +90,7 @@ _NUMBER_FILES: tuple[tuple[str, str, NumberFiles, Callable[[str], object]], ...]
 """Key that names a file of numbers, key of its embedded tables, where it is read from, how it is checked."""
 
 
-class MatchConfig(Part):
+class MatchConfig(ConfigModel):
     """The complete description of a match; with the same brains, it gives the same match again."""
 
     name: Name = DEFAULT_MATCH

@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
+from schemas.config.config_model import ConfigModel
 from schemas.config.confinement import TeamLimits
 from schemas.config.noise import PRESETS
 from schemas.config.roster import MAX_ROBOTS
@@ -12,7 +13,7 @@ from schemas.config.settings import RecordOptions
 from schemas.errors import did_you_mean
 from schemas.game import OfficiatingMode
 from schemas.side import Side
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
 
 Parameter = bool | int | float | Annotated[str, Field(max_length=1000)]
 """A value that a match file hands to the brains of a team."""
@@ -27,7 +28,7 @@ PROGRAM_KINDS = ("brain", "command", "stdio")
 """The keys of a team that give what moves its robots; a team has one of them."""
 
 
-class TeamConfig(Part):
+class TeamConfig(ConfigModel):
     """One team of the match file: its robots and their program."""
 
     name: str = ""
@@ -87,7 +88,7 @@ def default_magenta() -> TeamConfig:
     return TeamConfig(name="NuBot", brain="robot_agent.teams.nubot:NuBot")
 
 
-class TeamConfigs(Part):
+class TeamConfigs(ConfigModel):
     """Both teams."""
 
     cyan: TeamConfig = Field(default_factory=default_cyan)
@@ -96,7 +97,7 @@ class TeamConfigs(Part):
     """The team in magenta."""
 
 
-class NoiseConfig(Part):
+class NoiseConfig(ConfigModel):
     """Quality of the robots' perception."""
 
     preset: str = "profile"
@@ -110,7 +111,7 @@ class NoiseConfig(Part):
         return preset
 
 
-class RadioOverride(Part):
+class RadioOverride(ConfigModel):
     """Radio numbers that replace the profile's."""
 
     delay: Annotated[float, Field(ge=0, le=5)] | None = None
@@ -131,7 +132,7 @@ class RadioOverride(Part):
     """Shared channel: longest wait of a message in s, beyond which it is refused; None for the profile's."""
 
 
-class OfficiatingConfig(Part):
+class OfficiatingConfig(ConfigModel):
     """How the match is refereed."""
 
     kick_off: Side = Side.CYAN
@@ -158,7 +159,7 @@ class RecordingConfig(RecordOptions):
     """The first tick waits for a recorder, so that the recording is complete."""
 
 
-class Patience(Part):
+class Patience(ConfigModel):
     """How long the host waits, in s of wall time."""
 
     attendance: Annotated[float, Field(ge=0, le=86_400)] = 30.0

@@ -6,7 +6,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from schemas.wire.message import Name, Part
+from schemas.config.config_model import ConfigModel
+from schemas.wire.message import Name
 
 Length = Annotated[float, Field(ge=0.02, le=5)]
 """m; a fast ball would pass through a thinner body in one physics step."""
@@ -19,7 +20,7 @@ class Shape(StrEnum):
     BOX = "box"
 
 
-class StaticObstacle(Part):
+class StaticObstacle(ConfigModel):
     """One static body on the ground, which robots and ball bounce off."""
 
     name: Name

@@ -30,7 +30,6 @@ from schemas.config.sections import (
     Wheels,
 )
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.wire.field_docstrings import Described
 
 SHIPPED = ("msl", "ideal", "omni", "omni3", "msl-2016", "paper")
 """The profiles that the package ships."""
@@ -45,7 +44,7 @@ Changes = Mapping[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True, slots=True)
-class Profile(Described):
+class Profile:
     """All physical numbers of a match."""
 
     name: str

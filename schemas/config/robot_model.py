@@ -7,11 +7,10 @@ from schemas.config.profile import STANDARD, Profile
 from schemas.config.sections import CameraView, Dribble, DriveLimits, Kicker, RobotBody, Wheels
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
-from schemas.wire.field_docstrings import Described
 
 
 @dataclass(frozen=True, slots=True)
-class RobotModel(Described):
+class RobotModel:
     """One type of robot."""
 
     type: str

@@ -2,8 +2,10 @@
 
 from collections.abc import Container, Sequence
 
+from schemas.config.config_model import ConfigModel
 from schemas.side import Side
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
+from schemas.wire.part import Part
 
 MAX_ROBOTS = 11
 """Most robots of one side that a rule book can allow."""
@@ -11,7 +13,7 @@ RESERVED = frozenset({"ball"})
 """Names that have another meaning in keys."""
 
 
-class RosterEntry(Part):
+class RosterEntry(ConfigModel):
     """One robot that takes part."""
 
     name: Name

@@ -13,7 +13,6 @@ from schemas.config.number_files import HEADER, PROFILE_KEY, UNVERSIONED, Number
 from schemas.config.quantity import Quantity, read_section
 from schemas.config.roster import MAX_ROBOTS
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.wire.field_docstrings import Described
 
 SHIPPED = ("china-sim-2020", "eleven", "friendly", "msl", "msl-2016", "msl-2019", "paper")
 """The rule books that the package ships."""
@@ -154,7 +153,7 @@ SECTIONS: dict[str, type] = {
 
 
 @dataclass(frozen=True, slots=True)
-class RuleBook(Described):
+class RuleBook:
     """The numbers that the referee applies."""
 
     name: str

@@ -10,14 +10,15 @@ from typing import Annotated, Any
 
 from pydantic import Field, StringConstraints, model_validator
 
+from schemas.config.config_model import ConfigModel
 from schemas.config.drill import Drill, Variation
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.game import RESTARTS, SIDED, Phase, Score
+from schemas.game import RESTARTS, SIDED, Phase
 from schemas.side import Side
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
 
 Speed = Annotated[float, Field(ge=-40, le=40)]
 """m/s or rad/s."""
@@ -64,7 +65,7 @@ class SceneRobot(RosterEntry):
         return Placement(body=self.name, **at)
 
 
-class SceneBall(Part):
+class SceneBall(ConfigModel):
     """The ball and its place and velocity when the scene begins; on the ground unless `z` is given."""
 
     x: float = 0.0
@@ -86,7 +87,16 @@ class SceneBall(Part):
         return Placement(body="ball", x=self.x, y=self.y, z=self.z, vx=self.vx, vy=self.vy, vz=self.vz)
 
 
-class SceneGame(Part):
+class SceneScore(ConfigModel):
+    """Goals of both sides when the scene begins."""
+
+    cyan: Annotated[int, Field(ge=0)] = 0
+    """Goals of cyan."""
+    magenta: Annotated[int, Field(ge=0)] = 0
+    """Goals of magenta."""
+
+
+class SceneGame(ConfigModel):
     """The state of the game when the scene begins; a restart is taken from where the ball lies."""
 
     phase: Phase = Phase.PLAY
@@ -95,7 +105,7 @@ class SceneGame(Part):
     """The side that takes the restart; None where no side does."""
     running: bool = False
     """START of the restart was given: it may be taken at once. The phase `play` is running in any case."""
-    score: Score = Score()
+    score: SceneScore = SceneScore()
     """Goals of both sides."""
     clock: Annotated[float, Field(ge=0)] = 0.0
     """Game clock in s."""
@@ -113,7 +123,7 @@ class SceneGame(Part):
         return self
 
 
-class Scene(Part):
+class Scene(ConfigModel):
     """A start position with the state of the game."""
 
     name: Name = "scene"

@@ -10,8 +10,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from schemas.config.config_model import ConfigModel
 from schemas.process.log_format import VARIABLE, LogFormat
-from schemas.wire.message import Part
 
 DEFAULT_MATCH = "friendly"
 """The default name of a match, for hosts and for processes that join one."""
@@ -27,7 +27,7 @@ class CommandLine:
     """The form of the value in the help, `HOST:PORT`."""
 
 
-class Settings(Part):
+class Settings(ConfigModel):
     """The base of all settings: immutable, without unknown fields, described by the docstrings of its fields."""
 
 

@@ -10,7 +10,8 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from schemas.errors import TouchlineError
-from schemas.wire.faults import fault_of
+from schemas.wire.faults import Fault
+from schemas.wire.model_faults import fault_of
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -41,6 +42,10 @@ def validate_tables(model: type[M], content: Mapping[str, Any], where: str, reme
     try:
         return model.model_validate_json(json.dumps(content, default=str), strict=True)
     except ValidationError as error:
-        fault = fault_of(error, model)
-        remedy = remedies.get(re.sub(r"\.\d+(?=\.|$)", "", fault.where), "")
-        raise TouchlineError(f"{where}: {fault.sentence(remedy)}") from None
+        raise table_error(fault_of(error, model), where, remedies) from None
+
+
+def table_error(fault: Fault, where: str, remedies: Mapping[str, str]) -> TouchlineError:
+    """The error for a fault of tables; arguments as of `validate_tables`."""
+    remedy = remedies.get(re.sub(r"\.\d+(?=\.|$)", "", fault.where), "")
+    return TouchlineError(f"{where}: {fault.sentence(remedy)}")

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import msgspec
-from pydantic import Field
 
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import Placement, RosterEntry
@@ -13,14 +12,14 @@ from schemas.messages.command import Drive, Kick
 from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.wire.message import BadMessageError, Message, Name
-from schemas.wire.struct import Struct, encode
+from schemas.wire.part import Part, encode
 
 _UNCHAINED = ("chain", "changes")
 """Fields that the chain does not cover: itself, and sentences that depend on the name of an operator."""
 _decode_fields = msgspec.json.Decoder(dict[str, Any]).decode
 
 
-class AppliedInput(Struct, frozen=True):
+class AppliedInput(Part, kw_only=False):
     """The input of one robot's actuators in one tick, after validation and watchdog."""
 
     drive: Drive
@@ -33,7 +32,7 @@ class AppliedInput(Struct, frozen=True):
     """Tick of the sight that this input answers; None while the robot is silent."""
 
 
-class OperatorChange(Struct, frozen=True):
+class OperatorChange(Part, kw_only=False):
     """A change that an operator made before a tick."""
 
     kind: EventKind
@@ -56,13 +55,13 @@ class Applied(Message):
     """Simulated time in s: tick × control tick."""
     inputs: dict[Name, AppliedInput]
     """Robot → the input of its actuators."""
-    placements: list[Placement] = Field(default_factory=list)
+    placements: list[Placement] = []
     """Bodies that an operator or the referee placed before this tick."""
     checkpoint: bool = False
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
     remade: bool = False
     """The world was rebuilt with the parameters, robots and obstacles in force, before bodies were placed."""
-    parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
+    parameters: dict[ParameterName, Setting] = {}
     """Live parameters that were changed before this tick → new value."""
     robots: list[RosterEntry] | None = None
     """The robots that take part from this tick on, in the order of the roster; given at tick 0 and on a change,
@@ -72,15 +71,15 @@ class Applied(Message):
     episode: int = 1
     """The episode that this tick belongs to: the start of the match is 1, and each scene that is loaded and each reset
     begin another."""
-    actions: list[RefereeAction] = Field(default_factory=list)
+    actions: list[RefereeAction] = []
     """Actions of people, coaches and the referee box that the referee judged in this tick, with those it refused."""
-    silent: list[Name] = Field(default_factory=list)
+    silent: list[Name] = []
     """Robots that the referee knew to be without a responding agent in this tick."""
     referee: str = ""
     """At a checkpoint, the complete state of the referee before it judged this tick, as JSON; otherwise empty."""
     refbox: bool = False
     """A league's referee box was connected in this tick."""
-    changes: list[OperatorChange] = Field(default_factory=list)
+    changes: list[OperatorChange] = []
     """The operators' changes before this tick, in their order; the chain does not cover these sentences."""
     chain: str
     """blake2b over the state of this tick and all other fields of this message but `changes`, keyed with the chain

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pydantic import Field
+from msgspec import Meta
 
 from schemas.side import Side
 from schemas.wire.message import Message, Name, Source
@@ -19,7 +19,7 @@ class AgentClaim(Message):
     """Name of the robot."""
     session: Name
     """Name of the agent's liveliness token, which no other agent has."""
-    launch_token: Annotated[str, Field(max_length=64)] | None = None
+    launch_token: Annotated[str, Meta(max_length=64)] | None = None
     """Secret of the launch, from the environment variable TOUCHLINE_LAUNCH_TOKEN; None without one."""
     match: Name | None = None
     """Name of the match that the agent was started for; None for any."""

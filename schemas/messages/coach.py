@@ -5,17 +5,14 @@ from enum import StrEnum
 from typing import Annotated
 
 from msgspec import Meta
-from pydantic import Field
 
 from schemas.config.sections import Pitch
 from schemas.game import Point
 from schemas.messages.command import KickMode, KickSpeed
-from schemas.wire.faults import Fault, FaultError, FaultKind
+from schemas.wire.checked import Checked
 from schemas.wire.message import Message, Name, ShortText
-from schemas.wire.struct import StructMessage, check
+from schemas.wire.units import MAX_WHOLE
 
-MAX_SEQUENCE = 2**53 - 1
-"""The largest whole number that every language reads exactly from JSON."""
 MAX_SEQUENCE_STEP = 2**51
 """How far an order's number may exceed the number of the order in force. A clock in microseconds since 1970 fits in; a
 mistake that would leave no number for the next order does not."""
@@ -73,14 +70,14 @@ REQUIRED_FIELDS: dict[CoachTest, tuple[str, ...]] = {
 """Test → the fields of an order that it requires."""
 
 
-class CoachOrder(StructMessage, frozen=True, kw_only=True):
+class CoachOrder(Message, metaclass=Checked):
     """A standing order to a side, in its team frame; the newest is in force, and each robot acknowledges its number.
 
     It carries the coach record of the paper in SI units, except match mode and previous mode: the referee decides what
     is played, and every sight has it. The record's two static passes are tactics here, its kick force is a speed.
     """
 
-    sequence: Annotated[int, Meta(ge=1, le=MAX_SEQUENCE)]
+    sequence: Annotated[int, Meta(ge=1, le=MAX_WHOLE)]
     """Larger than the number of every earlier order to the side, from any sender; the setup has the number in force."""
     mode: CoachMode = CoachMode.PLAY
     """What the team does while the game allows it."""
@@ -140,10 +137,9 @@ class CoachOrder(StructMessage, frozen=True, kw_only=True):
         return ""
 
     def __post_init__(self) -> None:
-        check(self)
         broken = self._broken_rule()
         if broken:
-            raise FaultError(Fault((), None, broken, FaultKind.RULE))
+            raise ValueError(broken)
 
     def _broken_rule(self) -> str:
         """Which fields contradict each other, in one sentence; empty where none do."""
@@ -175,5 +171,5 @@ class ActiveOrder(Message):
     """The order in force."""
     acknowledged: dict[Name, bool]
     """Robot → whether its newest command acknowledges this order; all robots of the side that have an agent."""
-    refused: dict[Name, ShortText] = Field(default_factory=dict)
+    refused: dict[Name, ShortText] = {}
     """Robot that has acknowledged this order and does not carry it out → the reason."""

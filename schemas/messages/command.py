@@ -8,8 +8,9 @@ from msgspec import Meta
 from schemas.messages.debug import MAX_BYTES as MAX_DEBUG_BYTES
 from schemas.messages.debug import Debug
 from schemas.messages.radio import Radio
-from schemas.wire.message import ShortText
-from schemas.wire.struct import Checked, Struct, StructMessage
+from schemas.wire.checked import Checked
+from schemas.wire.message import Message, ShortText
+from schemas.wire.part import Part
 
 MAX_DRIVE = 20.0
 """m/s; a demand that no robot can meet is an error of the sender, perhaps of its units."""
@@ -31,7 +32,7 @@ class KickMode(StrEnum):
     """At the kicker's fixed angle above the ground."""
 
 
-class Drive(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class Drive(Part, metaclass=Checked):
     """A velocity demand in the body frame: x in the kicking direction, y to the left."""
 
     vx: DriveSpeed = 0.0
@@ -42,7 +43,7 @@ class Drive(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """Turn rate, counter-clockwise, in rad/s."""
 
 
-class Kick(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class Kick(Part, metaclass=Checked):
     """A kick along the body's x axis."""
 
     mode: KickMode
@@ -52,7 +53,7 @@ class Kick(Struct, frozen=True, kw_only=True, metaclass=Checked):
     is solved so that the ball passes under the bar where the kick axis meets it, within the kicker's limits."""
 
 
-class Command(StructMessage, frozen=True, kw_only=True, metaclass=Checked):
+class Command(Message, metaclass=Checked):
     """One robot's answer to one sight."""
 
     max_bytes: ClassVar[int] = 4096 + MAX_DEBUG_BYTES

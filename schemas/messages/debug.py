@@ -9,9 +9,11 @@ from typing import Annotated, Any, ClassVar, Self, TypeVar
 import msgspec
 from msgspec import Meta
 
+from schemas.wire.checked import Checked
 from schemas.wire.faults import Fault, FaultError, FaultKind
-from schemas.wire.message import Name, ShortText
-from schemas.wire.struct import Checked, Struct, StructMessage, encode
+from schemas.wire.message import Message, Name, ShortText
+from schemas.wire.part import Part, encode
+from schemas.wire.units import Finite
 
 MAX_VALUES = 64
 """Values in one command."""
@@ -49,7 +51,7 @@ Radius = Annotated[float, Meta(gt=0, le=100, extra={"unit": "m"})]
 ValueName = Annotated[str, Meta(min_length=1, max_length=40)]
 
 
-class DebugPoint(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class DebugPoint(Part, metaclass=Checked):
     """A marked point."""
 
     x: Coordinate
@@ -60,7 +62,7 @@ class DebugPoint(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """Colour of the mark."""
 
 
-class DebugLine(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class DebugLine(Part, metaclass=Checked):
     """A straight line between two points."""
 
     x1: Coordinate
@@ -75,7 +77,7 @@ class DebugLine(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """Colour of the line."""
 
 
-class DebugCircle(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class DebugCircle(Part, metaclass=Checked):
     """A circle on the ground."""
 
     x: Coordinate
@@ -88,7 +90,7 @@ class DebugCircle(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """Colour of the outline."""
 
 
-class DebugCorner(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class DebugCorner(Part, metaclass=Checked):
     """A corner of a polygon."""
 
     x: Coordinate
@@ -97,7 +99,7 @@ class DebugCorner(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """y in the team frame, in m."""
 
 
-class DebugPolygon(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class DebugPolygon(Part, metaclass=Checked):
     """A closed outline."""
 
     corners: Annotated[list[DebugCorner], Meta(min_length=2, max_length=MAX_CORNERS)]
@@ -106,7 +108,7 @@ class DebugPolygon(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """Colour of the outline."""
 
 
-class DebugText(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class DebugText(Part, metaclass=Checked):
     """Text at a point."""
 
     x: Coordinate
@@ -131,22 +133,20 @@ class _Bounded(Checked):
         return debug
 
 
-class Debug(Struct, frozen=True, kw_only=True, omit_defaults=True, metaclass=_Bounded):
+class Debug(Part, omit_defaults=True, metaclass=_Bounded):
     """Values and shapes of one tick, for the robot's authors."""
 
-    values: Annotated[dict[ValueName, float | int | bool | ShortText], Meta(max_length=MAX_VALUES)] = msgspec.field(
-        default_factory=dict
-    )
+    values: Annotated[dict[ValueName, Finite | int | bool | ShortText], Meta(max_length=MAX_VALUES)] = {}
     """Values by name: numbers become curves."""
-    points: Annotated[list[DebugPoint], Meta(max_length=MAX_SHAPES)] = msgspec.field(default_factory=list)
+    points: Annotated[list[DebugPoint], Meta(max_length=MAX_SHAPES)] = []
     """Marked points."""
-    lines: Annotated[list[DebugLine], Meta(max_length=MAX_SHAPES)] = msgspec.field(default_factory=list)
+    lines: Annotated[list[DebugLine], Meta(max_length=MAX_SHAPES)] = []
     """Straight lines."""
-    circles: Annotated[list[DebugCircle], Meta(max_length=MAX_SHAPES)] = msgspec.field(default_factory=list)
+    circles: Annotated[list[DebugCircle], Meta(max_length=MAX_SHAPES)] = []
     """Circles."""
-    polygons: Annotated[list[DebugPolygon], Meta(max_length=MAX_SHAPES)] = msgspec.field(default_factory=list)
+    polygons: Annotated[list[DebugPolygon], Meta(max_length=MAX_SHAPES)] = []
     """Closed outlines."""
-    texts: Annotated[list[DebugText], Meta(max_length=MAX_SHAPES)] = msgspec.field(default_factory=list)
+    texts: Annotated[list[DebugText], Meta(max_length=MAX_SHAPES)] = []
     """Texts."""
 
     def in_field_frame(self, attack: int) -> Self:
@@ -163,7 +163,7 @@ class Debug(Struct, frozen=True, kw_only=True, omit_defaults=True, metaclass=_Bo
         )
 
 
-class RobotDebug(StructMessage, frozen=True, kw_only=True):
+class RobotDebug(Message):
     """What a robot's program shows its authors, with the tick that it belongs to."""
 
     max_bytes: ClassVar[int] = 2 * MAX_BYTES
@@ -178,7 +178,7 @@ class RobotDebug(StructMessage, frozen=True, kw_only=True):
     """Values and shapes as in the command; coordinates are in the field frame."""
 
 
-_S = TypeVar("_S", bound=Struct)
+_S = TypeVar("_S", bound=Part)
 
 
 def _turned(shape: _S, *coordinates: str) -> _S:

@@ -2,18 +2,16 @@
 
 from typing import Annotated
 
-import msgspec
 from msgspec import Meta
-from pydantic import Field
 
 from schemas.game import ActionName, Card, EventKind, GameStage, OffField, Phase, Point, Score, TeamPhase
 from schemas.side import Side
-from schemas.wire.message import Message, Name, Part, Source
-from schemas.wire.struct import Struct
+from schemas.wire.message import Message, Name, Source
+from schemas.wire.part import Part
 from schemas.wire.units import Seconds
 
 
-class DisciplinaryRecord(Struct, frozen=True, kw_only=True):
+class DisciplinaryRecord(Part):
     """The cards of one robot, and whether it is off the field."""
 
     yellow: Annotated[int, Meta(ge=0)] = 0
@@ -55,7 +53,7 @@ class GameState(Message):
     """The side that takes the restart; None where no side does."""
     running: bool = False
     """START was given; before that, robots take their positions and may not play the ball."""
-    half: Annotated[int, Field(ge=1)] = 1
+    half: Annotated[int, Meta(ge=1)] = 1
     """The half that is being played; counts on through extra time."""
     stage: GameStage = GameStage.REGULAR
     """Regular time, extra time, or the penalty shoot-out."""
@@ -67,14 +65,14 @@ class GameState(Message):
     """Goals without the penalty shoot-out's."""
     shoot_out: Score | None = None
     """Goals of the penalty shoot-out, during and after it; None without one."""
-    cyan_attacks: Annotated[int, Field(ge=-1, le=1)] = 1
+    cyan_attacks: Annotated[int, Meta(ge=-1, le=1)] = 1
     """Sign of the x direction that cyan attacks."""
     spot: Point | None = None
     """Where the ball is placed for the restart, in the field frame; None where the referee has set no spot."""
     left: float | None = None
     """Time in s until the limit of the current phase (START, ball in play, end of a break or of a shoot-out's attempt);
     None without one."""
-    robots: dict[Name, DisciplinaryRecord] = Field(default_factory=dict)
+    robots: dict[Name, DisciplinaryRecord] = {}
     """Robot → its cards, and why it is off the field; robots without either are left out."""
     proposal: str | None = None
     """Mixed officiating: what the referee has proposed and not yet carried out; None without a proposal."""
@@ -83,11 +81,11 @@ class GameState(Message):
     refbox: bool = False
     """A league's referee box officiates: it alone ends halves, breaks and the match, not the clock. Remains true until
     the box has been gone for 10 s of simulated time."""
-    questions: list[RobotQuestion] = Field(default_factory=list)
+    questions: list[RobotQuestion] = []
     """Actions that wait for a side to name its robot; of two questions to one side, the first is answered first."""
 
 
-class GameView(Struct, frozen=True, kw_only=True):
+class GameView(Part):
     """The state of the game from one team's point of view."""
 
     phase: TeamPhase
@@ -109,7 +107,7 @@ class GameView(Struct, frozen=True, kw_only=True):
     left: Seconds | None = None
     """Time in s until the limit of the current phase (START, ball in play, end of a break or of a shoot-out's attempt);
     None without one."""
-    robots: dict[Name, DisciplinaryRecord] = msgspec.field(default_factory=dict)
+    robots: dict[Name, DisciplinaryRecord] = {}
     """Our robot → its cards, and why it is off the field; robots without either are left out."""
     episode: int = 1
     """Counts the starts of the world. When the number changes, the world was set up anew, and earlier beliefs are
@@ -133,7 +131,7 @@ class GameEvent(Message):
     """The side that it concerns; None where it concerns neither or both."""
     robot: Name | None = None
     """The robot that caused it: the scorer, the last to touch the ball, the offender."""
-    robots: list[Name] = Field(default_factory=list)
+    robots: list[Name] = []
     """All robots that it concerns, where there is more than one."""
     place: Point | None = None
     """Where it happened, in the field frame; None where it has no place."""

@@ -2,11 +2,12 @@
 
 from typing import Annotated
 
-from pydantic import Field
+from msgspec import Meta
 
 from schemas.messages.latency_counts import CLASSES
 from schemas.side import Side
-from schemas.wire.message import Message, Name, Part
+from schemas.wire.message import Message, Name
+from schemas.wire.part import Part
 
 MAX_FAULT = 300
 """Most characters of a fault."""
@@ -51,10 +52,10 @@ class RobotHealth(Part):
     """Bytes of its radio messages that were sent."""
     radio_refused: int = 0
     """Its radio messages that were refused, by the team's budget or by a channel in use."""
-    latencies: Annotated[list[int], Field(max_length=CLASSES)] = Field(default_factory=list)
+    latencies: Annotated[list[int], Meta(max_length=CLASSES)] = []
     """Answers by wall time from sight to command: the first number counts those below 0.125 ms, and each class reaches
     to 2^¼ times the end of the one before. Trailing zeros are left out."""
-    fault: Annotated[str, Field(max_length=MAX_FAULT)] = ""
+    fault: Annotated[str, Meta(max_length=MAX_FAULT)] = ""
     """Why its messages are not answers to the newest sight; empty if it answers, or if nothing comes from it."""
 
 
@@ -74,7 +75,7 @@ class AccountHealth(Part):
     """Messages that reached the host. The router drops what is far above the limits before that, without a count."""
     size: int = 0
     """Bytes of these messages."""
-    dropped: dict[str, int] = Field(default_factory=dict)
+    dropped: dict[str, int] = {}
     """Reason → messages that were dropped for it."""
 
 
@@ -93,15 +94,15 @@ class Health(Message):
     """Ticks that began late; in lockstep, ticks without all answers in time."""
     worst_tick_ms: float = 0.0
     """Longest wall time of a tick in the last second, in ms."""
-    robots: dict[Name, RobotHealth] = Field(default_factory=dict)
+    robots: dict[Name, RobotHealth] = {}
     """Robot → the state of its agent."""
-    strangers: dict[str, int] = Field(default_factory=dict)
+    strangers: dict[str, int] = {}
     """Command key → messages on it, for names that no robot of this match has."""
-    recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
+    recorders: dict[Name, Annotated[int, Meta(ge=0)]] = {}
     """Recorder → ticks that it is behind."""
-    radio: dict[Side, TeamRadio] = Field(default_factory=dict)
+    radio: dict[Side, TeamRadio] = {}
     """Side → use of its radio."""
-    accounts: dict[str, AccountHealth] = Field(default_factory=dict)
+    accounts: dict[str, AccountHealth] = {}
     """Account → what it has sent; without credentials, each key counts as an account of its own."""
 
 

@@ -3,14 +3,15 @@
 from enum import StrEnum
 from typing import Annotated
 
-from pydantic import Field, StrictFloat, StrictInt, StringConstraints
+from msgspec import Meta
 
-from schemas.wire.message import Message, Part, Source
+from schemas.wire.message import Message, Source
+from schemas.wire.part import Part
 
-ParameterName = Annotated[str, StringConstraints(pattern=r"^[a-z_0-9]+(\.[a-z_0-9]+)*$", max_length=120)]
+ParameterName = Annotated[str, Meta(pattern=r"^[a-z_0-9]+(\.[a-z_0-9]+)*\Z", max_length=120)]
 """Name in the profile, `ball.rolling_deceleration`; the name of a section stands for all of its parameters."""
 
-Value = StrictInt | StrictFloat | str | list[StrictFloat | StrictInt]
+Value = int | float | str | list[int | float]
 """A number in the parameter's unit, a word, or a list of numbers."""
 Setting = Value | None
 """The value of a parameter; None where a type of robot has the value of the standard robot again."""
@@ -30,9 +31,9 @@ class ParametersRequest(Message):
 
     operation: ParameterOperation
     """What to do."""
-    names: Annotated[list[ParameterName], Field(max_length=200)] = Field(default_factory=list)
+    names: Annotated[list[ParameterName], Meta(max_length=200)] = []
     """Parameters or whole sections; for `reset`, an empty list stands for all that can be changed."""
-    values: Annotated[dict[ParameterName, Value], Field(max_length=200)] = Field(default_factory=dict)
+    values: Annotated[dict[ParameterName, Value], Meta(max_length=200)] = {}
     """For `set`: parameter → its new value."""
     source: Source = "operator"
     """Name of the sender, for display."""
@@ -51,7 +52,7 @@ class Parameter(Part):
     """The least sensible value, in its unit; None without a bound."""
     high: float | None = None
     """The greatest sensible value, in its unit; None without a bound."""
-    options: list[str] = Field(default_factory=list)
+    options: list[str] = []
     """Valid values of a parameter that is a word."""
     origin: str = ""
     """Source of the initial value."""
@@ -72,5 +73,5 @@ class ParametersReply(Message):
     """The request was carried out."""
     reason: str = ""
     """Why it was refused; then nothing was changed."""
-    parameters: list[Parameter] = Field(default_factory=list)
+    parameters: list[Parameter] = []
     """The parameters that were named, as they are from the next tick on."""

@@ -2,13 +2,13 @@
 
 from typing import Annotated
 
-import msgspec
 from msgspec import Meta
 
 from schemas.game import Point
+from schemas.wire.checked import Checked
 from schemas.wire.message import Message, Name, ShortText
-from schemas.wire.struct import Checked, Struct
-from schemas.wire.units import Age, Metres, MetresPerSecond, Radians, RadiansPerSecond
+from schemas.wire.part import Part
+from schemas.wire.units import Age, Finite, Metres, MetresPerSecond, Radians, RadiansPerSecond
 
 MAX_EXTRA = 16
 """Entries in the free part of a radio message."""
@@ -16,7 +16,7 @@ MAX_OBSTACLES = 32
 """Obstacles in a radio message."""
 
 
-class BallBelief(Struct, frozen=True, kw_only=True, metaclass=Checked):
+class BallBelief(Part, metaclass=Checked):
     """Where a robot believes the ball to be, in its team frame."""
 
     x: Metres
@@ -31,7 +31,7 @@ class BallBelief(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """Simulated time since the robot last saw the ball, in s."""
 
 
-class Motion(Struct, frozen=True, kw_only=True):
+class Motion(Part):
     """Pose and twist of a robot in its team frame."""
 
     x: Metres
@@ -48,7 +48,7 @@ class Motion(Struct, frozen=True, kw_only=True):
     """Turn rate, counter-clockwise, in rad/s."""
 
 
-class RadioContent(Struct, frozen=True, kw_only=True, omit_defaults=True):
+class RadioContent(Part, omit_defaults=True):
     """The content of a radio message; fields that are null or empty are omitted when it is sent."""
 
     self: Motion | None = None
@@ -61,19 +61,17 @@ class RadioContent(Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What the sender is about to do; the team's own code defines the values."""
     pass_to: Name | None = None
     """The teammate that is asked to receive a pass; None without a pass."""
-    extra: Annotated[dict[ShortText, float | int | bool | ShortText], Meta(max_length=MAX_EXTRA)] = msgspec.field(
-        default_factory=dict
-    )
+    extra: Annotated[dict[ShortText, Finite | int | bool | ShortText], Meta(max_length=MAX_EXTRA)] = {}
     """Further values that the team's own code defines, by name."""
 
 
-class Radio(RadioContent, frozen=True, kw_only=True, metaclass=Checked):
+class Radio(RadioContent, metaclass=Checked):
     """A message to all teammates and the coach; the host delivers it with delay and loss, within the team's bit budget.
 
     Fields that are null or empty are omitted when it is sent.
     """
 
-    obstacles: Annotated[list[Point], Meta(max_length=MAX_OBSTACLES)] = msgspec.field(default_factory=list)
+    obstacles: Annotated[list[Point], Meta(max_length=MAX_OBSTACLES)] = []
     """Where the sender believes opponents and other bodies to be that are no teammates, in the team frame. Only the
     coach receives them; they count toward the budget."""
 

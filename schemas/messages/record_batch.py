@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar
 
 import msgspec
-from pydantic import Field
+from msgspec import Meta
 
-from schemas.wire.message import VERSION, BadMessageError, Message, Part
+from schemas.wire.message import VERSION, BadMessageError, Message
+from schemas.wire.part import Part
 
 MAX_KEY = 200
 """Most characters of a key."""
@@ -20,13 +21,13 @@ MAX_KEY = 200
 class BatchEntry(Part):
     """One message with its metadata."""
 
-    key: Annotated[str, Field(max_length=MAX_KEY)]
+    key: Annotated[str, Meta(max_length=MAX_KEY)]
     """Key below the match, `robot/cyan1/command`."""
     message: Any = None
     """The payload where it is JSON, byte for byte."""
     octets: str | None = None
     """The payload in base64 where it is not JSON; otherwise None."""
-    sequence: Annotated[int, Field(ge=0)] | None = None
+    sequence: Annotated[int, Meta(ge=0)] | None = None
     """The sender's sequence number on that key; None where the sender gave none."""
     sent_ns: int = 0
     """The sender's wall time, ns since 1970."""
@@ -47,9 +48,9 @@ class RecordBatch(Message):
 
     max_bytes: ClassVar[int] = 4 * 2**20
 
-    stream: Annotated[int, Field(ge=0)]
+    stream: Annotated[int, Meta(ge=0)]
     """Wall time at which the host began, ns since 1970, which distinguishes hosts."""
-    number: Annotated[int, Field(ge=0)]
+    number: Annotated[int, Meta(ge=0)]
     """Sequence number of the batch, from 0."""
     tick: int
     """The last complete tick; −1 before the first."""
@@ -62,11 +63,11 @@ class RecordBatch(Message):
 class RecordBatchesRequest(Message):
     """A request for published batches, from number `first` to number `last`, both included."""
 
-    first: Annotated[int, Field(ge=0)]
+    first: Annotated[int, Meta(ge=0)]
     """Number of the first requested batch."""
-    last: Annotated[int, Field(ge=0)] | None = None
+    last: Annotated[int, Meta(ge=0)] | None = None
     """Number of the last requested batch; None for the newest."""
-    since_ns: Annotated[int, Field(ge=0)] = 0
+    since_ns: Annotated[int, Meta(ge=0)] = 0
     """Batches published before this wall time, ns since 1970, are left out."""
 
 
@@ -78,24 +79,24 @@ class RecordBatchesReply(Message):
 
     max_bytes: ClassVar[int] = 8 * 2**20
 
-    stream: Annotated[int, Field(ge=0)]
+    stream: Annotated[int, Meta(ge=0)]
     """The host's `stream`, as in `RecordBatch`."""
-    oldest: Annotated[int, Field(ge=0)]
+    oldest: Annotated[int, Meta(ge=0)]
     """Number of the oldest available batch, without those before `since_ns`; of the next batch where there is none.
 
     Batches with smaller numbers are lost.
     """
-    batches: list[RecordBatch] = Field(default_factory=list)
+    batches: list[RecordBatch] = []
     """The batches from the larger of `first` and `oldest` on; empty where that is unpublished or beyond `last`."""
 
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, gc=False):
     """A `BatchEntry` whose message stays encoded."""
 
-    key: Annotated[str, msgspec.Meta(max_length=MAX_KEY)]
+    key: Annotated[str, Meta(max_length=MAX_KEY)]
     message: msgspec.Raw = msgspec.Raw(b"null")
     octets: str | None = None
-    sequence: Annotated[int, msgspec.Meta(ge=0)] | None = None
+    sequence: Annotated[int, Meta(ge=0)] | None = None
     sent_ns: int = 0
     sim_ns: int = -1
     arrived_ns: int = 0
@@ -111,7 +112,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaul
         return bytes(self.message) if self.octets is None else b64decode(self.octets, validate=True)
 
 
-_Count = Annotated[int, msgspec.Meta(ge=0)]
+_Count = Annotated[int, Meta(ge=0)]
 
 
 class Batch(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):

@@ -1,7 +1,5 @@
 """Progress of a recorder while it records."""
 
-from pydantic import Field
-
 from schemas.wire.message import Message
 
 
@@ -14,7 +12,7 @@ class RecorderProgress(Message):
     """Messages received so far."""
     lost: int
     """Messages known to be missing so far."""
-    losses: dict[str, int] = Field(default_factory=dict)
+    losses: dict[str, int] = {}
     """Key → messages known to be missing; keys without losses are left out."""
     sights: bool = False
     """The recorder also records sights: the host adds them to its batches."""

@@ -3,7 +3,7 @@
 from enum import StrEnum
 from typing import Annotated, ClassVar
 
-from pydantic import Field
+from msgspec import Meta
 
 from schemas.messages.game import GameEvent
 from schemas.wire.message import Message
@@ -39,9 +39,9 @@ class ReplayRequest(Message):
     """Target of a seek: simulated time in s, or an event, `goal:2`, `kick_off:1-5`."""
     by: float | None = None
     """Distance of a seek from here in simulated time, in s; negative for backward."""
-    rate: Annotated[float, Field(gt=0)] | None = None
+    rate: Annotated[float, Meta(gt=0)] | None = None
     """Simulated seconds per wall second; None for as fast as possible."""
-    ticks: Annotated[int, Field(ge=1)] = 1
+    ticks: Annotated[int, Meta(ge=1)] = 1
     """Length of a step in ticks."""
 
 
@@ -69,5 +69,5 @@ class ReplayReply(Message):
     """The replay starts again at its end."""
     messages: int = 0
     """Messages published so far."""
-    events: list[GameEvent] = Field(default_factory=list)
+    events: list[GameEvent] = []
     """All events of the recording in order, where they were requested."""

@@ -3,7 +3,7 @@
 from enum import StrEnum
 from typing import Annotated
 
-from pydantic import Field
+from msgspec import Meta
 
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import MAX_ROBOTS, Placement
@@ -30,13 +30,13 @@ class SceneRequest(Message):
     """For `load`: the name of a shipped scene."""
     scene: Scene | None = None
     """For `load`: the scene itself, in place of a name."""
-    place: Annotated[list[Placement], Field(max_length=100)] = Field(default_factory=list)
+    place: Annotated[list[Placement], Meta(max_length=100)] = []
     """For `place`: placements of robots or the ball."""
-    robots: Annotated[list[SceneRobot], Field(max_length=2 * MAX_ROBOTS)] = Field(default_factory=list)
+    robots: Annotated[list[SceneRobot], Meta(max_length=2 * MAX_ROBOTS)] = []
     """For `add`: robots that are added."""
-    obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
+    obstacles: Annotated[list[StaticObstacle], Meta(max_length=100)] = []
     """For `add`: obstacles that are added."""
-    remove: Annotated[list[Name], Field(max_length=100)] = Field(default_factory=list)
+    remove: Annotated[list[Name], Meta(max_length=100)] = []
     """For `remove`: names of robots and obstacles."""
     to_match: bool = False
     """For `reset`: to the start of the match instead of the scene that was loaded last."""

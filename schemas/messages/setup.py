@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import Any, Self
 
-from pydantic import Field
-
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig, Parameter
@@ -17,7 +15,8 @@ from schemas.config.sections import Ball, CameraView, Dribble, DriveLimits, Kick
 from schemas.game import OfficiatingMode
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
-from schemas.wire.message import Message, Name, Part
+from schemas.wire.message import Message, Name
+from schemas.wire.part import Part
 
 _EMPTY: Mapping[str, Any] = {}
 
@@ -33,11 +32,11 @@ class TeamSetup(Part):
     """Name of the team, for display."""
     robots: list[Name]
     """Names of the robots, the goalkeeper first."""
-    types: dict[Name, Name] = Field(default_factory=dict)
+    types: dict[Name, Name] = {}
     """Robot → its type; other robots are of the standard type."""
     goalkeeper: bool = True
     """The first robot that is on the field is the goalkeeper; False for a team without one."""
-    parameters: dict[Name, Parameter] = Field(default_factory=dict)
+    parameters: dict[Name, Parameter] = {}
     """Values of the match file for the team's own program; the other team can read them, too."""
 
 
@@ -104,13 +103,13 @@ class Setup(Message):
     """Side → its team."""
     models: dict[Name, RobotModel]
     """Type → model; `standard` is for robots without a type."""
-    engine: dict[str, str] = Field(default_factory=dict)
+    engine: dict[str, str] = {}
     """Fingerprint of what computes the world: version of the engine, results of the maths library."""
-    parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
+    parameters: dict[ParameterName, Setting] = {}
     """Live parameters that were changed since the match began → value; the numbers above include them."""
     claims: bool = False
     """Whether agents claim their robot on `host/claim`; False in a replay, which admits all."""
-    orders: dict[Side, int] = Field(default_factory=dict)
+    orders: dict[Side, int] = {}
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
 
     @classmethod
@@ -164,7 +163,7 @@ class Setup(Message):
             "kicker": model.kicker,
             "camera": model.camera,
         }
-        return self.model_copy(update=own)
+        return self.replace(**own)
 
 
 def _team(config: MatchConfig, side: Side) -> TeamSetup:

@@ -1,17 +1,15 @@
 """What one robot knows at one tick, in its team frame: each team attacks +x in its own frame."""
 
-from msgspec import field
-
 from schemas.messages.coach import CoachOrder
 from schemas.messages.game import GameView
 from schemas.messages.radio import BallBelief, Motion, RadioContent
 from schemas.side import Side
-from schemas.wire.message import Name
-from schemas.wire.struct import Struct, StructMessage
+from schemas.wire.message import Message, Name
+from schemas.wire.part import Part
 from schemas.wire.units import Metres, MetresPerSecond, Seconds
 
 
-class BallSight(Struct, frozen=True, kw_only=True):
+class BallSight(Part):
     """The ball as the camera last saw it."""
 
     x: Metres
@@ -31,7 +29,7 @@ class BallSight(Struct, frozen=True, kw_only=True):
     those of the last picture that it was in."""
 
 
-class Obstacle(Struct, frozen=True):
+class Obstacle(Part, kw_only=False):
     """A round body in the camera's picture; the picture does not identify it."""
 
     x: Metres
@@ -42,7 +40,7 @@ class Obstacle(Struct, frozen=True):
     """Radius of the circle around it on the ground, in m."""
 
 
-class ReceivedRadio(RadioContent, frozen=True, kw_only=True):
+class ReceivedRadio(RadioContent):
     """A teammate's radio message as it was delivered."""
 
     age: Seconds
@@ -57,16 +55,16 @@ class ReceivedRadio(RadioContent, frozen=True, kw_only=True):
         return cls(age=age, **{name: getattr(content, name) for name in RadioContent.__struct_fields__})
 
 
-class Outcome(Struct, frozen=True, kw_only=True):
+class Outcome(Part):
     """What became of the robot's last command."""
 
     answers_tick: int | None = None
     """Tick of the sight that the command answered; None where no command arrived for this tick."""
-    refused: list[str] = field(default_factory=list)
+    refused: list[str] = []
     """One sentence with the reason for each part of the command that was not carried out."""
 
 
-class Sight(StructMessage, frozen=True, kw_only=True):
+class Sight(Message):
     """What one robot perceives at one tick."""
 
     tick: int
@@ -91,7 +89,7 @@ class Sight(StructMessage, frozen=True, kw_only=True):
     """Robots of both teams and other bodies in the newest picture, the nearest first."""
     obstacles_age: Seconds = 0.0
     """Simulated time since that picture was taken, in s."""
-    radio: dict[Name, ReceivedRadio] = field(default_factory=dict)
+    radio: dict[Name, ReceivedRadio] = {}
     """Teammate → its newest radio message that was delivered."""
     game: GameView
     """The state of the game from the team's point of view."""

@@ -1,11 +1,10 @@
 """The truth of one tick, in the field frame."""
 
-from pydantic import Field
-
 from schemas.config.obstacle import Shape
 from schemas.game import OffField
 from schemas.side import Side
-from schemas.wire.message import Message, Name, Part
+from schemas.wire.message import Message, Name
+from schemas.wire.part import Part
 
 
 class RobotTruth(Part):
@@ -84,15 +83,15 @@ class World(Message):
     """True state of the ball."""
     possession: Name | None = None
     """The robot that holds the ball; None while no robot does."""
-    touches: list[Name] = Field(default_factory=list)
+    touches: list[Name] = []
     """Robots that touched, held or kicked the ball since the tick before, in order of time; omitted while empty."""
-    level: list[Name] = Field(default_factory=list)
+    level: list[Name] = []
     """The last robots of `touches`, if they touched the ball at the same time and equally hard; omitted while empty."""
     kicked: Name | None = None
     """The robot whose kick was carried out in this tick; omitted without one."""
     clock: float = 0.0
     """Game clock in s."""
-    obstacles: dict[Name, ObstacleTruth] = Field(default_factory=dict)
+    obstacles: dict[Name, ObstacleTruth] = {}
     """Obstacle → its place and size; omitted while empty."""
     episode: int = 1
     """Counts the starts of the world: the match's own, each scene that is loaded, each reset. Ticks and time go on."""

@@ -23,7 +23,7 @@ from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import BallSight, Obstacle, Outcome, ReceivedRadio, Sight
 from schemas.messages.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
 from schemas.side import Side
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 _TICK, _TIME = 412, 8.24
 _CYAN_2 = RobotTruth(x=3.1, y=-1.2, z=0.399, heading=0.31, vx=1.4, vy=0.45, omega=0.0, holding=True)
@@ -47,13 +47,13 @@ _DEBUG = Debug(
 )
 
 
-def examples() -> dict[type[WireMessage], WireMessage]:
+def examples() -> dict[type[Message], Message]:
     """Message → its example."""
     made = (*_truth(), *_robot(), *_game(), *_host())
     return {type(message): message for message in made}
 
 
-def _truth() -> tuple[WireMessage, ...]:
+def _truth() -> tuple[Message, ...]:
     return (
         World(
             tick=_TICK,
@@ -69,7 +69,7 @@ def _truth() -> tuple[WireMessage, ...]:
     )
 
 
-def _robot() -> tuple[WireMessage, ...]:
+def _robot() -> tuple[Message, ...]:
     return (
         Sight(
             tick=_TICK,
@@ -102,7 +102,7 @@ def _robot() -> tuple[WireMessage, ...]:
     )
 
 
-def _game() -> tuple[WireMessage, ...]:
+def _game() -> tuple[Message, ...]:
     return (
         GameState(
             tick=_TICK,
@@ -134,7 +134,7 @@ def _game() -> tuple[WireMessage, ...]:
     )
 
 
-def _host() -> tuple[WireMessage, ...]:
+def _host() -> tuple[Message, ...]:
     return (
         SetupRequest(),
         AgentClaim(
@@ -183,7 +183,7 @@ def _host() -> tuple[WireMessage, ...]:
     )
 
 
-def _batches() -> tuple[WireMessage, ...]:
+def _batches() -> tuple[Message, ...]:
     entry = BatchEntry(
         key="robot/cyan2/command",
         message=Command(answers_tick=_TICK, drive=_DRIVE).plain(),
@@ -204,7 +204,7 @@ def _batches() -> tuple[WireMessage, ...]:
     return batch, request, RecordBatchesReply(stream=batch.stream, oldest=0, batches=[batch])
 
 
-def _parameters() -> tuple[WireMessage, ...]:
+def _parameters() -> tuple[Message, ...]:
     rolling = Parameter(
         name="ball.rolling_deceleration",
         description="loss of speed of a ball that rolls freely",

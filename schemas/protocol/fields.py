@@ -17,7 +17,8 @@ from pydantic.fields import FieldInfo
 from schemas.config.quantity import Choice, Quantity
 from schemas.wire.field_docstrings import field_docstrings
 from schemas.wire.message import Name
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
+from schemas.wire.units import MAX
 
 Link = Callable[[type], str]
 """Gives the name of a part or an enumeration in the text."""
@@ -120,7 +121,7 @@ def _limits(kind: Any, metadata: Sequence[Any]) -> str:
                 limits.append(f"at most {bound:g}")
             case msgspec.Meta():
                 bounds = ("at least", item.ge), ("above", item.gt), ("at most", item.le)
-                limits += [f"{word} {bound:g}" for word, bound in bounds if bound is not None]
+                limits += [f"{word} {bound:g}" for word, bound in bounds if bound not in (None, MAX, -MAX)]
                 if item.max_length is not None:
                     limits.append(f"at most {item.max_length} {'characters' if kind is str else 'of them'}")
             case MaxLen(max_length=bound):

@@ -18,7 +18,7 @@ from schemas.protocol.fields import is_part, parts_of, rows
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import TOPICS
-from schemas.wire.message import VERSION, Message, WireMessage
+from schemas.wire.message import VERSION, Message
 
 _NOTE = "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; to change this page, change schemas/. -->"
 _WIDE = 110
@@ -62,7 +62,7 @@ def _text(name: str) -> str:
     return (resources.files("schemas.protocol") / name).read_text("utf-8").strip()
 
 
-def _messages(topics: Iterable[Topic]) -> list[type[WireMessage]]:
+def _messages(topics: Iterable[Topic]) -> list[type[Message]]:
     """Every message and every reply once, in the order of the table."""
     both = [kind for topic in topics for kind in (topic.message, topic.reply) if kind is not None]
     return list(dict.fromkeys(both))
@@ -118,7 +118,7 @@ def _account_cells(account: Account) -> tuple[str, ...]:
     return (f"`{account.value}`", ACCOUNTS[account].description, publishes, ", ".join(subscribed), *rest)
 
 
-def _message(kind: type[WireMessage], titles: dict[type, str]) -> str:
+def _message(kind: type[Message], titles: dict[type, str]) -> str:
     keys = [f"`{topic.key}`" for topic in TOPICS.values() if kind in (topic.message, topic.reply)]
     size = f"; at most {kind.max_bytes} bytes" if kind.max_bytes != Message.max_bytes else ""
     where = f"On {', '.join(keys)}{size}."
@@ -142,7 +142,7 @@ def _table(headings: Sequence[str], cells: Iterable[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def laid_out(message: WireMessage) -> str:
+def laid_out(message: Message) -> str:
     """A message as JSON with one line for each field; the content of a long field is packed into several lines."""
     entries = [_entry(name, value, "  ") for name, value in from_json(message.encode()).items()]
     return "{\n" + ",\n".join(f"  {entry}" for entry in entries) + "\n}"

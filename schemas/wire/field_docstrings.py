@@ -8,28 +8,23 @@ import ast
 import inspect
 import sys
 from functools import cache
+from typing import get_args
 
-from pydantic import GetJsonSchemaHandler
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema
+from schemas.wire.faults import hints_of
 
 _LIBRARIES = frozenset({"builtins", "msgspec", "pydantic"})
 """Whose classes are bases of ours, and describe no field of a message."""
 
 
-class Described:
-    """A model or a dataclass whose JSON Schema describes its fields by their docstrings."""
-
-    __slots__ = ()
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        schema = handler(core_schema)
-        descriptions = field_docstrings(cls)
-        for name, field in handler.resolve_ref_schema(schema).get("properties", {}).items():
-            if name in descriptions:
-                field["description"] = descriptions[name]
-        return schema
+def descriptions(cls: type) -> dict[str, str]:
+    """Field → its docstring, or what its type declares about it: the meaning of a number with its unit."""
+    declared = {
+        name: str(item.description)
+        for name, hint in hints_of(cls).items()
+        for item in get_args(hint)[1:]
+        if hasattr(item, "meaning")
+    }
+    return field_docstrings(cls) | declared
 
 
 def field_docstrings(cls: type) -> dict[str, str]:

@@ -1,8 +1,16 @@
-"""JSON Schemas in one form for models and structs: the message at the root, and its definitions next to it."""
+"""JSON Schemas in one form: the message at the root, and its definitions beside it, for readers in any language."""
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Iterator
 from inspect import cleandoc
-from typing import Any
+from typing import Any, get_args
+
+import msgspec
+from pydantic import BaseModel
+
+from schemas.wire.faults import hints_of
+from schemas.wire.field_docstrings import descriptions
+from schemas.wire.units import MAX
 
 Schema = dict[str, Any]
 
@@ -10,83 +18,53 @@ _DEFINITIONS = "#/$defs/"
 """Prefix of a reference to a definition."""
 
 
-def published(schema: Schema, descriptions: Mapping[str, Mapping[str, str]]) -> Schema:
-    """A schema that msgspec made, with the message itself at its root, for readers in any language.
+def json_schema(kind: type) -> Schema:
+    """The schema of a part, with the docstrings of all fields as descriptions."""
+    of_models: Schema = {}
 
-    Args:
-        descriptions: class name → field → its description.
-    """
-    definitions: Schema = {}
-    for name, one in schema["$defs"].items():
-        definitions[name] = _plain(one)
-        for field, description in descriptions.get(name, {}).items():
-            definitions[name]["properties"][field]["description"] = description
+    def model_schema(model: type[BaseModel]) -> Schema:
+        schema = model.model_json_schema(mode="serialization")
+        of_models.update(schema.pop("$defs", {}))
+        of_models[model.__name__] = schema
+        return {"$ref": _DEFINITIONS + model.__name__}
+
+    schema = msgspec.json.schema(kind, schema_hook=model_schema)
+    definitions = {name: _plain(one) for name, one in schema["$defs"].items()}
+    for part in set(_parts_in(kind)):
+        texts = descriptions(part)
+        for name, field in definitions[part.__name__]["properties"].items():
+            field |= {"description": texts[name]} if name in texts else {}
+    definitions = {**of_models, **definitions}
     own: Schema = definitions.pop(schema["$ref"].removeprefix(_DEFINITIONS))
     return {**own, "$defs": definitions} if definitions else own
 
 
-def in_one_piece(schema: Schema) -> Schema:
-    """The same schema with each reference replaced by its definition.
+def _parts_in(hint: Any) -> Iterator[type]:
+    """The structs and dataclasses in a type, with those in their fields."""
+    if isinstance(hint, type) and (issubclass(hint, msgspec.Struct) or dataclasses.is_dataclass(hint)):
+        yield hint
+        inner: Any = hints_of(hint).values()
+    else:
+        inner = get_args(hint)
+    for one in inner:
+        yield from _parts_in(one)
 
-    Where a reference has keys beside it, the definition stands alone in `allOf`, so that the two do not mix.
-    """
-    definitions = schema.get("$defs", {})
-    whole: Schema = _inlined({key: value for key, value in schema.items() if key != "$defs"}, definitions)
-    return whole
 
-
-def with_definitions(schema: Schema) -> Schema:
-    """The same schema with a reference in place of each object and enumeration that has a title."""
-    definitions: Schema = {}
-    own = _with_references({key: value for key, value in schema.items() if key != "$defs"}, definitions)
-    for name, one in schema.get("$defs", {}).items():
-        definitions[name] = _with_references(one, definitions)
-    return {**own, "$defs": definitions} if definitions else own
+def _is_no_limit(value: Any) -> bool:
+    return isinstance(value, float) and abs(value) == MAX
 
 
 def _plain(schema: Any) -> Any:
+    """A schema of msgspec without what only Python knows."""
     if isinstance(schema, list):
         return [_plain(one) for one in schema]
     if not isinstance(schema, dict):
         return schema
-    own = {key: _plain(value) for key, value in schema.items()}
+    own = {key: _plain(value) for key, value in schema.items() if not _is_no_limit(value)}
     if isinstance(own.get("enum"), list):
         own["type"] = "string"
     if isinstance(own.get("pattern"), str):
         own["pattern"] = own["pattern"].replace(r"\Z", "$")
     if isinstance(own.get("description"), str):
         own["description"] = cleandoc(own["description"])
-    return own
-
-
-def _inlined(schema: Any, definitions: Mapping[str, Any]) -> Any:
-    if isinstance(schema, list):
-        return [_inlined(one, definitions) for one in schema]
-    if not isinstance(schema, dict):
-        return schema
-    own = {key: _inlined(value, definitions) for key, value in schema.items() if key != "$ref"}
-    if not isinstance(schema.get("$ref"), str):
-        return own
-    definition = _inlined(definitions[schema["$ref"].removeprefix(_DEFINITIONS)], definitions)
-    return {"allOf": [definition], **own} if own else definition
-
-
-def _with_references(schema: Schema, definitions: Schema) -> Schema:
-    """A schema whose titled parts are moved to the definitions."""
-    return {key: _referenced(value, definitions) for key, value in schema.items()}
-
-
-def _referenced(schema: Any, definitions: Schema) -> Any:
-    if isinstance(schema, list):
-        return [_referenced(one, definitions) for one in schema]
-    if not isinstance(schema, dict):
-        return schema
-    own = _with_references(schema, definitions)
-    match own:
-        case {"allOf": [dict(only)]}:
-            return {**only, **{key: value for key, value in own.items() if key != "allOf"}}
-        case {"title": str(title)} if "properties" in own or "enum" in own:
-            beside = {"default": own.pop("default")} if "default" in own else {}
-            same = definitions.setdefault(title, own)
-            return {"$ref": _DEFINITIONS + title, **beside} if same == own else {**own, **beside}
     return own

@@ -12,7 +12,7 @@ from schemas.config.sections import RadioChannel
 from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.match.radio_medium import Budget, SharedChannel
 from sim_host.match.radio_timing import NEVER, RadioTiming, Ticks, arrival_ticks, last_arrival
 from sim_host.match.radio_use import RadioUse

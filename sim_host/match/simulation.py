@@ -22,7 +22,7 @@ from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, TeamSetup
 from schemas.side import Side
 from schemas.wire.message import VERSION
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
@@ -187,7 +187,7 @@ class Simulation:
         setup = Setup.of(self.config, p, self.book, self._engine, changed)
         teams = {side: self._team_setup(side) for side in Side}
         orders = {side: order.sequence for side, order in self.orders.items()}
-        return setup.model_copy(update={"teams": teams, "orders": orders})
+        return setup.replace(teams=teams, orders=orders)
 
     def _team_setup(self, side: Side) -> TeamSetup:
         robots = [entry for entry in self._operator.layout.robots if entry.side is side]

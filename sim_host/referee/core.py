@@ -8,7 +8,7 @@ from schemas.config.rule_book import RuleBook
 from schemas.config.scene import SceneGame
 from schemas.config.sections import Ball, Pitch
 from schemas.frames import Pose
-from schemas.game import RESTARTS, OfficiatingMode, Phase
+from schemas.game import RESTARTS, OfficiatingMode, Phase, Score
 from schemas.messages.game import ActionReply, GameEvent, RefereeAction
 from schemas.side import Side
 from sim_host.referee import refbox
@@ -111,7 +111,7 @@ class Referee:
                 runs=running or game.phase not in (Phase.PRE_GAME, Phase.KICK_OFF),
             ),
             set_piece=started(Restart(game.phase, game.side, ball)) if is_restart and running else None,
-            score=game.score,
+            score=Score(cyan=game.score.cyan, magenta=game.score.magenta),
         )
 
     def step(self, state: RefereeState, snapshot: Snapshot, actions: Sequence[RefereeAction], dt: float) -> Ruling:

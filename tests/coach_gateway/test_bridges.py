@@ -196,8 +196,8 @@ async def _meet(ports: dict[str, int], token: str, states: Any, program: socket.
     game = GameState(tick=1, time=0.02, phase=Phase.STOPPED)
     heard = ""
     for tick in range(2, 1000):
-        corner = game.model_copy(update={"tick": tick, "phase": Phase.CORNER if tick % 2 else Phase.STOPPED})
-        states.put(corner.model_copy(update={"side": Side.CYAN if tick % 2 else None}))
+        corner = game.replace(tick=tick, phase=Phase.CORNER if tick % 2 else Phase.STOPPED)
+        states.put(corner.replace(side=Side.CYAN if tick % 2 else None))
         with_it = asyncio.wait_for(reader.readuntil(b"\x00"), 0.05)
         try:
             heard += (await with_it)[:-1].decode()

@@ -10,9 +10,9 @@ from coach_gateway.access.roles import Role
 from coach_gateway.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
-from coach_gateway.web.protocol import PAGE_REQUEST
+from coach_gateway.web.protocol import read_request
 from schemas.messages.coach import REQUIRED_FIELDS
-from schemas.wire.message import Part
+from schemas.wire.part import Part
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +26,7 @@ def programs(root: Path) -> str:
 
 
 def kinds(*models: type[Part]) -> set[str]:
-    return {model.model_fields["kind"].annotation.__args__[0] for model in models}  # type: ignore[union-attr]
+    return {str(model.__struct_config__.tag) for model in models}
 
 
 def test_every_datagram_both_ways_has_its_row(programs: str) -> None:
@@ -65,7 +65,7 @@ def test_every_command_of_the_box_is_in_the_table_of_what_becomes_of_it(root: Pa
 
 
 def test_the_documented_messages_of_programs_to_the_server_of_the_page_are_valid(page: str) -> None:
-    asks = [PAGE_REQUEST.validate_json(line[2:]) for line in page.splitlines() if line.startswith("→ {")]
+    asks = [read_request(line[2:]) for line in page.splitlines() if line.startswith("→ {")]
     assert [ask.deed for ask in asks] == ["action", "action"]
 
 

@@ -7,7 +7,6 @@ import pytest
 
 from recordings.container.attachments import make_attachments
 from recordings.container.manifest import EndReason, Result, make_manifest
-from recordings.container.sealed_metadata import to_metadata
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
@@ -25,7 +24,7 @@ def test_the_lines_that_read_a_file_with_the_stock_package_alone(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    from pydantic_core import to_json
+    from schemas.wire.part import encode
 
     config, clock = load_match(None, {"duration": 5.0}), SteppedClock()
     simulation = Simulation(config)
@@ -38,9 +37,9 @@ def test_the_lines_that_read_a_file_with_the_stock_package_alone(
     play_match(config, watch=said.append, until=0.2)
     for number, tick in enumerate(said):
         stamp = Stamp(number, 1, round(tick.time * 1e9))
-        payload = to_json({"version": VERSION, **tick.world})
+        payload = encode({"version": VERSION, **tick.world})
         writer.write([(stamp.sim_ns, ReceivedMessage(WORLD, WORLD.key, payload, stamp))])
-    writer.finish(to_metadata(Result(ended=EndReason.STOPPED, finished="")))
+    writer.finish(Result(ended=EndReason.STOPPED, finished=""))
     page = (root / "docs" / "recordings.md").read_text("utf-8")
     code = next(piece for piece in fenced(page, "python") if "make_reader" in piece)
     assert "recordings" not in code and "schemas" not in code

@@ -53,7 +53,7 @@ def host_of():
 
 def test_an_agent_claims_its_robot_for_a_session_of_its_own(host_of, setup):
     host = host_of(accepted=True)
-    claiming = setup.model_copy(update={"claims": True})
+    claiming = setup.replace(claims=True)
     for _ in range(2):
         Membership(host.agent_bus, "cyan1", "secret").join(claiming, 1.0)
     tokens = [host.presence.receive(1.0) for _ in range(2)]
@@ -69,20 +69,20 @@ def test_an_agent_claims_its_robot_again_of_each_host_for_the_same_session(host_
     host = host_of(accepted=True)
     member = Membership(host.agent_bus, "cyan1", None)
     for _ in range(2):
-        member.join(setup.model_copy(update={"claims": True}), 1.0)
+        member.join(setup.replace(claims=True), 1.0)
     assert host.claims[0] == host.claims[1]
 
 
 def test_a_refused_agent_ends_with_the_reason(host_of, setup):
     host = host_of(accepted=False, reason="cyan1 has an agent already: process 4711 on lab3")
     with pytest.raises(TouchlineError) as error:
-        Membership(host.agent_bus, "cyan1", None).join(setup.model_copy(update={"claims": True}), 1.0)
+        Membership(host.agent_bus, "cyan1", None).join(setup.replace(claims=True), 1.0)
     assert str(error.value) == "cyan1: refused by the host: cyan1 has an agent already: process 4711 on lab3"
 
 
 def test_an_agent_reports_match_side_and_program(host_of, setup):
     host = host_of(accepted=True)
-    Membership(host.agent_bus, "cyan1", None, "final", Side.CYAN).join(setup.model_copy(update={"claims": True}), 1.0)
+    Membership(host.agent_bus, "cyan1", None, "final", Side.CYAN).join(setup.replace(claims=True), 1.0)
     (claim,) = host.claims
     assert (claim.match, claim.side) == ("final", Side.CYAN)
     assert claim.program.startswith("touchline ")

@@ -53,5 +53,5 @@ def test_it_drives_on_while_the_way_is_short_and_away_from_the_opponent_after_th
 
 def test_without_a_rule_it_goes_on(setup: Setup) -> None:
     me, limits = Body(0.0, 0.0, 0.0, 1.5, 0.0), DriveLimits.of(setup)
-    free = setup.model_copy(update={"fouls": replace(setup.fouls, pushing="off")})
+    free = setup.replace(fouls=replace(setup.fouls, pushing="off"))
     assert let_go_of_opponent(pushed(1.0, 1.5), me, AHEAD, free, limits) == AHEAD

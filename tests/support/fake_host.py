@@ -22,11 +22,11 @@ from schemas.process.clock import Clock, WallClock
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, DEBUG, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 from support.messages import make_event, make_robot, make_world
 
 MATCH = "friendly"
-Answer = Callable[[Any], WireMessage]
+Answer = Callable[[Any], Message]
 
 
 class FakeHost:
@@ -101,7 +101,7 @@ class FakeHost:
             self._given.append((Side(received.chunks["side"]), received.message()))
         return self._given
 
-    def put(self, topic: Topic, message: WireMessage, **chunks: str) -> None:
+    def put(self, topic: Topic, message: Message, **chunks: str) -> None:
         """Publish a message."""
         key = topic.fill(**chunks)
         if key not in self._publishers:
@@ -111,7 +111,7 @@ class FakeHost:
     def say(self, **changes: Any) -> None:
         """Publish the next game state."""
         tick = self.state.tick + 1
-        self.state = self.state.model_copy(update={"tick": tick, "time": tick * 0.02, **changes})
+        self.state = self.state.replace(**{"tick": tick, "time": tick * 0.02, **changes})
         self.put(STATE, self.state)
 
     def tell(self, text: str) -> None:

@@ -32,7 +32,7 @@ class BusProgram:
             TouchlineError: it does not claim its robot.
         """
         self._robot, self._clock, self._log = briefing.robot, WallClock(), log
-        self._setup = briefing.setup.model_copy(update={"claims": True})
+        self._setup = briefing.setup.replace(claims=True)
         endpoint = with_free_port("tcp/127.0.0.1:0")
         self._bus = open_host(self._setup.match, self._clock, endpoint)
         self._bus.declare_alive(PresenceKind.HOST, "host")

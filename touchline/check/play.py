@@ -9,7 +9,7 @@ from schemas.messages.command import Command, KickMode
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.process.clock import Clock
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from touchline.check.subject import CheckedRobot, Subject
 from touchline.play import play_match
 

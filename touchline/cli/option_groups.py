@@ -21,7 +21,7 @@ from schemas.config.settings import CommandLine, Settings
 from schemas.errors import TouchlineError
 from schemas.wire.faults import FaultError, Path
 from schemas.wire.field_docstrings import field_docstrings
-from schemas.wire.struct_faults import validated
+from schemas.wire.part_faults import validated
 
 T = TypeVar("T")
 

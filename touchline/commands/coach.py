@@ -5,6 +5,7 @@ import typer
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.wire.part import encode
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
@@ -46,4 +47,4 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
         )
     if found is None:
         raise TouchlineError(f'match "{bus.match}": the host publishes no state of it; is that the name of its match?')
-    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found, names))
+    typer.echo(encode(found.plain("version")).decode() if json else state_line(found, names))

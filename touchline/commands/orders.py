@@ -12,7 +12,7 @@ from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.side import Side
-from schemas.wire.struct import check
+from schemas.wire.part_faults import validated
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import from_options, with_option_groups
@@ -26,11 +26,9 @@ def _point(text: str) -> Point:
     """`2,-1.5` as a point."""
     try:
         x, y = (float(part) for part in text.split(","))
-        point = Point(x=x, y=y)
-        check(point)
+        return validated(Point, {"x": x, "y": y})
     except ValueError:
         raise typer.BadParameter(f"{text} is no point; write x and y in m, like 2,-1.5") from None
-    return point
 
 
 PointOption = Annotated[Point | None, typer.Option(metavar="X,Y", parser=_point, help="m, team frame.")]

@@ -117,7 +117,7 @@ def _value(text: str) -> "Value":
 def _request(**content: object) -> "ParametersRequest":
     from schemas.messages.parameters import ParametersRequest
     from schemas.wire.faults import FaultError
-    from schemas.wire.struct_faults import validated
+    from schemas.wire.part_faults import validated
 
     try:
         return validated(ParametersRequest, content)
@@ -139,7 +139,7 @@ def _query(connection: ClientSettings, request: "ParametersRequest") -> "Paramet
 
 def _show(reply: "ParametersReply", *, json: bool) -> None:
     if json:
-        fields = [parameter.model_dump(mode="json") for parameter in reply.parameters]
+        fields = [parameter.plain() for parameter in reply.parameters]
         typer.echo(json_text.dumps(fields, ensure_ascii=False, indent=2))
         return
     lines = [_line(parameter) for parameter in reply.parameters]

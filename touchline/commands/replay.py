@@ -168,7 +168,10 @@ def replay(
         wall = clock.now() - began
     status = player.status()
     if json:
-        fields = {**status.model_dump(include={"time", "start", "end", "messages"}), "wall_s": round(wall, 3)}
+        fields = {
+            **{name: getattr(status, name) for name in ("time", "start", "end", "messages")},
+            "wall_s": round(wall, 3),
+        }
         typer.echo(json_text.dumps(fields))
 
 

@@ -168,7 +168,12 @@ def _request(**content: Any) -> "SceneRequest":
         TouchlineError: a value is invalid.
     """
     from schemas.config.scene import REMEDIES
-    from schemas.config.toml_file import validate_tables
+    from schemas.config.toml_file import table_error
     from schemas.messages.scene import SceneRequest
+    from schemas.wire.faults import FaultError
+    from schemas.wire.part_faults import validated
 
-    return validate_tables(SceneRequest, content, f"scene {content['operation']}", REMEDIES)
+    try:
+        return validated(SceneRequest, content)
+    except FaultError as error:
+        raise table_error(error.fault, f"scene {content['operation']}", REMEDIES) from None

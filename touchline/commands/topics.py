@@ -8,7 +8,7 @@ import typer
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.topic import Topic
 from schemas.topics import TOPICS
-from schemas.wire.message import Part, WireMessage
+from schemas.wire.message import Message
 from touchline.cli import options
 
 _COLUMNS = ("name", "key", "message", "from", "to", "rate", "delivery", "recorded", "description")
@@ -27,7 +27,7 @@ def topics(
     Example: touchline topics command
     """
     if name is not None:
-        typer.echo(json_text.dumps(_message(name).json_schema(), ensure_ascii=False, indent=2))
+        typer.echo(json_text.dumps(_schema(name), ensure_ascii=False, indent=2))
         return
     rows = [_row(name, topic) for name, topic in TOPICS.items()]
     if json:
@@ -40,19 +40,20 @@ def topics(
         typer.echo("  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip())
 
 
-def _message(name: str) -> "type[WireMessage | Part]":
-    """The message of a topic or class name, replies to queries and the match file among them."""
+def _schema(name: str) -> dict[str, Any]:
+    """The schema of a topic's message or of a class by name, replies to queries and the match file among them."""
     from schemas.config.match_config import MatchConfig
 
-    models: dict[str, type[WireMessage | Part]] = {"MatchConfig": MatchConfig}
+    models: dict[str, type[Message]] = {}
     for topic, row in TOPICS.items():
         if row.message is not None:
             models |= {topic: row.message, row.message.__name__: row.message}
         if row.reply is not None:
             models[row.reply.__name__] = row.reply
-    if name not in models:
-        raise TouchlineError(f'schema of "{name}": no such topic or message; {did_you_mean(name, models)}')
-    return models[name]
+    schemas = {"MatchConfig": MatchConfig.model_json_schema, **{one: kind.json_schema for one, kind in models.items()}}
+    if name not in schemas:
+        raise TouchlineError(f'schema of "{name}": no such topic or message; {did_you_mean(name, schemas)}')
+    return schemas[name]()
 
 
 def _row(name: str, topic: Topic) -> dict[str, Any]:

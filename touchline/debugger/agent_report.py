@@ -74,9 +74,9 @@ class AgentReport:
             fields = {
                 "start": result.start,
                 "end": result.end,
-                "score": result.score.model_dump(),
-                "recorded_score": recorded.model_dump(),
-                "events": [event.model_dump(mode="json") for event in result.events],
+                "score": result.score.plain(),
+                "recorded_score": recorded.plain(),
+                "events": [event.plain() for event in result.events],
                 "notes": notes,
             }
             typer.echo(json.dumps(fields))

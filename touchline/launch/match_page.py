@@ -26,4 +26,4 @@ def result_parts(plan: MatchPlan) -> Iterator[ResultUpdate]:
     except TouchlineError:
         return  # the recording is there, and `touchline stats` reports what is wrong with it
     rows = [(name, cyan, magenta) for name, cyan, magenta in side_rows(figures)]
-    yield known.model_copy(update={"figures": rows, "statistics": STATISTICS_ADDRESS})
+    yield known.replace(figures=rows, statistics=STATISTICS_ADDRESS)

@@ -88,14 +88,14 @@ class MatchResult:
         """One JSON object."""
         content = {
             "teams": {side.value: self.names[side] for side in Side},
-            "score": self.score.model_dump(),
-            "halves": [score.model_dump() for score in self.halves],
-            "shoot_out": self.shoot_out.model_dump() if self.shoot_out is not None else None,
+            "score": self.score.plain(),
+            "halves": [score.plain() for score in self.halves],
+            "shoot_out": self.shoot_out.plain() if self.shoot_out is not None else None,
             "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.robots.items()},
             "duration_s": round(self.duration_s, 6),
             "effective_s": round(self.effective_s, 6),
             "ticks": self.ticks,
-            "events": [event.model_dump(mode="json", exclude={"version"}) for event in self.events],
+            "events": [event.plain("version") for event in self.events],
             "real_time_factor": round(self.real_time_factor, 3),
             "wall_s": round(self.wall_s, 3),
             "recording": str(self.recording.path) if self.recording.path is not None else None,

@@ -11,7 +11,6 @@ from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 from sim_host.match.simulation import Simulation
 from touchline.verify.repeated_match import RepeatedMatch
-from touchline.verify.resim_start import need_scene
 
 
 @dataclass
@@ -53,5 +52,4 @@ def playable_config(recording: Recording) -> MatchConfig:
         raise TouchlineError(
             f"{recording.path}: it has neither sights nor its match file; record with touchline match --sights"
         )
-    need_scene(recording)
     return config

@@ -3,8 +3,6 @@
 from collections.abc import Iterable
 from typing import Any
 
-from pydantic_core import to_json
-
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
 from recordings.reading.tick_index import Segment
@@ -16,6 +14,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
+from schemas.wire.part import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.referee_factory import opening_state
 from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleTickError, parameters_of
@@ -63,29 +62,18 @@ def tick_length(recording: Recording) -> float:
 def opening_conflict(recording: Recording, state: RefereeState) -> list[Detail]:
     """Where the state of the referee at tick 0 is not the one with which the match file begins."""
     config = config_of(recording)
-    if config is None or recording.manifest.missing_scene is not None:
+    if config is None:
         return []
     expected = opening_state(config)
     pairs = zip(RefereeState._fields, state, expected, strict=True)
     return [Detail("referee", name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
 
 
-def need_scene(recording: Recording) -> None:
-    """Check that the config of a recording contains the scene that the match started in.
-
-    Raises:
-        TouchlineError: the config has only the scene's name, and the scene cannot be read.
-    """
-    missing = recording.manifest.missing_scene
-    if missing is not None:
-        raise TouchlineError(f"{recording.path}: its scene {missing} cannot be read; restore that file")
-
-
 def _known(before: TickRecord | None) -> CheckpointState:
     if before is None or before.applied is None or before.world is None:
         raise ImpossibleTickError("the world of the tick before the segment was not recorded")
     try:
-        return CheckpointState(World.decode(to_json(before.world)), before.applied.chain)
+        return CheckpointState(World.decode(encode(before.world)), before.applied.chain)
     except BadMessageError as error:
         raise ImpossibleTickError(str(error)) from None
 
@@ -105,11 +93,7 @@ def _parameters(recording: Recording, *, from_start: bool) -> LiveParameters:
 
 
 def _robots(recording: Recording) -> Iterable[RosterEntry]:
-    """The robots that took part at the recorder's query, in the order of the roster.
-
-    Raises:
-        TouchlineError: they are the robots of a scene that cannot be read.
-    """
+    """The robots that took part at the recorder's query, in the order of the roster."""
     manifest = recording.manifest
     for side in Side:
         has_keeper = True
@@ -117,7 +101,6 @@ def _robots(recording: Recording) -> Iterable[RosterEntry]:
             has_keeper = manifest.setup.teams[side].goalkeeper
             names, types = manifest.setup.teams[side].robots, manifest.setup.teams[side].types
         elif manifest.config is not None:
-            need_scene(recording)
             names, types = manifest.config.robots(side), manifest.config.team(side).types
         else:
             return

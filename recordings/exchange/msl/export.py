@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import IO, Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
-from pydantic_core import to_json
-
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.exchange.msl.game_log import GameLog
@@ -24,6 +22,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from schemas.topics import BELIEF, STATE, WORLD
+from schemas.wire.part import encode
 
 _TOPICS = (WORLD, STATE, BELIEF)
 FILES = {Side.CYAN: "A", Side.MAGENTA: "B"}
@@ -112,7 +111,7 @@ class _Log:
                 "gametimeMs": round(self.game.game_s(world.clock) * 1e3),
                 "worldstate": self._world_state(world, side, _attack_sign(state, side)),
             }
-            self._files[side].write((b",\n" if self.written[side] else b"[") + to_json(record))
+            self._files[side].write((b",\n" if self.written[side] else b"[") + encode(record))
             self.written[side] += 1
 
     def _world_state(self, world: World, side: Side, attack: int) -> dict[str, Any]:

@@ -66,7 +66,7 @@ class ImportSummary:
         return {
             "out": str(self.out),
             "duration": self.result.time,
-            "score": self.result.score.model_dump() if self.result.score is not None else None,
+            "score": self.result.score.plain() if self.result.score is not None else None,
             "teams": {
                 side.value: {
                     "name": log.team,
@@ -182,7 +182,7 @@ def _setup(files: LogFiles, teams: dict[Side, TeamLog], profile: str) -> Setup:
         )
         for side, log in teams.items()
     }
-    return setup.model_copy(update={"teams": messages, "time": _STEPS})
+    return setup.replace(teams=messages, time=_STEPS)
 
 
 def _name(side: Side, number: int) -> str:

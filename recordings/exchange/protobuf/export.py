@@ -5,7 +5,6 @@ from pathlib import Path
 from google.protobuf.json_format import ParseDict
 from google.protobuf.message import Message as ProtobufMessage
 from google.protobuf.message_factory import GetMessageClass
-from pydantic_core import to_json
 
 from recordings.container.environment import library
 from recordings.container.file_descriptors import file_descriptor_set
@@ -16,6 +15,7 @@ from recordings.exchange.protobuf.message_type import message_type
 from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
 from schemas.topics import TOPICS
+from schemas.wire.part import encode
 
 ORIGIN = "exported_from"
 """Name of the metadata record that describes the original recording."""
@@ -34,7 +34,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
         "match": recording.manifest.match,
         "started": recording.manifest.started,
         "contract": recording.manifest.contract,
-        "setup": to_json(recording.manifest.setup).decode(),
+        "setup": encode(recording.manifest.setup).decode(),
     }
     with atomic_output(out) as path, TypedWriter(path, library()) as writer:
         writer.metadata(ORIGIN, origin)

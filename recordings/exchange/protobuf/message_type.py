@@ -12,7 +12,7 @@ from google.protobuf.descriptor_pb2 import DescriptorProto, FieldDescriptorProto
 from google.protobuf.descriptor_pool import DescriptorPool
 
 from recordings.container.json_schema import whole_schema
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 PACKAGE = "touchline"
 _PLAIN = {
@@ -25,7 +25,7 @@ _VALUE = struct_pb2.Value.DESCRIPTOR
 _Schema = dict[str, Any]
 
 
-def message_type(model: type[WireMessage]) -> Descriptor:
+def message_type(model: type[Message]) -> Descriptor:
     """The protobuf type of a message, with all nested types."""
     file = _FileBuilder(model).file
     pool = DescriptorPool()
@@ -37,7 +37,7 @@ def message_type(model: type[WireMessage]) -> Descriptor:
 class _FileBuilder:
     """Builds the file of one message. All other messages are nested in it, so that names in files do not clash."""
 
-    def __init__(self, model: type[WireMessage]) -> None:
+    def __init__(self, model: type[Message]) -> None:
         schema = whole_schema(model)
         self._definitions: dict[str, _Schema] = schema.get("$defs", {})
         self._names: set[str] = set()

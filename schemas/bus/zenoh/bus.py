@@ -37,7 +37,7 @@ from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, key_prefix
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 
 def open_host(
@@ -169,7 +169,7 @@ class ZenohBus(Bus):
         return server
 
     def query(
-        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+        self, topic: Topic, request: Message, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
         self._check_may_write(topic)
         return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, droppable, self._open())

@@ -15,7 +15,7 @@ from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.sample import NO_KEY
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 _EXPIRED = "Timeout"
 """Zenoh's own text in place of a reply that did not come in time."""
@@ -30,7 +30,7 @@ class ZenohQuery(Query):
         super().__init__(topic, key, query.payload.to_bytes() if query.payload is not None else b"")
         self._query = query
 
-    def reply(self, reply: WireMessage) -> None:
+    def reply(self, reply: Message) -> None:
         self.reply_payload(reply.encode())
 
     def reply_payload(self, payload: bytes) -> None:
@@ -69,7 +69,7 @@ class ZenohServer(Server):
 
 class ZenohPendingReply(PendingReply):
     def __init__(
-        self, topic: Topic, key: str, request: WireMessage, timeout: float, droppable: bool, context: SessionContext
+        self, topic: Topic, key: str, request: Message, timeout: float, droppable: bool, context: SessionContext
     ) -> None:
         super().__init__(topic)
         self._key = key

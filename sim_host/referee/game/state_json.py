@@ -4,7 +4,7 @@ from typing import Any
 
 import msgspec
 
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.referee.game.referee_state import RefereeState
 
 

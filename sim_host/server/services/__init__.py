@@ -15,9 +15,6 @@ from sim_host.server.services.action_handler import ActionHandler
 from sim_host.server.services.order_handler import OrderHandler
 from sim_host.server.services.query_handler import QueryHandler
 
-_CLAIMS = {"claims": True}
-"""`PresenceTracker` serves the agents' claims."""
-
 
 class Services:
     """All services of a host, processed between two ticks."""
@@ -38,7 +35,7 @@ class Services:
         self._setup = QueryHandler(
             bus,
             SETUP,
-            lambda _: simulation.setup().model_copy(update=_CLAIMS),
+            lambda _: simulation.setup().replace(claims=True),
             invalid_log,
             lambda reason: report_refusal(f"a process was refused: {reason}"),
         )

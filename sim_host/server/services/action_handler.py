@@ -9,9 +9,6 @@ from schemas.wire.message import BadMessageError
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.server.referee_seat import RefereeSeat
 
-_UNNAMED = {"referee": None}
-"""What the referee is given of its senders, and recordings with it: their names for display alone."""
-
 
 class ActionHandler:
     """Queues requested actions of the referee that holds the seat, and those that need no seat."""
@@ -37,7 +34,7 @@ class ActionHandler:
             if reason is not None:
                 query.reply(ActionReply(accepted=False, reason=reason))
             else:
-                self.actions.append(action.model_copy(update=_UNNAMED))
+                self.actions.append(action.replace(referee=None))
                 self._pending.append(query)
 
     def reply(self, replies: Sequence[ActionReply]) -> None:

@@ -36,7 +36,7 @@ def host(medium: SharedState):
     """
     bus = seat(medium)
     setups, actions = bus.serve(SETUP), bus.serve(ACTION)
-    setup = make_setup(size=2).model_copy(update={"orders": {Side.MAGENTA: MICROSECONDS}})
+    setup = make_setup(size=2).replace(orders={Side.MAGENTA: MICROSECONDS})
     asked: list[RefereeAction] = []
 
     def answer_setups() -> None:

@@ -88,7 +88,7 @@ def test_a_reply_of_a_host_that_has_left_does_not_pass_for_that_of_the_new_one(o
             bench.live._client.setup = slow
             bench.stage.say(episode=2)  # other robots may take part: the setup is queried again
             await until(lambda: bench.live._asking is not None and not bench.live._asking.done())
-            bench.stage.setup = bench.stage.setup.model_copy(update={"rules": "another book"})
+            bench.stage.setup = bench.stage.setup.replace(rules="another book")
             bench.stage.say(episode=3)
             await until(lambda: bench.live.state.episode == 3)
             answers.set()

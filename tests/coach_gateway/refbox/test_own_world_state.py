@@ -134,7 +134,7 @@ def test_obstacles_are_where_the_robots_believe_them(view: View) -> None:
 
 def test_what_stands_on_the_pitch_is_an_obstacle(view: View) -> None:
     post = ObstacleTruth(x=4.0, y=0.0, heading=0.0, radius=0.3, height=1.0, shape="cylinder", size_x=0.6, size_y=0.6)
-    seen = view(Side.CYAN, world=WORLD.model_copy(update={"obstacles": {"post": post}}))
+    seen = view(Side.CYAN, world=WORLD.replace(obstacles={"post": post}))
     assert {"position": [0.0, 4.0], "velocity": [0.0, 0.0], "radius": 0.3, "confidence": 1.0} in seen["obstacles"]
 
 
@@ -144,7 +144,7 @@ def test_a_world_state_has_eleven_robots_with_the_numbers_of_their_names(
     setup = make_setup(size=11, rules="eleven")
     sides = {name: side for side, team in setup.teams.items() for name in team.robots}
     robots = {name: truth(0.5 * number, 1.0, holding=False) for number, name in enumerate(sides)}
-    world = WORLD.model_copy(update={"robots": robots})
+    world = WORLD.replace(robots=robots)
     for side in Side:
         seen = own_world_state(side, setup, sides, state(), world, {})
         check_world_state(seen)

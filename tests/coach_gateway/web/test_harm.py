@@ -48,7 +48,7 @@ GARBAGE = [
     ("[]", "it is []; an object"),
     ('{"id": 4}', "deed is missing"),
     ('{"id": 4, "deed": "rule the world"}', "deed is 'rule the world'; one of action, order"),
-    ('{"id": -1, "deed": "token"}', "id is -1; at least 0"),
+    ('{"id": -1, "deed": "token"}', "id is -1; a whole number from 0"),
     ('{"id": 1e999, "deed": "token"}', "id"),
     ('{"id": ' + "9" * 5000 + ', "deed": "token"}', "id"),
     ('{"id": 4, "deed": "token", "more": 1}', "more is not known"),
@@ -188,9 +188,9 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     )
     slow.hear("host", there=True)
     pillar = ObstacleTruth(x=1, y=2, heading=0, radius=0.5, height=1, shape="cylinder", size_x=1, size_y=1)
-    full = make_world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})
+    full = make_world(0).replace(obstacles={f"pillar{number}": pillar for number in range(400)})
     for tick in range(1, 101):
-        host.put(WORLD, full.model_copy(update={"tick": tick}))
+        host.put(WORLD, full.replace(tick=tick))
         quick.hear("frame", tick=tick)
     ticks = [slow.hear("frame")["tick"]]
     while ticks[-1] < 100:

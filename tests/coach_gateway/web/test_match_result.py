@@ -15,7 +15,7 @@ from support.page_gateway import SOON, Gateway
 from support.visitor import Visitor
 
 KNOWN = ResultUpdate(replay="touchline replay match.mcap --web")
-WHOLE = KNOWN.model_copy(update={"figures": [("shots", "3", "1")], "statistics": STATISTICS_ADDRESS})
+WHOLE = KNOWN.replace(figures=[("shots", "3", "1")], statistics=STATISTICS_ADDRESS)
 
 
 @pytest.fixture(autouse=True)

@@ -1,12 +1,13 @@
 """Which deed each message of the page is, and which side or robot it is about."""
 
+import json
 from typing import Any
 
 import pytest
 
 from coach_gateway.access.rights import RIGHTS
 from coach_gateway.access.roles import Role
-from coach_gateway.web.protocol import PAGE_REQUEST
+from coach_gateway.web.protocol import read_request
 from coach_gateway.web.requests import refusal
 from schemas.game import ActionName
 from schemas.side import Side
@@ -15,7 +16,7 @@ ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
 
 
 def request(deed: str, **content: Any) -> Any:
-    return PAGE_REQUEST.validate_python({"id": 1, "deed": deed, **content})
+    return read_request(json.dumps({"id": 1, "deed": deed, **content}))
 
 
 EVERY_REQUEST = {

@@ -116,8 +116,8 @@ def test_a_robot_is_driven_from_one_page_at_a_time(visit: Visit, host: FakeHost)
 
 def test_a_second_hand_on_a_robot_is_refused_until_the_first_has_let_go() -> None:
     hands, first, second = ManualControl(), Page("one"), Page("other")
-    drive = PageDrive(id=1, deed="drive", robot="cyan1", manual=ManualDrive())
-    release = drive.model_copy(update={"manual": ManualDrive(release=True)})
+    drive = PageDrive(id=1, robot="cyan1", manual=ManualDrive())
+    release = drive.replace(manual=ManualDrive(release=True))
     assert hands.refusal(first, drive, 10.0) is None
     assert "cyan1 is driven from another page" in (hands.refusal(second, drive, 10.1) or "")
     assert hands.refusal(second, release, 10.1) is not None  # nor does it take it out of the other's hand

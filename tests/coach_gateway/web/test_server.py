@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from coach_gateway.web.protocol import SERVER_MESSAGE
+from coach_gateway.web.protocol import ServerMessage
 from coach_gateway.web.settings import WebSettings
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.scene import shipped_scenes
@@ -15,6 +15,7 @@ from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.world import RobotTruth
 from schemas.side import Side
 from schemas.topics import EVENT, WORLD
+from schemas.wire.part_faults import decoded
 from support.fake_host import FakeHost
 from support.messages import make_event, make_world
 from support.page_gateway import SOON, TOKENS, Gateway
@@ -49,7 +50,7 @@ def test_every_message_of_the_server_is_one_of_the_protocol(visit: Visit, host: 
     page.say("scene", request={"operation": "reset"})
     waited_for = {"frame", "event", "state", "health", "orders", "reply"}
     while waited_for:
-        waited_for -= {SERVER_MESSAGE.validate_json(page.socket.recv(SOON)).kind}
+        waited_for -= {decoded(ServerMessage, page.socket.recv(SOON)).__struct_config__.tag}
 
 
 def test_a_frame_has_the_world_and_what_robots_believe(visit: Visit, host: FakeHost) -> None:
@@ -169,9 +170,9 @@ def test_a_scene_with_other_robots_welcomes_all_pages_anew(visit: Visit, host: F
     standing = RobotTruth(x=0, y=0, z=0, heading=0, vx=0, vy=0, omega=0, holding=False)
     host.play(1)
     page.hear("frame", tick=1)
-    host.put(WORLD, make_world(2).model_copy(update={"robots": {"cyan1": standing}}))
+    host.put(WORLD, make_world(2).replace(robots={"cyan1": standing}))
     assert page.hear("welcome")["setup"]["match"] == "friendly"
-    host.put(WORLD, make_world(3).model_copy(update={"robots": {"cyan1": standing}, "episode": 2}))
+    host.put(WORLD, make_world(3).replace(robots={"cyan1": standing}, episode=2))
     page.hear("welcome")
 
 
@@ -183,7 +184,7 @@ def test_messages_repeated_when_a_link_comes_back_are_neither_news_nor_another_h
     past = host.bus.subscribe(EVENT)
     for tick in range(3):
         host.happen(tick, f"event {tick}")
-    page.hear("event", event=make_event(2, "event 2").model_dump(mode="json"))
+    page.hear("event", event=make_event(2, "event 2").plain())
     for received in iter(past.receive, None):
         for reader in readers:
             reader.deliver(received.key, received)

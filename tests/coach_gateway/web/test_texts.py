@@ -4,11 +4,11 @@ import json
 from typing import Any
 
 import pytest
-from pydantic import ValidationError
 
 from coach_gateway.match.lines import event_line
-from coach_gateway.web.protocol import PAGE_REQUEST, fault_sentence
+from coach_gateway.web.protocol import read_request
 from schemas.game import EventKind
+from schemas.wire.faults import FaultError
 from support.messages import make_event
 
 REFUSED = [
@@ -23,9 +23,9 @@ REFUSED = [
 
 @pytest.mark.parametrize(("content", "sentence"), REFUSED)
 def test_a_message_that_cannot_be_read_is_refused_in_a_plain_sentence(content: dict[str, Any], sentence: str) -> None:
-    with pytest.raises(ValidationError) as refused:
-        PAGE_REQUEST.validate_json(json.dumps({"id": 1, **content}))
-    assert fault_sentence(refused.value).startswith(sentence)
+    with pytest.raises(FaultError) as refused:
+        read_request(json.dumps({"id": 1, **content}))
+    assert str(refused.value).startswith(sentence)
 
 
 def test_an_event_is_one_sentence_that_does_not_repeat_its_kind() -> None:

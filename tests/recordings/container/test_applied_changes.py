@@ -19,7 +19,7 @@ ROSTER = [RosterEntry(name="cyan1", side=Side.CYAN)]
     "change", [{"robots": ROSTER}, {"obstacles": []}, {"parameters": {"ball.rolling_deceleration": 1.0}}], ids=list
 )
 def test_a_change_is_found(change, indent) -> None:
-    payload = json.dumps(json.loads(QUIET.model_copy(update=change).encode()), indent=indent).encode()
+    payload = json.dumps(json.loads(QUIET.replace(**change).encode()), indent=indent).encode()
     assert changes_in(payload)
     assert (changes_in(payload).robots is not None) == ("robots" in change)
 

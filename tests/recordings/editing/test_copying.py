@@ -69,8 +69,8 @@ def test_the_first_message_that_differs_is_named_with_its_fields(run):
 
         def differ(message):
             world.put = put
-            ball = message.ball.model_copy(update={"x": message.ball.x + 1e-9})
-            put(message.model_copy(update={"ball": ball}))
+            ball = message.ball.replace(x=message.ball.x + 1e-9)
+            put(message.replace(ball=ball))
 
         world.put = differ
 

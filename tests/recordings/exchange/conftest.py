@@ -13,6 +13,7 @@ from schemas.messages.command import Command
 from schemas.messages.world import World
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
 from schemas.wire.message import VERSION
+from schemas.wire.part_faults import validated
 from touchline.play import InProcessMatch
 
 STARTED = "2026-07-01T15:00:00.000+00:00"
@@ -25,7 +26,7 @@ def played(table: InProcessMatch) -> Iterator[TimedMessage]:
     tick = simulation.now
     while True:
         now = round(tick.time * 1e9)
-        yield TimedMessage(now, WORLD, WORLD.key, World.model_validate(tick.world))
+        yield TimedMessage(now, WORLD, WORLD.key, validated(World, tick.world))
         yield TimedMessage(now, APPLIED, APPLIED.key, Applied.decode(tick.applied_encoded))
         state = simulation.state.game_state(tick.tick, tick.time, 1)
         news = (state.phase, state.side, state.running, state.half, state.score)

@@ -151,7 +151,7 @@ def test_the_commands_say_what_they_wrote_and_read(real: Recording, tmp_path: Pa
     said = json.loads(imported.stdout)
     assert said["teams"]["cyan"]["records"] == said["teams"]["cyan"]["read"] > 200
     assert said["not_read"] == []
-    assert said["score"] == open_recording(back).result.score.model_dump()  # type: ignore[union-attr]
+    assert said["score"] == open_recording(back).result.score.plain()  # type: ignore[union-attr]
     again = run.invoke(app, ["import", str(out), "--out", str(back)])
     assert again.exit_code == 2 and "already exists" in again.stderr
 

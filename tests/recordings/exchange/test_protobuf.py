@@ -23,7 +23,7 @@ from recordings.reading.recording import Recording
 from schemas.messages.record_batch import RecordBatch
 from schemas.protocol.examples import examples
 from schemas.topics import TOPICS, WORLD
-from schemas.wire.message import WireMessage
+from schemas.wire.message import Message
 
 MODELS = list(dict.fromkeys(topic.message for topic in TOPICS.values() if topic.message not in (None, RecordBatch)))
 """All messages but batches, which hold others as they are and stand in no recording."""
@@ -75,12 +75,12 @@ def whole(value: Any, schema: dict[str, Any], definitions: dict[str, Any]) -> An
     return value
 
 
-def as_json(message: WireMessage) -> Any:
+def as_json(message: Message) -> Any:
     schema = whole_schema(type(message))
     return whole(message.plain(), schema, schema.get("$defs", {}))
 
 
-def stock_class(model: type[WireMessage]) -> Any:
+def stock_class(model: type[Message]) -> Any:
     """The class that a reader makes of what stands in the file."""
     files = descriptor_pb2.FileDescriptorSet.FromString(file_descriptor_set(message_type(model)))
     pool = descriptor_pool.DescriptorPool()
@@ -89,7 +89,7 @@ def stock_class(model: type[WireMessage]) -> Any:
     return message_factory.GetMessageClass(pool.FindMessageTypeByName(f"touchline.{model.__name__}"))
 
 
-def encode(model: type[WireMessage], values: dict[str, Any]) -> bytes:
+def encode(model: type[Message], values: dict[str, Any]) -> bytes:
     return ParseDict(values, message_factory.GetMessageClass(message_type(model))()).SerializeToString()
 
 
@@ -125,7 +125,7 @@ def test_the_channels_are_typed_and_the_types_attached(file: Path) -> None:
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
-def test_every_message_of_the_contract_has_a_class_that_keeps_its_example(model: type[WireMessage]) -> None:
+def test_every_message_of_the_contract_has_a_class_that_keeps_its_example(model: type[Message]) -> None:
     example = examples()[model]
     decoded = stock_class(model).FromString(encode(model, example.plain()))
     assert plain(decoded) == as_json(example)

@@ -42,7 +42,7 @@ def test_obstacles_and_frames_are_drawn(recorded):
     config = load_match(None, {"teams.cyan.types": {"cyan1": "keeper"}})
     setup = Setup.of(config, load_profile("msl"), load_rule_book("msl"))
     crate = ObstacleTruth(x=3.0, y=-2.0, heading=0.5, radius=1.12, height=0.5, shape=Shape.BOX, size_x=2.0, size_y=1.0)
-    world = data.panel_data(1.0).now.model_copy(update={"obstacles": {"crate": crate}})
+    world = data.panel_data(1.0).now.replace(obstacles={"crate": crate})
     axes = Figure().subplots()
     draw_bodies(axes, setup, [world], 0.3)
     boxes = [patch for patch in axes.patches if isinstance(patch, Rectangle)]

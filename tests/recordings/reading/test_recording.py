@@ -136,4 +136,4 @@ def test_what_a_later_version_added_to_the_manifest_is_passed_over(recorded, tmp
         writer.start()
         writer.add_metadata("manifest", sealed({**metadata, "weather": "rain", "attached": "{}"}))
         writer.finish()
-    assert open_recording(path).manifest == recorded.manifest.model_copy(update={"attached": {}})
+    assert open_recording(path).manifest == recorded.manifest.replace(attached={})

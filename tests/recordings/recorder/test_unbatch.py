@@ -3,13 +3,13 @@
 from typing import Any
 
 import pytest
-from pydantic_core import to_json
 
 from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.messages.record_batch import MAX_KEY, RecordBatch, read_batch, read_reply
 from schemas.topics import COMMAND, ORDER, SIGHT, WORLD
 from schemas.wire.message import BadMessageError
+from schemas.wire.part import encode
 
 KEY = "robot/cyan1/command"
 ENTRY = {"key": KEY, "message": {}, "sequence": 7, "sent_ns": 11, "sim_ns": 13, "arrived_ns": 17}
@@ -17,7 +17,7 @@ HEAD = {"version": "2.0", "stream": 5, "number": 0, "tick": 3, "sent_ns": 9}
 
 
 def batch(*entries: Any, **fields: Any) -> bytes:
-    return to_json({**HEAD, "entries": entries} | fields)
+    return encode({**HEAD, "entries": entries} | fields)
 
 
 def messages(payload: bytes, **wanted: bool) -> list[ReceivedMessage]:
@@ -67,7 +67,7 @@ ODD = {
     "tick": batch(ENTRY, tick="soon"),
     "tick that is true": batch(ENTRY, tick=True),
     "number below 0": batch(ENTRY, number=-1),
-    "no stream": to_json({key: value for key, value in HEAD.items() if key != "stream"} | {"entries": []}),
+    "no stream": encode({key: value for key, value in HEAD.items() if key != "stream"} | {"entries": []}),
     "more fields": batch(ENTRY, more=1),
     "other version": batch(ENTRY, version="1.0"),
     "other version with more fields": batch(ENTRY, version="1.0", more=1),

@@ -110,7 +110,7 @@ def test_it_tells_how_the_match_was_set_up_under_the_name_it_is_replayed_by(reco
     host.pump()
     setup = answer.result(0.0)
     assert setup.match == "replay_friendly"
-    assert setup == recorded.manifest.setup.model_copy(update={"match": "replay_friendly"})
+    assert setup == recorded.manifest.setup.replace(match="replay_friendly")
 
 
 def test_it_runs_beside_a_live_match_that_hears_none_of_it(recorded):

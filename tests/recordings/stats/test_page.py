@@ -269,8 +269,8 @@ def test_names_are_shown_as_they_are_and_never_run(
     evil = "</script><img src=x onerror=alert(1)><b>"
     setup = recording.manifest.setup
     assert setup is not None
-    teams = {side: team.model_copy(update={"name": evil}) for side, team in setup.teams.items()}
-    manifest = recording.manifest.model_copy(update={"setup": setup.model_copy(update={"teams": teams})})
+    teams = {side: team.replace(name=evil) for side, team in setup.teams.items()}
+    manifest = recording.manifest.replace(setup=setup.replace(teams=teams))
     monkeypatch.setattr(recording, "manifest", manifest)
     _, text = page_of(recording)
     write_page(tmp_path / "evil.html", text)

@@ -121,7 +121,7 @@ def test_worlds_that_cannot_be_are_counted_and_in_no_figure(
     def spoiled(*keys: str) -> Iterator[tuple[RecordedMessage, Any]]:
         for recorded, message in decoded(*keys):
             if isinstance(message, World) and message.tick in (300, 301):
-                message = message.model_copy(update={"time": 1e12})
+                message = message.replace(time=1e12)
             yield recorded, message
 
     monkeypatch.setattr(recording, "decoded", spoiled)

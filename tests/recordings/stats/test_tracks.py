@@ -97,13 +97,11 @@ def test_half_an_hour_makes_a_page_below_six_megabytes_and_a_day_too(script) -> 
     assert sample_rate(60.0, 10) == MAX_RATE
     names = [f"{side}{number}" for side in Side for number in range(1, 6)]
     some = next(iter(match_ticks[0].world.robots.values()))
-    world = match_ticks[0].world.model_copy(update={"robots": dict.fromkeys(names, some)})
-    script.setup = script.setup.model_copy(
-        update={
-            "teams": {
-                side: team.model_copy(update={"robots": [name for name in names if name.startswith(side)]})
-                for side, team in script.setup.teams.items()
-            }
+    world = match_ticks[0].world.replace(robots=dict.fromkeys(names, some))
+    script.setup = script.setup.replace(
+        teams={
+            side: team.replace(robots=[name for name in names if name.startswith(side)])
+            for side, team in script.setup.teams.items()
         }
     )
     for duration in (1800.0, 86400.0):
@@ -114,7 +112,7 @@ def test_half_an_hour_makes_a_page_below_six_megabytes_and_a_day_too(script) -> 
         )
         step = 1 / tracks.rate
         for number in range(int(duration * tracks.rate) + 1):
-            now = world.model_copy(update={"time": number * step})
+            now = world.replace(time=number * step)
             tracks.update(type(match_ticks[0])(now, None, None, None, match_ticks[0].lineup))
         statistics.update(match_ticks[0])
         content = content_of(script.manifest, script.setup, statistics.figures(), tracks, history)
@@ -126,5 +124,5 @@ def test_the_page_names_profile_rule_book_pace_and_seed_of_the_match(script) -> 
     setup = script.setup
     profile, rules = f"msl (version {setup.profile_version})", f"friendly (version {setup.rules_version})"
     assert script.content()["about"] == [f"profile {profile}", f"rules {rules}", f"pace {setup.pace}"]
-    script.manifest = script.manifest.model_copy(update={"config": MatchConfig(seed=7)})
+    script.manifest = script.manifest.replace(config=MatchConfig(seed=7))
     assert script.content()["about"][-1] == "seed 7"

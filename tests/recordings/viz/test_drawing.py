@@ -5,7 +5,6 @@ from itertools import product
 
 import pytest
 from foxglove_schemas_protobuf import FrameTransforms_pb2, Log_pb2, SceneUpdate_pb2
-from pydantic_core import to_json
 
 from recordings.viz.colours import BALL, MARK, PITCH, ROBOT, Colour
 from recordings.viz.drawing import BALL as BALL_TOPIC
@@ -23,6 +22,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
+from schemas.wire.part import encode
 
 CLASSES = {TF: FrameTransforms_pb2.FrameTransforms, EVENTS: Log_pb2.Log}
 TICK_NS = 20_000_000
@@ -59,7 +59,7 @@ class Board:
         """Topic → the messages that this one brought."""
         at = round(message.time * 1e9) if ns is None else ns
         out: dict = {}
-        for name, payload in self.drawing.draw(ReceivedMessage(topic, topic.key, to_json(message), None), at):
+        for name, payload in self.drawing.draw(ReceivedMessage(topic, topic.key, encode(message), None), at):
             out.setdefault(name, []).append(CLASSES.get(name, SceneUpdate_pb2.SceneUpdate).FromString(payload))
         return out
 
@@ -265,7 +265,7 @@ def test_the_board_has_each_team_at_the_half_that_it_defends(board, setup):
     assert texts["Water"].pose.position.x == -texts["NuBot"].pose.position.x == -setup.pitch.length / 4
     beside = setup.pitch.touch_line + setup.pitch.border
     assert all(text.pose.position.y > beside and text.pose.position.z > 0.0 for text in texts.values())
-    turned = board.scene(GAME, state.model_copy(update={"cyan_attacks": -1}), topic=STATE)["board"].texts
+    turned = board.scene(GAME, state.replace(cyan_attacks=-1), topic=STATE)["board"].texts
     places = {text.text: text.pose.position.x for text in turned}
     assert places["Water"] > 0 > places["NuBot"]
     assert "1 : 2" in places, "in the order of the names"

@@ -6,11 +6,11 @@ import pytest
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 from google.protobuf import descriptor_pb2, descriptor_pool
 from google.protobuf.timestamp_pb2 import Timestamp
-from pydantic_core import to_json
 
 from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE, descriptors, set_time
 from recordings.viz.transforms import STEP_M, Transforms
+from schemas.wire.part import encode
 
 
 @pytest.mark.parametrize("message", ["foxglove.FrameTransforms", "foxglove.SceneUpdate", "foxglove.Log"])
@@ -31,7 +31,7 @@ def test_a_time_is_seconds_and_nanoseconds(ns):
 
 def world(**robots: tuple[float, float, float, float]) -> DrawnWorld:
     places = {name: dict(zip(("x", "y", "z", "heading"), place, strict=True)) for name, place in robots.items()}
-    return decode_world(to_json({"robots": places, "ball": {"x": 1.2, "y": -0.3, "z": 0.11}}))
+    return decode_world(encode({"robots": places, "ball": {"x": 1.2, "y": -0.3, "z": 0.11}}))
 
 
 def test_each_robot_and_the_ball_have_a_frame_in_the_map():

@@ -103,6 +103,6 @@ def test_a_turn_is_one_around_the_ball_and_slower_at_speed(setup: Setup, side: f
 
 
 def test_without_bounded_forces_the_drive_is_the_wanted_one(setup: Setup) -> None:
-    unbounded = setup.model_copy(update={"dribble": dataclasses.replace(setup.dribble, method="pose")})
+    unbounded = setup.replace(dribble=dataclasses.replace(setup.dribble, method="pose"))
     wanted = Drive(vx=-1.0, omega=6.0)
     assert keep_hold(Body(0.0, 0.0, 0.0, 2.0), wanted, Drive(vx=2.0), TICK, unbounded) is wanted

@@ -296,8 +296,8 @@ def test_a_keeper_stays_in_its_goal_and_a_single_robot_follows_its_teams_descrip
         made.move(made.act(ball=(5.0, 3.0)))
     x, y, _ = made.poses["cyan1"]
     assert x < -setup.pitch.goal_line + 1.0 and abs(y) < setup.pitch.goal_width / 2
-    cyan = setup.teams[Side.CYAN].model_copy(update={"robots": ["cyan1"]})
-    alone = setup.model_copy(update={"teams": {**setup.teams, Side.CYAN: cyan}})
+    cyan = setup.teams[Side.CYAN].replace(robots=["cyan1"])
+    alone = setup.replace(teams={**setup.teams, Side.CYAN: cyan})
     spec = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}[team]
     brain = load_brain(spec, Briefing.of("cyan1", alone))
     command = brain.act(sight_of(4, "cyan1", (-4.0, 0.0, 0.0), ball=(0.0, 0.0)))

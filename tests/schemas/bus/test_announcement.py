@@ -51,7 +51,7 @@ def test_only_its_user_may_read_an_announcement(runtime, run):
 def test_the_file_of_a_host_that_was_killed_is_ignored_and_removed(runtime, run):
     run(CUP)
     killed = runtime / "1.json"
-    killed.write_text(FRIENDLY.model_dump_json())
+    killed.write_text(FRIENDLY.json())
     assert running_hosts() == [CUP]
     assert not killed.exists()
 

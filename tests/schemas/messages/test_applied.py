@@ -10,7 +10,7 @@ from schemas.messages.applied import Applied, AppliedInput, chained_part, chaine
 from schemas.messages.command import Drive
 from schemas.protocol.examples import examples
 from schemas.wire.message import BadMessageError
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 
 PAYLOAD = examples()[Applied].encode()
 

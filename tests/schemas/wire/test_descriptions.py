@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any, get_args, get_type_hints
 
 import pytest
-from pydantic import BaseModel, TypeAdapter
+from pydantic import BaseModel
 
 from recordings.container.json_schema import flat_schema, whole_schema
 from schemas.config.match_config import MatchConfig
@@ -18,14 +18,15 @@ from schemas.messages.sight import Sight
 from schemas.messages.world import World
 from schemas.protocol.fields import rows
 from schemas.topics import TOPICS
-from schemas.wire.struct import Struct
+from schemas.wire.json_schema import json_schema
+from schemas.wire.part import Part
 
 ROOTS = [kind for topic in TOPICS.values() for kind in (topic.message, topic.reply) if kind is not None]
 
 
 def parts(kind: Any, met: dict[type, None]) -> Iterator[type]:
     """A model or a dataclass, and all that its fields are made of, each once."""
-    if isinstance(kind, type) and (issubclass(kind, BaseModel | Struct) or dataclasses.is_dataclass(kind)):
+    if isinstance(kind, type) and (issubclass(kind, BaseModel | Part) or dataclasses.is_dataclass(kind)):
         if kind in met:
             return
         met[kind] = None
@@ -43,8 +44,7 @@ def all_parts() -> list[type]:
 
 @pytest.mark.parametrize("part", all_parts(), ids=lambda part: part.__name__)
 def test_every_field_has_a_description(part: type) -> None:
-    schema = part.json_schema() if issubclass(part, Struct) else TypeAdapter(part).json_schema(mode="serialization")
-    own = schema if "properties" in schema else schema.get("$defs", {}).get(part.__name__, {})
+    own = part.model_json_schema() if issubclass(part, BaseModel) else json_schema(part)
     fields = own.get("properties", {})
     assert [name for name, field in fields.items() if not field.get("description")] == []
 

@@ -12,6 +12,7 @@ from schemas.messages.game import RefereeAction
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from schemas.messages.world import World
+from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 
 
@@ -40,7 +41,7 @@ def ask(name: str, robot: str) -> RefereeAction:
 
 def truth(tick: TickResult) -> World:
     fields: dict[str, Any] = {**tick.world, "version": "2.0"}
-    return World.model_validate(fields)
+    return validated(World, fields)
 
 
 def run(simulation: Simulation, seconds: float, silent: tuple[str, ...] = ()) -> TickResult:

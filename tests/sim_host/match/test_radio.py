@@ -11,7 +11,7 @@ from schemas.config.profile import load_profile
 from schemas.config.sections import RadioChannel
 from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.match.radio import RadioAir
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster

@@ -16,7 +16,7 @@ from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.world import World
 from schemas.wire.message import VERSION
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import (
     CheckpointState,
@@ -198,7 +198,7 @@ def edited(plain, tick: int, change: Callable[[AppliedInput], AppliedInput]) -> 
     inputs = {**applied.inputs, "cyan2": change(applied.inputs["cyan2"])}
     fields = {**from_json(ticks[tick].applied_encoded), "inputs": inputs}
     payload = encode(fields)
-    told[tick] = (applied.model_copy(update={"inputs": inputs}), chained_part_of(payload))
+    told[tick] = (applied.replace(inputs=inputs), chained_part_of(payload))
     return told
 
 
@@ -233,7 +233,7 @@ def test_impossible_inputs_are_reported_in_one_sentence(plain, change, said) -> 
     for applied, payload in told[:5]:
         again.step(applied, payload)
     with pytest.raises(ImpossibleTickError, match=said):
-        again.step(told[5][0].model_copy(update=change), told[5][1])
+        again.step(told[5][0].replace(**change), told[5][1])
     again.close()
 
 

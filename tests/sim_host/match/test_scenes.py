@@ -16,9 +16,10 @@ from schemas.messages.applied import Applied
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.radio import Radio
-from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
+from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
+from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 
 WALL = StaticObstacle(name="wall", shape=Shape.BOX, place=[3.0, 3.0], size=[0.2, 2.0, 0.5])
@@ -44,7 +45,7 @@ def simulation(simulation_of: Callable[..., Simulation]) -> Simulation:
 
 
 def ask(simulation: Simulation, operation: str, **content: Any) -> SceneReply:
-    return simulation.handle_scene(SceneRequest(operation=SceneOperation(operation), **content))
+    return simulation.handle_scene(validated(SceneRequest, {"operation": operation, **content}))
 
 
 def done(simulation: Simulation, operation: str, **content: Any) -> TickResult:

@@ -11,7 +11,7 @@ from pytest import approx
 from schemas.config.sections import RadioChannel
 from schemas.messages.radio import Radio
 from schemas.side import Side
-from schemas.wire.struct import encode
+from schemas.wire.part import encode
 from sim_host.match.radio import RadioAir
 from sim_host.match.radio_medium import SharedChannel
 from sim_host.sensing.random_streams import RandomStreams

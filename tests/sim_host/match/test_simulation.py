@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from pydantic_core import to_json
 from pytest import approx
 
 from schemas.config.match_config import load_match
@@ -20,6 +19,8 @@ from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.message import VERSION
+from schemas.wire.part import encode
+from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 
 
@@ -73,7 +74,7 @@ def test_the_world_has_the_robots_that_touched_the_ball_and_the_one_that_kicked(
     for number in range(40):
         kick = Kick(mode=KickMode.GROUND, speed=6.0) if number == 30 else None
         said = {"cyan2": command(simulation, drive=Drive(vx=0.3), dribble=True, kick=kick)}
-        worlds.append(World.model_validate(simulation.step(said).world))
+        worlds.append(validated(World, simulation.step(said).world))
     assert worlds[0].touches == [] and worlds[0].kicked is None
     assert worlds[29].possession == "cyan2" and worlds[29].touches == ["cyan2"]
     assert [number for number, world in enumerate(worlds) if world.kicked == "cyan2"] == [30]
@@ -223,7 +224,7 @@ def test_a_match_with_types_and_obstacles_is_set_up_and_played_as_in_its_file() 
     )
     assert [model.type for model in one.roster.models[:4]] == ["keeper", "standard", "slow", "standard"]
     tick = one.step({"cyan3": command(one, drive=Drive(vx=9))})
-    said = World.decode(to_json({"version": VERSION, **tick.world})).obstacles["crate"]
+    said = World.decode(encode({"version": VERSION, **tick.world})).obstacles["crate"]
     assert (said.x, said.y, said.heading, said.size_x, said.size_y, said.height) == (3.0, 5.0, 0.5, 0.4, 0.8, 0.6)
     assert one.setup().for_robot("cyan3").drive.max_speed == 2.0
     one.close()

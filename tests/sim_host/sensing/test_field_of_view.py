@@ -14,6 +14,7 @@ from schemas.config.sections import CameraView
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
+from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation
 from support.scenery import Scenery, roster_of
 
@@ -105,7 +106,7 @@ def test_the_field_of_view_changes_while_the_match_runs_and_the_world_goes_on():
     assert not tick.applied["checkpoint"]
     after = Sight.decode(tick.sights["cyan2"])
     assert len(before.obstacles) == 9 and len(after.obstacles) < 9
-    assert Setup.model_validate(simulation.setup().model_dump()).camera.field_of_view == 0.01
+    assert validated(Setup, simulation.setup().plain()).camera.field_of_view == 0.01
     simulation.close()
 
 

@@ -8,12 +8,13 @@ import pytest
 
 from schemas.bus.contract import Bus
 from schemas.game import Point
-from schemas.messages.coach import MAX_SEQUENCE, MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder, CoachTest
+from schemas.messages.coach import MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command
 from schemas.messages.setup import SetupRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER, INVALID, ORDER, SETUP
+from schemas.wire.units import MAX_WHOLE
 
 
 class Obedient:
@@ -106,7 +107,7 @@ def test_an_order_that_is_sent_twice_is_no_fault(rig) -> None:
 
 
 @pytest.mark.parametrize(
-    "huge", [MAX_SEQUENCE, MAX_SEQUENCE_STEP + 8, 10**18], ids=["largest", "too far ahead", "no JSON number"]
+    "huge", [MAX_WHOLE, MAX_SEQUENCE_STEP + 8, 10**18], ids=["largest", "too far ahead", "no JSON number"]
 )
 def test_an_order_with_a_huge_number_does_not_keep_out_those_after_it(rig, huge) -> None:
     invalid = rig.listen(INVALID)

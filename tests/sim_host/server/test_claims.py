@@ -225,7 +225,7 @@ def test_a_process_of_another_version_is_refused_with_both_versions_on_both_ends
     events = open_rig.listen(EVENT)
     request = AgentClaim(robot="cyan1", session="s1") if topic is CLAIM else SetupRequest()
     bus = open_rig.seat()
-    replies = [bus.query(topic, request.model_copy(update={"version": "3.0"})) for _ in range(3)]
+    replies = [bus.query(topic, request.replace(version="3.0")) for _ in range(3)]
     open_rig.ticks(2)
     reason = "version 3.0 is not supported, this side has 2.0; update the older side"
     for reply in replies:

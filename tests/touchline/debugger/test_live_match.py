@@ -100,7 +100,7 @@ def with_brain(recording, spec, **program):
     teams = recording.manifest.config.teams
     magenta = teams.magenta.model_copy(update={"brain": spec, **program})
     config = recording.manifest.config.model_copy(update={"teams": teams.model_copy(update={"magenta": magenta})})
-    recording.manifest = recording.manifest.model_copy(update={"config": config})
+    recording.manifest = recording.manifest.replace(config=config)
     return recording
 
 

@@ -7,6 +7,7 @@ import pytest
 from schemas.messages.health import AccountHealth, Health, RobotHealth, TeamRadio
 from schemas.messages.latency_counts import CLASSES, class_of
 from schemas.side import Side
+from schemas.wire.part_faults import validated
 from touchline.health.ledger import RobotLedger, ledger_of
 
 SIDES = {"cyan1": Side.CYAN, "magenta1": Side.MAGENTA}
@@ -18,7 +19,7 @@ def report(tick: int, **more: Any) -> Health:
 
 def counted(**counts: Any) -> RobotHealth:
     known = {"sights": 0, "unanswered": 0, "late": 0, "lost_commands": 0, "radio_bytes": 0, "radio_refused": 0}
-    return RobotHealth.model_validate({"alive": True, "answering": True, **known, **counts})
+    return validated(RobotHealth, {"alive": True, "answering": True, **known, **counts})
 
 
 def latencies(**by_ms: int) -> list[int]:

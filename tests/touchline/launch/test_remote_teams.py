@@ -86,7 +86,7 @@ def test_a_team_of_which_no_robot_comes_in_time_is_absent():
 def test_a_match_that_has_a_robot_of_the_team_or_was_started_in_time_is_played(early):
     teams = RemoteTeams(config())
     teams.update(early, 0.0)
-    teams.update(early.model_copy(update={"tick": 2}), 61.0)
+    teams.update(early.replace(tick=2), 61.0)
     teams.update(health(tick=3), 100.0)
     assert teams.absent is None
 

@@ -27,7 +27,7 @@ def result(recording: Path | None = Path("runs/a/match.mcap"), losses: dict[str,
         events=(
             event(EventKind.GOAL, "goal by cyan3"),
             event(EventKind.STOP, "STOP; kick-off follows"),
-            event(EventKind.FULL_TIME, "half 2 ends").model_copy(update={"score": Score(cyan=2, magenta=1)}),
+            event(EventKind.FULL_TIME, "half 2 ends").replace(score=Score(cyan=2, magenta=1)),
         ),
         real_time_factor=6.0,
         wall_s=20.0,

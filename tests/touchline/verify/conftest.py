@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
-from pydantic_core import from_json, to_json
+from pydantic_core import from_json
 
 from recordings.container.manifest import Result
 from recordings.container.mcap_file import DERIVED
@@ -19,6 +19,8 @@ from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.scene import SceneOperation, SceneRequest
+from schemas.wire.part import encode
+from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation
 from support.recorded_match import match_recorder, played
 
@@ -43,7 +45,7 @@ def operate(simulation: Simulation) -> None:
                 ParametersRequest(operation=ParameterOperation.SET, values=values)
             ).accepted
         case 380:
-            request = SceneRequest(operation=SceneOperation.ADD, obstacles=[POST])
+            request = validated(SceneRequest, {"operation": "add", "obstacles": [POST]})
             assert simulation.handle_scene(request).accepted
 
 
@@ -106,7 +108,7 @@ def rewrite(
             one = Copied(
                 channel.topic, from_json(message.data), message.log_time, message.publish_time, message.sequence
             )
-            originals[id(one.fields)] = (message.data, to_json(one.fields))
+            originals[id(one.fields)] = (message.data, encode(one.fields))
             copied.append(one)
         copied = messages(copied)
         attached = {one.name: (one.media_type, attachment(one.name, one.data)) for one in reader.iter_attachments()}
@@ -114,13 +116,13 @@ def rewrite(
         payloads = []
         for one in copied:
             data, before = originals.get(id(one.fields), (b"", b""))
-            payloads.append(data if to_json(one.fields) == before else to_json(one.fields))
+            payloads.append(data if encode(one.fields) == before else encode(one.fields))
             trackers[one.key].add(Stamp(one.sequence, one.sent_ns, one.log_ns), len(payloads[-1]))
         for record in reader.iter_metadata():
             fields = metadata(record.name, record.metadata)
             if record.name == "manifest":
                 digests = {name: digest(content) for name, (_, content) in attached.items()}
-                fields = {**fields, "attached": to_json(digests).decode()}
+                fields = {**fields, "attached": encode(digests).decode()}
             elif record.name == "result" and recount:
                 result = from_metadata(Result, fields)
                 counts = {key: tracker.count() for key, tracker in trackers.items()}

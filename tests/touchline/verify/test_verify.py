@@ -205,14 +205,14 @@ def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(
 
 @pytest.mark.slow
 def test_another_machine_is_reported_first(operated: Path, edited, json_of) -> None:
-    from pydantic_core import to_json
+    from schemas.wire.part import encode
 
     def other(name, fields):
         if name != "manifest":
             return fields
         setup = json_of(fields["setup"])
         setup["engine"]["libm"] = "0" * 96
-        return {**fields, "setup": to_json(setup).decode()}
+        return {**fields, "setup": encode(setup).decode()}
 
     said = run(edited(operated, "", lambda it: it, other), "--jobs", "1").stdout.splitlines()
     assert said[0].startswith("libm differs from the recording: 0000")

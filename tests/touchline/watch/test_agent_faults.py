@@ -1,6 +1,7 @@
 import pytest
 
 from schemas.messages.health import Health, RobotHealth
+from schemas.wire.part_faults import validated
 from touchline.watch.agent_faults import InvalidAgents, SlowAgents, agent_faults
 
 
@@ -9,7 +10,7 @@ def health(pace: str = "lockstep", **robots: RobotHealth) -> Health:
 
 
 def taking(latency_ms: float | None, **more: object) -> RobotHealth:
-    return RobotHealth.model_validate({"alive": True, "answering": True, "latency_ms": latency_ms, **more})
+    return validated(RobotHealth, {"alive": True, "answering": True, "latency_ms": latency_ms, **more})
 
 
 @pytest.mark.parametrize(

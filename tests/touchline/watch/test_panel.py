@@ -16,6 +16,7 @@ from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
+from schemas.wire.part_faults import validated
 from support.messages import make_setup
 from touchline.watch.panel import ARROWS, head, orders, panel, robots
 
@@ -26,8 +27,9 @@ def setup() -> Setup:
 
 
 def robot(x: float, y: float, heading: float = 0.0, **more: object) -> RobotTruth:
-    return RobotTruth.model_validate(
-        {"x": x, "y": y, "z": 0.4, "heading": heading, "vx": 0.0, "vy": 0.0, "omega": 0.0, "holding": False, **more}
+    return validated(
+        RobotTruth,
+        {"x": x, "y": y, "z": 0.4, "heading": heading, "vx": 0.0, "vy": 0.0, "omega": 0.0, "holding": False, **more},
     )
 
 
@@ -37,7 +39,7 @@ def world(ball: tuple[float, float] = (0.0, 0.0), tick: int = 5, **bodies: Robot
 
 
 def state(phase: Phase = Phase.PLAY, **more: object) -> GameState:
-    return GameState.model_validate({"tick": 5, "time": 0.1, "clock": 61.0, "phase": phase, **more})
+    return validated(GameState, {"tick": 5, "time": 0.1, "clock": 61.0, "phase": phase, **more})
 
 
 @pytest.mark.parametrize(("heading", "arrow"), [(0.0, "→"), (1.57, "↑"), (3.14, "←"), (-3.14, "←"), (-0.8, "↘")])
@@ -53,11 +55,8 @@ def test_a_robot_has_its_place_and_speed_in_its_row(setup: Setup) -> None:
 
 def test_rows_are_in_the_order_of_the_numbers_of_the_names(setup: Setup) -> None:
     """As on the page: a robot that is added to a running match, or left of a larger team, keeps its own."""
-    teams = {
-        side: team.model_copy(update={"robots": [f"{side.value}{n}" for n in (1, 7, 10)]})
-        for side, team in setup.teams.items()
-    }
-    few = setup.model_copy(update={"teams": teams})
+    teams = {side: team.replace(robots=[f"{side.value}{n}" for n in (1, 7, 10)]) for side, team in setup.teams.items()}
+    few = setup.replace(teams=teams)
     there = world(**{name: robot(1.0, 2.0) for team in teams.values() for name in team.robots})
     rows = [row.plain for row in robots(few, there, {}, None, None)]
     assert [row.split("→")[0].strip() for row in rows] == ["1", "7", "10"] * 2

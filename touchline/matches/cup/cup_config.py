@@ -6,12 +6,13 @@ from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
+from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import DEFAULT_SIZE
 from schemas.config.roster import MAX_ROBOTS
 from schemas.config.toml_file import read_tables, validate_tables
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
 from touchline.matches.cup.formats.swiss import most_rounds
 from touchline.matches.cup.standings import Points
 from touchline.matches.cup.tie_breaks import CRITERIA, DEFAULT_ORDER, ORDERS, Ranking
@@ -43,7 +44,7 @@ class FormatKind(StrEnum):
     SWISS = "swiss"
 
 
-class TeamEntry(Part):
+class TeamEntry(ConfigModel):
     """A team of the cup; the order of teams is their seeding, the strongest first."""
 
     name: Annotated[str, Field(min_length=1, max_length=40)]
@@ -82,7 +83,7 @@ class TeamEntry(Part):
         return self
 
 
-class FormatConfig(Part):
+class FormatConfig(ConfigModel):
     """The format of the cup."""
 
     kind: FormatKind = FormatKind.ROUND_ROBIN
@@ -114,7 +115,7 @@ class FormatConfig(Part):
         return self.knock_out_best_of or self.best_of
 
 
-class TableConfig(Part):
+class TableConfig(ConfigModel):
     """Points and tie-breaks; by default the rule book's."""
 
     win: Annotated[int, Field(ge=0, le=100)] = 3
@@ -134,14 +135,14 @@ class TableConfig(Part):
         return order
 
 
-class SignificanceConfig(Part):
+class SignificanceConfig(ConfigModel):
     """`--until-significant`: rounds are added to a round robin until the order of the ratings is significant."""
 
     budget: Annotated[int, Field(ge=1, le=100_000)] = 200
     """Most matches."""
 
 
-class CupConfig(Part):
+class CupConfig(ConfigModel):
     """The complete description of a cup."""
 
     name: Name = "cup"

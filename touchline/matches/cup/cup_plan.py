@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
 from schemas.game import Card
 from schemas.side import Side
-from schemas.wire.message import Part
 from touchline.matches.cup.cup_config import CupConfig, TeamEntry
 from touchline.matches.cup.cup_state import CupState, Ended, Slot, state_of
 from touchline.matches.cup.match_result import MatchResult, Pair
@@ -108,7 +108,7 @@ class CupPlan:
         return Ended(result, failed.identity, reason, evidence=failed.evidence)
 
 
-class _Begun(Part):
+class _Begun(ConfigModel):
     """What the state of a run has on its cup, besides outcomes."""
 
     cup: CupConfig

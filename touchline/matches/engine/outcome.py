@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
 
-from pydantic import Field, TypeAdapter
+from msgspec import ValidationError
 
 from recordings.stats.figures import MatchFigures
 from schemas.side import Side
+from schemas.wire.part import decoder, encode
 from touchline.matches.judging.judge import Verdict
 
 
@@ -65,8 +65,6 @@ class Failed:
 
 
 Outcome = Played | Failed
-_ADAPTER: TypeAdapter[Outcome] = TypeAdapter(Annotated[Outcome, Field(union_mode="left_to_right")])
-"""Either type has required fields that the other lacks, so the first that fits is the right one."""
 
 
 def relative_to(outcome: Outcome, folder: Path) -> Outcome:
@@ -84,9 +82,13 @@ def _relative(path: str | None, folder: Path) -> str | None:
 
 def to_json(outcome: Outcome) -> bytes:
     """The outcome as one JSON object."""
-    return _ADAPTER.dump_json(outcome)
+    return encode(outcome)
 
 
 def from_json(text: bytes) -> Outcome:
     """The outcome of `to_json`."""
-    return _ADAPTER.validate_json(text)
+    try:
+        outcome: Outcome = decoder(Played).decode(text)
+    except ValidationError:
+        outcome = decoder(Failed).decode(text)
+    return outcome

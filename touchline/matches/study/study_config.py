@@ -6,9 +6,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
+from schemas.config.config_model import ConfigModel
 from schemas.config.toml_file import read_tables, validate_tables
 from schemas.errors import TouchlineError
-from schemas.wire.message import Name, Part
+from schemas.wire.message import Name
 from touchline.matches.engine.planned_match import Way
 from touchline.matches.series.seeds import seeds_of
 
@@ -32,7 +33,7 @@ REMEDIES = {
 DEFAULT_RESPONSES = ("goals.difference", "goals", "passes_completed", "shots")
 
 
-class Study(Part):
+class Study(ConfigModel):
     """A study; `load_study` reads it from a file."""
 
     name: Name
