@@ -31,7 +31,7 @@ COMMANDS: dict[str, tuple[type[Settings], ...]] = {
     "coach bridge": (ClientSettings, BridgeOptions),
     "match": (BridgeOptions, ListenSettings),
     "replay": (ListenSettings,),
-    "coach stop": (ClientSettings,),
+    "referee stop": (ClientSettings,),
     "watch": (ClientSettings,),
 }
 """Command → the models whose fields are its options."""

@@ -247,7 +247,7 @@ def test_a_process_without_restarts_is_reported_and_not_launched_again() -> None
     assert len(stage.cast["recorder"]) == 1
 
 
-def test_a_restarted_recorder_continues_the_recording(tmp_path: Path) -> None:
+def test_a_killed_recorder_is_launched_again_with_the_settings_it_had(tmp_path: Path) -> None:
     settings = RecorderSettings(out=tmp_path / "match.mcap")
     process = Process("recorder", ProcessKind.RECORDER, ("program",), {}, 3, settings, tmp_path / "recorder.json")
     clock = SteppedClock()
@@ -262,7 +262,7 @@ def test_a_restarted_recorder_continues_the_recording(tmp_path: Path) -> None:
     actors[0][1].ended = -signal.SIGKILL
     (notice,) = supervisor.check()
     assert notice.sentence == "recorder was ended by SIGKILL; started again (1 of 3)"
-    assert [launched.settings.resume for launched, _ in actors] == [False, True]
+    assert [launched.settings for launched, _ in actors] == [settings, settings]
 
 
 def test_a_process_that_cannot_be_launched_again_is_reported_and_the_match_goes_on() -> None:
