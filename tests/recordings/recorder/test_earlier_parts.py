@@ -228,6 +228,8 @@ def test_a_part_that_its_recorder_has_not_begun_is_passed_over(
     rig = make_rig(path=tmp_path / "other.mcap")
     rig.path = path
     play_unrecorded(rig, 20)
+    rig.recorder_bus.close()
+    rig.sink.abandon()
     relaunch(rig)
     play_to_the_end(rig)
     assert [world.tick for _, world in rig.read().decoded("world")] == list(range(TICKS))
