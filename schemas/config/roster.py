@@ -6,6 +6,7 @@ from schemas.config.config_model import ConfigModel
 from schemas.side import Side
 from schemas.wire.message import Name
 from schemas.wire.part import Part
+from schemas.wire.units import Metres, MetresPerSecond, Radians, RadiansPerSecond
 
 MAX_ROBOTS = 11
 """Most robots of one side that a rule book can allow."""
@@ -36,21 +37,21 @@ class Placement(Part):
 
     body: Name
     """A robot's name, or `ball`."""
-    x: float
+    x: Metres
     """x of the centre in the field frame, in m."""
-    y: float
+    y: Metres
     """y of the centre in the field frame, in m."""
-    heading: float = 0.0
+    heading: Radians = 0.0
     """Heading of a robot in the field frame, in rad."""
-    z: float | None = None
+    z: Metres | None = None
     """Height of the ball's centre in m; None for a ball on the ground. Robots stand on the ground."""
-    vx: float = 0.0
+    vx: MetresPerSecond = 0.0
     """Velocity along x of the field frame, in m/s."""
-    vy: float = 0.0
+    vy: MetresPerSecond = 0.0
     """Velocity along y of the field frame, in m/s."""
-    vz: float = 0.0
+    vz: MetresPerSecond = 0.0
     """Velocity of the ball upward, in m/s."""
-    omega: float = 0.0
+    omega: RadiansPerSecond = 0.0
     """Turn rate of a robot, in rad/s."""
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from schemas.config.match_config import load_match
+from schemas.config.roster import Placement
 from schemas.frames import wrap
 from schemas.game import EventKind, Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
@@ -60,7 +61,7 @@ class Practice:
     def place(self, **placement: Any) -> None:
         """Set a body down."""
         reply = self.table.simulation.handle_scene(
-            SceneRequest(operation=SceneOperation.PLACE, place=[placement], source="test")
+            SceneRequest(operation=SceneOperation.PLACE, place=[Placement(**placement)], source="test")
         )
         assert reply.accepted, reply.reason
 

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from pydantic_core import from_json
 
 from schemas.config.match_config import load_match
+from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.roster import Placement
 from schemas.messages.applied import Applied, AppliedInput, chained_part_of
 from schemas.messages.command import Command, Drive, Kick, KickMode
@@ -80,14 +81,14 @@ def operated(simulation: Simulation, number: int) -> None:
         lambda: simulation.handle_scene(
             SceneRequest(
                 operation=SceneOperation.ADD,
-                obstacles=[{"name": f"post{number}", **POST, "place": [3.0 + number, -3.0]}],
+                obstacles=[POST.model_copy(update={"name": f"post{number}", "place": [3.0 + number, -3.0]})],
             )
         ),
     ]
     assert operations[number % len(operations)]().accepted
 
 
-POST: dict[str, Any] = {"shape": "cylinder", "radius": 0.15, "height": 0.9}
+POST = StaticObstacle(name="post", shape=Shape.CYLINDER, place=[0.0, 0.0], radius=0.15, height=0.9)
 
 
 @pytest.fixture(params=KINDS.values(), ids=KINDS)

@@ -15,7 +15,7 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import tick_index_of
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
-from schemas.game import REFBOX, ActionName, OffField
+from schemas.game import REFBOX, ActionName, OffField, Point
 from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.scene import SceneOperation, SceneRequest
@@ -29,7 +29,7 @@ TWO_A_SIDE = {"teams.cyan.size": 2, "teams.magenta.size": 2}
 
 def people_decide(simulation: Simulation) -> list[RefereeAction]:
     """A match in which people give all restarts; some of their requests are refused."""
-    spot = {"x": 2.0, "y": 1.0}
+    spot = Point(x=2.0, y=1.0)
     requests = {
         10: [RefereeAction(action=ActionName.GOAL, side=Side.CYAN)],
         30: [RefereeAction(action=ActionName.START)],

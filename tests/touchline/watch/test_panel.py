@@ -6,7 +6,7 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
-from schemas.game import EventKind, OffField, Phase, Score
+from schemas.game import ActionName, EventKind, OffField, Phase, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion
 from schemas.messages.health import Health, RobotHealth
@@ -151,6 +151,7 @@ def test_an_order_that_robots_refuse_is_shown_with_them_and_the_reason() -> None
 
 
 def test_a_robot_that_a_side_has_to_name_is_asked_for_in_the_first_row(setup: Setup) -> None:
-    asked = RobotQuestion(action="yellow_card", side=Side.CYAN, left=8.0, robots=["cyan1", "cyan2"], default="cyan2")
+    sides = ["cyan1", "cyan2"]
+    asked = RobotQuestion(action=ActionName.YELLOW_CARD, side=Side.CYAN, left=8.0, robots=sides, default="cyan2")
     line = head(setup, GameState(tick=1, time=0.0, phase=Phase.STOPPED, questions=[asked])).plain
     assert line.endswith("  Simple names the robot for: yellow card, else cyan2")

@@ -1,7 +1,7 @@
 """Studies of constructed results and of short matches."""
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -101,7 +101,9 @@ class Labels:
 def run(tmp_path: Path, home: Path) -> Run:
     """Plays the study of a text into `home`."""
 
-    def play(text: str, played: list[str] | None = None, *, fresh: bool = False) -> "StudyResult":
+    def play(
+        text: str, played: list[str] | None = None, *, fresh: bool = False, executor: Executor | None = None
+    ) -> "StudyResult":
         from touchline.matches.study.cells import cells_of
         from touchline.matches.study.run_study import run_study
         from touchline.matches.study.study_config import load_study
@@ -111,6 +113,7 @@ def run(tmp_path: Path, home: Path) -> Run:
         path.write_text(text)
         study = load_study(path)
         plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
-        return run_study(plan, home, ThreadPoolExecutor(1), Labels(played if played is not None else []), fresh=fresh)
+        labels = Labels(played if played is not None else [])
+        return run_study(plan, home, executor or ThreadPoolExecutor(1), labels, fresh=fresh)
 
     return play

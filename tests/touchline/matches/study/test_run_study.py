@@ -15,6 +15,7 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
+from touchline.matches.engine.fresh_process import FreshProcesses  # noqa: E402
 from touchline.matches.study import study_plan  # noqa: E402
 from touchline.matches.study.compare_studies import compare_studies  # noqa: E402
 from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
@@ -153,7 +154,7 @@ def test_processes_and_one_process_give_the_same_table_to_the_byte(run: Run, hom
     run(short)
     table = (home / "results.csv").read_bytes()
     shutil.rmtree(home)
-    run(f'way = "processes"\n{short}')
+    run(f'way = "processes"\n{short}', executor=FreshProcesses(1))
     assert (home / "results.csv").read_bytes() == table
     assert not list((home / "logs").iterdir())
 
