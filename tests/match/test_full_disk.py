@@ -13,7 +13,7 @@ from recordings.reading.recording import open_recording
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-FULL = 400_000
+FULL = 250_000
 """Most bytes of a file: what a full disk does, by size."""
 MATCH = """
 name = "full"
@@ -27,8 +27,8 @@ robots = ["magenta1", "magenta2"]
 """
 
 
-def play(start, folder, endpoint, changes=""):
-    (folder / "match.toml").write_text(changes + MATCH)
+def play(start, folder, endpoint, duration=6):
+    (folder / "match.toml").write_text(MATCH.replace("duration = 6", f"duration = {duration}"))
     words = ("match.toml", "--seed", "7", "--record", "m.mcap", "--json", "--listen", endpoint)
     return start("touchline", "match", *words, folder=folder)
 
@@ -38,7 +38,7 @@ def worlds(recording):
 
 
 def test_a_match_whose_disk_is_full_has_its_result_and_names_what_is_left(start, tmp_path, endpoint):
-    program = play(start, tmp_path, endpoint, "patience.recorder = 1.0")
+    program = play(start, tmp_path, endpoint, duration=20)  # longer than the recorder and its three successors write
     resource.prlimit(program.popen.pid, resource.RLIMIT_FSIZE, (FULL, FULL))  # before its processes, which inherit it
     assert program.status() == 1
     result = json.loads(program.out)
