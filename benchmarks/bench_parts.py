@@ -18,7 +18,7 @@ from rich.table import Table
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
 from schemas.messages.radio import BallBelief, Motion, Radio
-from schemas.messages.record_batch import Entry, payload_fields, write_batch
+from schemas.messages.record_batch import BatchEntry, RecordBatch, payload_fields
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 from sim_host.match.world_fields import world_fields
@@ -63,7 +63,7 @@ class PartsRig(TickRig):
 
     def __init__(self, profile: str, count: int) -> None:
         super().__init__(profile, count)
-        self.entries: list[Entry] = []
+        self.entries: list[BatchEntry] = []
         self.inputs = {
             name: AppliedInput(Drive(vx=0.4, omega=1.0), dribble=place == 0)
             for place, name in enumerate(self.roster.names)
@@ -113,9 +113,11 @@ class PartsRig(TickRig):
         return [encode({"version": VERSION, **world}), encode(self.inputs)]
 
     def _record(self, payloads: list[bytes]) -> None:
-        self.entries += [Entry("host/world", **payload_fields(payload)) for payload in payloads]
+        self.entries += [BatchEntry("host/world", **payload_fields(payload)) for payload in payloads]
         if self.snapshot.tick % BATCH_TICKS == 0:
-            write_batch(1, self.snapshot.tick, self.snapshot.tick, 1, self.entries)
+            RecordBatch(
+                stream=1, number=self.snapshot.tick, tick=self.snapshot.tick, sent_ns=1, entries=self.entries
+            ).encode()
             self.entries = []
 
     def _step_raw_tick(self) -> None:

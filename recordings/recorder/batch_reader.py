@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from recordings.recorder.batch_sequence import BatchSequence
 from schemas.bus.contract import Bus, NoReplyError, PendingReply
-from schemas.messages.record_batch import Batch, RecordBatchesRequest, read_batch, read_reply
+from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.process.active_clock import ActiveClock
 from schemas.process.timing import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
@@ -49,7 +49,7 @@ class BatchReader:
         """Batches that were given up."""
         return self._sequence.lost
 
-    def read(self) -> Iterator[Batch]:
+    def read(self) -> Iterator[RecordBatch]:
         """The batches that can be read in order now; missing ones are requested."""
         now = self._active.look(self._bus.clock.now())
         expected = self._sequence.expected
@@ -66,13 +66,13 @@ class BatchReader:
         self._request_missing(now)
         return self._ready()
 
-    def skip_missing(self) -> Iterator[Batch]:
+    def skip_missing(self) -> Iterator[RecordBatch]:
         """The received batches, without waiting for missing ones."""
         self._sequence.skip_missing()
         return self._ready()
 
-    def _ready(self) -> Iterator[Batch]:
-        ready: deque[Batch] = self._sequence.ready
+    def _ready(self) -> Iterator[RecordBatch]:
+        ready: deque[RecordBatch] = self._sequence.ready
         while ready:
             yield ready.popleft()
 
@@ -109,7 +109,7 @@ class BatchReader:
 
     def _add_reply(self, payload: bytes) -> None:
         try:
-            reply = read_reply(payload)
+            reply = RecordBatchesReply.decode(payload)
         except BadMessageError:
             self.unreadable += 1
             return
@@ -122,9 +122,9 @@ class BatchReader:
                 if batch is not None:
                     sequence.add(batch)
 
-    def _batch(self, payload: bytes) -> Batch | None:
+    def _batch(self, payload: bytes) -> RecordBatch | None:
         try:
-            return read_batch(payload)
+            return RecordBatch.decode(payload)
         except BadMessageError:
             self.unreadable += 1
             return None

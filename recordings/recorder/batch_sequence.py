@@ -4,7 +4,7 @@ from collections import deque
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from schemas.messages.record_batch import Batch
+from schemas.messages.record_batch import RecordBatch
 
 
 class MissingBatches(NamedTuple):
@@ -23,7 +23,7 @@ class BatchSequence:
     def __init__(self, since_ns: int) -> None:
         """Batches before the first received one are only missing if published after `since_ns` (wall time)."""
         self.since_ns = since_ns
-        self.ready: deque[Batch] = deque()
+        self.ready: deque[RecordBatch] = deque()
         """Batches in order, to be removed from the left."""
         self.lost = 0
         """Batches that were given up."""
@@ -33,10 +33,10 @@ class BatchSequence:
         """Number of the next batch."""
         self._first = 0
         """Number of the first received batch of this host: missing ones before it may be older than `since_ns`."""
-        self._held: dict[int, Batch | None] = {}
+        self._held: dict[int, RecordBatch | None] = {}
         """Batches behind a gap; None for one that cannot be read."""
 
-    def add(self, batch: Batch) -> None:
+    def add(self, batch: RecordBatch) -> None:
         """Add a received batch."""
         if batch.stream != self.stream:
             self._follow(batch)
@@ -51,7 +51,7 @@ class BatchSequence:
         since_ns = self.since_ns if self.expected < self._first else 0
         return MissingBatches(self.stream, self.expected, min(self._held) - 1, since_ns)
 
-    def add_requested(self, batches: Iterable[tuple[int, Batch | None]], oldest: int) -> None:
+    def add_requested(self, batches: Iterable[tuple[int, RecordBatch | None]], oldest: int) -> None:
         """Add requested batches: number, and batch, or None if it is not valid.
 
         The host keeps none with a number below `oldest`: missing ones there are given up.
@@ -68,7 +68,7 @@ class BatchSequence:
         while self._held:
             self._skip_to(min(self._held))
 
-    def _follow(self, batch: Batch) -> None:
+    def _follow(self, batch: RecordBatch) -> None:
         self.skip_missing()
         self.stream, self._first = batch.stream, batch.number
         self.expected = 0 if batch.sent_ns >= self.since_ns else batch.number

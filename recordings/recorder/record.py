@@ -15,7 +15,7 @@ from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.bus.zenoh.waiting_client import open_when_there
-from schemas.messages.record_batch import RecordBatchesRequest, read_reply
+from schemas.messages.record_batch import RecordBatchesReply, RecordBatchesRequest
 from schemas.process.clock import WallClock
 from schemas.topics import RECORD_BATCHES
 from schemas.wire.message import BadMessageError
@@ -75,7 +75,7 @@ def _stream_of_host(bus: Bus, patience: float) -> int:
     while bus.clock.now() < limit:
         try:
             payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), _ASK_S).payload(_ASK_S)
-            return read_reply(payload).stream
+            return RecordBatchesReply.decode(payload).stream
         except (NoReplyError, BadMessageError):
             bus.clock.sleep_until(bus.clock.now() + _ASK_S / 10)
     return 0

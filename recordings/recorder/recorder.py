@@ -20,7 +20,7 @@ from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.host_watch import HostWatch
 from schemas.config.match_config import MatchConfig
-from schemas.messages.record_batch import Batch
+from schemas.messages.record_batch import RecordBatch
 from schemas.messages.recorder import RecorderProgress
 from schemas.messages.setup import Setup
 from schemas.process.idle_time import run_in_idle_time
@@ -180,7 +180,7 @@ class Recorder:
         """Whether the match is over and no batch is known to be missing."""
         return self._match.finished and self._batches.is_complete
 
-    def _read(self, batches: Iterable[Batch]) -> int:
+    def _read(self, batches: Iterable[RecordBatch]) -> int:
         """Extract the messages of batches; returns their number."""
         before = self._messages
         for batch in batches:

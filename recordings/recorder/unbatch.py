@@ -4,7 +4,7 @@ from functools import lru_cache
 
 from recordings.recorder.latched_messages import LoggedMessage
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.messages.record_batch import Batch, Entry
+from schemas.messages.record_batch import BatchEntry, RecordBatch
 from schemas.topic import Party, Topic
 from schemas.topics import SIGHT, TOPICS
 from schemas.wire.message import BadMessageError
@@ -30,7 +30,7 @@ class Unbatcher:
         self._sights, self._begins_ns = sights, begins_ns
         self._log_ns = 0
 
-    def messages_of(self, batch: Batch) -> list[LoggedMessage]:
+    def messages_of(self, batch: RecordBatch) -> list[LoggedMessage]:
         """The messages of a batch, in order; keys of no recorded topic are skipped.
 
         Raises:
@@ -55,7 +55,7 @@ class Unbatcher:
         return found
 
 
-def _octets(entry: Entry) -> bytes:
+def _octets(entry: BatchEntry) -> bytes:
     try:
         return entry.payload
     except ValueError as error:

@@ -9,13 +9,15 @@ from collections.abc import Callable
 from itertools import islice
 from typing import NamedTuple
 
+from msgspec import Raw
+
 from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Stamp
 from schemas.messages.record_batch import (
-    Entry,
+    BatchEntry,
+    RecordBatch,
+    RecordBatchesReply,
     RecordBatchesRequest,
     payload_fields,
-    write_batch,
-    write_reply,
 )
 from schemas.process.large_blocks import mapped
 from schemas.process.timing import BATCH_S
@@ -53,7 +55,7 @@ class BatchPublisher:
         self._writer = bus.publisher(RECORD_BATCH)
         self._requests = bus.serve(RECORD_BATCHES)
         self._stream = self._clock.unix_ns()
-        self._entries: list[Entry] = []
+        self._entries: list[BatchEntry] = []
         self._count = self._size = self._ticks = 0
         self._tick = -1
         self._sent_at = self._clock.now()
@@ -72,7 +74,7 @@ class BatchPublisher:
             return
         self._count += 1
         numbers = {} if received.stamp is None else received.stamp._asdict()
-        entry = Entry(
+        entry = BatchEntry(
             received.key,
             arrived_ns=received.arrived_ns,
             arrived_sim_ns=self._clock.sim_ns,
@@ -83,7 +85,7 @@ class BatchPublisher:
 
     def add_own(self, key: str, payload: bytes, stamp: Stamp) -> None:
         """Add a message that the host has published."""
-        self._enter(Entry(key, **payload_fields(payload), **stamp._asdict()), len(payload))
+        self._enter(BatchEntry(key, **payload_fields(payload), **stamp._asdict()), len(payload))
 
     def end_tick(self, tick: int) -> None:
         """End a tick: later messages belong to the next one."""
@@ -103,7 +105,10 @@ class BatchPublisher:
     def send(self) -> None:
         """Publish the collected messages; an empty batch reports the host's progress to recorders."""
         sent_ns = self._clock.unix_ns()
-        payload = write_batch(self._stream, self._next, self._tick, sent_ns, self._entries)
+        batch = RecordBatch(
+            stream=self._stream, number=self._next, tick=self._tick, sent_ns=sent_ns, entries=self._entries
+        )
+        payload = batch.encode()
         self._next += 1
         self._writer.put_payload(payload)
         self._keep(_Kept(sent_ns, mapped(payload)))
@@ -120,9 +125,9 @@ class BatchPublisher:
                 self._note_invalid(query.key, str(error), query.payload)
                 query.fail(str(error))
             else:
-                query.reply_payload(self._reply(request))
+                query.reply(self._reply(request))
 
-    def _enter(self, entry: Entry, size: int) -> None:
+    def _enter(self, entry: BatchEntry, size: int) -> None:
         self._entries.append(entry)
         self._size += size
         if self._size > _FULL_BATCH_BYTES:
@@ -134,18 +139,18 @@ class BatchPublisher:
         while len(self._kept) > KEPT_BATCHES or (self._kept_bytes > KEPT_BYTES and len(self._kept) > 1):
             self._kept_bytes -= len(self._kept.popleft().payload)
 
-    def _reply(self, request: RecordBatchesRequest) -> bytes:
+    def _reply(self, request: RecordBatchesRequest) -> RecordBatchesReply:
         oldest = self._next - sum(kept.sent_ns >= request.since_ns for kept in self._kept)
         start = min(max(request.first, oldest), self._next)
         end = self._next if request.last is None else min(self._next, request.last + 1)
-        batches: list[memoryview] = []
+        batches: list[Raw] = []
         size = 0
         for kept in islice(self._kept, start - self._next + len(self._kept), None):
             size += len(kept.payload)
             if start + len(batches) >= end or (batches and size > _MAX_REPLY_BYTES):
                 break
-            batches.append(kept.payload)
-        return write_reply(self._stream, oldest, batches)
+            batches.append(Raw(kept.payload))
+        return RecordBatchesReply(stream=self._stream, oldest=oldest, batches=batches)
 
 
 class _Recorded(Publisher):

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.messages.record_batch import Entry, payload_fields, read_batch, write_batch
+from schemas.messages.record_batch import BatchEntry, RecordBatch, payload_fields
 from schemas.process.whole_file import written_whole
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
@@ -22,18 +22,18 @@ def write_outcome(path: Path, messages: Sequence[ReceivedMessage]) -> None:
         OSError: the file cannot be written.
     """
     entries = [
-        Entry(one.key, **payload_fields(one.payload), **one.stamp._asdict())
+        BatchEntry(one.key, **payload_fields(one.payload), **one.stamp._asdict())
         for one in messages
         if one.stamp is not None
     ]
     with written_whole(path) as draft:
-        draft.write_bytes(write_batch(0, 0, -1, 0, entries))
+        draft.write_bytes(RecordBatch(stream=0, number=0, tick=-1, sent_ns=0, entries=entries).encode())
 
 
 def read_outcome(path: Path) -> Iterator[ReceivedMessage]:
     """The messages of an outcome; none if the host has not written one."""
     try:
-        entries = read_batch(path.read_bytes()).entries
+        entries = RecordBatch.decode(path.read_bytes()).entries
     except (OSError, BadMessageError):
         return
     for entry in entries:

@@ -1,5 +1,7 @@
 """One example of each message, from one tick of a match."""
 
+from msgspec import Raw
+
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
 from schemas.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
@@ -186,7 +188,7 @@ def _host() -> tuple[Message, ...]:
 def _batches() -> tuple[Message, ...]:
     entry = BatchEntry(
         key="robot/cyan2/command",
-        message=Command(answers_tick=_TICK, drive=_DRIVE).plain(),
+        message=Raw(Command(answers_tick=_TICK, drive=_DRIVE).encode()),
         sequence=412,
         sent_ns=1_767_225_608_240_311_872,
         sim_ns=8_240_000_000,
@@ -201,7 +203,7 @@ def _batches() -> tuple[Message, ...]:
         entries=[entry],
     )
     request = RecordBatchesRequest(first=51, last=52)
-    return batch, request, RecordBatchesReply(stream=batch.stream, oldest=0, batches=[batch])
+    return batch, request, RecordBatchesReply(stream=batch.stream, oldest=0, batches=[Raw(batch.encode())])
 
 
 def _parameters() -> tuple[Message, ...]:

@@ -63,7 +63,7 @@ def type_text(hint: Any, link: Link) -> str:
     """A type in words, with its declared limits."""
     if hint == Name:
         return "name"
-    if hint is Any:
+    if hint in (Any, msgspec.Raw):
         return "any JSON"
     if isinstance(hint, type) and hint in _PLAIN:
         return _PLAIN[hint]

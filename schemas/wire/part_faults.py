@@ -75,7 +75,7 @@ def fault_in(hint: Any, value: Any) -> Fault | None:
     if kind is dict and isinstance(value, Mapping):
         keys = ((str(name), fault_in(inner[0], name)) for name in value)
         return _first(keys) or _first((str(name), fault_in(inner[1], item)) for name, item in value.items())
-    return _leaf(hint, value)
+    return None if hint is msgspec.Raw else _leaf(hint, value)
 
 
 def expected(hint: Any) -> str:

@@ -4,12 +4,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import pytest
+from msgspec import Raw
 
 from recordings.recorder.batch_reader import QUIET_S, REPLY_S, BatchReader
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Query
 from schemas.bus.in_process_bus import InProcessBus, SharedState
-from schemas.messages.record_batch import RecordBatchesRequest, write_batch, write_reply
+from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.process.clock import SteppedClock
 from schemas.process.timing import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
@@ -29,7 +30,9 @@ class Link:
         self.publisher = self.host.publisher(RECORD_BATCH)
 
     def batch(self, number: int) -> bytes:
-        return write_batch(self.stream, number, 8 * number, self.host.clock.unix_ns(), ())
+        return RecordBatch(
+            stream=self.stream, number=number, tick=8 * number, sent_ns=self.host.clock.unix_ns(), entries=[]
+        ).encode()
 
     def publish(self, *numbers: int) -> None:
         for number in numbers:
@@ -53,7 +56,7 @@ class Link:
 
     def answer(self, *numbers: int, oldest: int = 0, stream: int | None = None) -> list[tuple[int, int | None]]:
         """Answer what was asked."""
-        reply = write_reply(stream or self.stream, oldest, [self.batch(number) for number in numbers])
+        reply = reply_of(stream or self.stream, oldest, [self.batch(number) for number in numbers])
         return [
             (request.first, request.last) for request in self._requests(lambda question: question.reply_payload(reply))
         ]
@@ -64,6 +67,11 @@ class Link:
             requests.append(question.message())
             answer(question)
         return requests
+
+
+def reply_of(stream: int, oldest: int, batches: list[bytes]) -> bytes:
+    """A reply of encoded batches."""
+    return RecordBatchesReply(stream=stream, oldest=oldest, batches=[Raw(batch) for batch in batches]).encode()
 
 
 @pytest.fixture
@@ -117,7 +125,7 @@ def test_an_answer_that_cannot_be_read_is_asked_again(link):
 def test_one_batch_of_an_answer_that_cannot_be_read_is_lost_alone(link):
     link.publish(6)
     link.read()
-    reply = write_reply(link.stream, 0, [link.batch(3), b'{"number":4}', link.batch(5)])
+    reply = reply_of(link.stream, 0, [link.batch(3), b'{"number":4}', link.batch(5)])
     link._requests(lambda question: question.reply_payload(reply))
     assert link.read() == [3, 5, 6]
     assert (link.reader.unreadable, link.reader.lost) == (1, 1)

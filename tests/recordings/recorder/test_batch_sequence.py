@@ -3,16 +3,15 @@
 import pytest
 
 from recordings.recorder.batch_sequence import BatchSequence, MissingBatches
-from schemas.messages.record_batch import Batch
-from schemas.wire.message import VERSION
+from schemas.messages.record_batch import RecordBatch
 
 BEGAN_NS = 5
 """Wall time at which the recorder began; batch n is published at time n."""
 HOST, ANOTHER = 100, 200
 
 
-def batch(number: int, stream: int = HOST) -> Batch:
-    return Batch(VERSION, stream, number, tick=8 * number, sent_ns=number, entries=())
+def batch(number: int, stream: int = HOST) -> RecordBatch:
+    return RecordBatch(stream=stream, number=number, tick=8 * number, sent_ns=number, entries=[])
 
 
 class Recorder:

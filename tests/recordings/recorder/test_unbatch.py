@@ -6,7 +6,7 @@ import pytest
 
 from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.messages.record_batch import MAX_KEY, RecordBatch, read_batch, read_reply
+from schemas.messages.record_batch import MAX_KEY, RecordBatch, RecordBatchesReply
 from schemas.topics import COMMAND, ORDER, SIGHT, WORLD
 from schemas.wire.message import BadMessageError
 from schemas.wire.part import encode
@@ -21,7 +21,7 @@ def batch(*entries: Any, **fields: Any) -> bytes:
 
 
 def messages(payload: bytes, **wanted: bool) -> list[ReceivedMessage]:
-    return [received for _, received in Unbatcher(**wanted).messages_of(read_batch(payload))]
+    return [received for _, received in Unbatcher(**wanted).messages_of(RecordBatch.decode(payload))]
 
 
 def test_messages_come_as_their_senders_sent_them():
@@ -57,8 +57,8 @@ def test_the_log_time_is_the_hosts_whatever_a_sender_claims_and_never_runs_backw
     late = {**ENTRY, "sim_ns": 0, "arrived_sim_ns": 40}
     bare = {"key": KEY, "message": {}, "arrived_sim_ns": 60}
     unbatcher = Unbatcher()
-    first = unbatcher.messages_of(read_batch(batch(own[0], own[1], ahead, own[2], late)))
-    second = unbatcher.messages_of(read_batch(batch({**ENTRY, "sim_ns": 10**18}, own[0], own[3], bare)))
+    first = unbatcher.messages_of(RecordBatch.decode(batch(own[0], own[1], ahead, own[2], late)))
+    second = unbatcher.messages_of(RecordBatch.decode(batch({**ENTRY, "sim_ns": 10**18}, own[0], own[3], bare)))
     assert [log_ns for log_ns, _ in first + second] == [0, 20, 20, 40, 40, 40, 40, 60, 60]
 
 
@@ -108,4 +108,4 @@ def test_a_minor_version_is_read():
 )
 def test_what_is_no_reply_is_refused_with_a_reason(odd):
     with pytest.raises(BadMessageError, match="RecordBatchesReply: "):
-        read_reply(odd)
+        RecordBatchesReply.decode(odd)

@@ -10,14 +10,11 @@ from schemas.bus.contract import NoReplyError, ReceivedMessage, Stamp
 from schemas.bus.in_process_bus import SharedState
 from schemas.messages.command import Command
 from schemas.messages.record_batch import (
-    Entry,
+    BatchEntry,
     RecordBatch,
     RecordBatchesReply,
     RecordBatchesRequest,
     payload_fields,
-    read_batch,
-    read_reply,
-    write_batch,
 )
 from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, EVENT, RECORD_BATCH, RECORD_BATCHES, SIGHT, WORLD
@@ -37,7 +34,7 @@ def heard(seat):
 
     def hear():
         sent = [received.payload for received in iter(subscription.receive, None)]
-        return [(RecordBatch.decode(payload).tick, read_batch(payload).entries) for payload in sent]
+        return [(RecordBatch.decode(payload).tick, RecordBatch.decode(payload).entries) for payload in sent]
 
     return hear
 
@@ -150,19 +147,19 @@ def ask(batches, seat, **words):
     batches.process()
     payload = answer.payload(0.0)
     RecordBatchesReply.decode(payload)
-    reply = read_reply(payload)
-    return reply, [read_batch(bytes(batch)).number for batch in reply.batches]
+    reply = RecordBatchesReply.decode(payload)
+    return reply, [RecordBatch.decode(bytes(batch)).number for batch in reply.batches]
 
 
 def test_batches_are_numbered_and_name_their_host(batches, seat):
     listener = seat.subscribe(RECORD_BATCH)
     publish(batches, 3)
-    came = [read_batch(received.payload) for received in iter(listener.receive, None)]
+    came = [RecordBatch.decode(received.payload) for received in iter(listener.receive, None)]
     assert [batch.number for batch in came] == [0, 1, 2]
     seat.clock.sleep_until(3.0)
     other = BatchPublisher(seat)
     other.send()
-    again = read_batch(listener.receive().payload)
+    again = RecordBatch.decode(listener.receive().payload)
     assert again.number == 0
     assert again.stream not in {batch.stream for batch in came}
 
@@ -250,7 +247,9 @@ def test_questions_without_end_do_not_hold_the_host(batches, seat):
 
 @given(st.binary(max_size=40) | st.text(max_size=20).map(str.encode) | st.just(b"[" * 5000 + b"]" * 5000))
 def test_any_payload_comes_out_as_it_went_in_and_leaves_the_batch_whole(payload):
-    written = write_batch(1, 2, 3, 4, [Entry("world", **payload_fields(payload))])
+    written = RecordBatch(
+        stream=1, number=2, tick=3, sent_ns=4, entries=[BatchEntry("world", **payload_fields(payload))]
+    ).encode()
     assert RecordBatch.decode(written).tick == 3
-    (entry,) = read_batch(written).entries
+    (entry,) = RecordBatch.decode(written).entries
     assert entry.payload == payload

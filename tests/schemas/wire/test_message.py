@@ -19,6 +19,7 @@ from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.radio import BallBelief, Motion, Radio
+from schemas.messages.record_batch import BatchEntry
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Obstacle, Sight
 from schemas.messages.world import BallTruth, World
@@ -27,7 +28,7 @@ from schemas.side import Side
 from schemas.topics import TOPICS
 from schemas.wire.faults import FaultError
 from schemas.wire.message import BadMessageError, Message
-from schemas.wire.part import Part, convert
+from schemas.wire.part import Part, decoder, encode
 
 SIGHT = examples()[Sight]
 PAYLOAD = SIGHT.encode()
@@ -287,15 +288,13 @@ def test_every_default_is_valid() -> None:
             if field.required:
                 continue
             value = field.default_factory() if field.default is msgspec.NODEFAULT else field.default
-            assert convert(msgspec.to_builtins(value, enc_hook=dict), field.type) == value, (
-                f"{kind.__name__}.{field.name}"
-            )
+            assert decoder(field.type).decode(encode(value)) == value, f"{kind.__name__}.{field.name}"
             checked += 1
     assert checked > 20
 
 
 def test_every_part_is_frozen_closed_and_made_by_keywords() -> None:
-    for kind in below(Part) - {Part, AppliedInput, OperatorChange, Obstacle}:
+    for kind in below(Part) - {Part, AppliedInput, BatchEntry, OperatorChange, Obstacle}:
         config = kind.__struct_config__
         assert config.frozen and config.forbid_unknown_fields and not config.gc
         with pytest.raises(TypeError):

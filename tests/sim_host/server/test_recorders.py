@@ -3,7 +3,7 @@
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.messages.record_batch import RecordBatchesRequest, read_batch, read_reply
+from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderProgress
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
@@ -153,7 +153,7 @@ def test_a_host_that_waits_for_a_recorder_gives_it_the_batches_that_it_missed(ri
         if rig.host.simulation.now.tick - recorder.seen > RUN_AHEAD_TICKS and not answers:
             answers.append(recorder.bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=1)))
         elif answers and recorder.stands:
-            assert len(read_reply(answers[0].payload(0.0)).batches) == 2
+            assert len(RecordBatchesReply.decode(answers[0].payload(0.0)).batches) == 2
             recorder.stands = False
 
     rig.idle.append(ask_and_go_on)
@@ -176,13 +176,13 @@ def test_at_the_end_missing_batches_are_given_still(rig_of, monkeypatch):
 
     monkeypatch.setattr(rig.host.presence, "update", look)
     rig.host.run()
-    assert read_reply(answers[0].payload(0.0)).batches
+    assert RecordBatchesReply.decode(answers[0].payload(0.0)).batches
 
 
 def sights_in(rig, listener) -> list[str]:
     """Keys of the sights in the batches since this was last called."""
     rig.host._batches.send()
-    batches = [read_batch(received.payload) for received in iter(listener.receive, None)]
+    batches = [RecordBatch.decode(received.payload) for received in iter(listener.receive, None)]
     return [entry.key for batch in batches for entry in batch.entries if entry.key.endswith("/sight")]
 
 
