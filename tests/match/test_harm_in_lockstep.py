@@ -241,15 +241,11 @@ def test_a_robot_that_does_not_answer_is_shown_in_the_status_line(story):
     assert any("silent: cyan2" in line and "robots 3/4" in line for line in story.program.err.splitlines())
 
 
-def test_a_killed_agent_is_reported_and_its_robot_rests_until_its_successor_plays(recording, inputs, worlds, story):
+def test_a_killed_agent_is_reported_and_its_successor_plays(recording, inputs, worlds, story):
     assert "cyan3 was ended by SIGKILL; started again (1 of 3)" in story.program.err
     fell, back = silences(recording, "cyan3")
     answering = {tick for tick, given in inputs.items() if given["cyan3"].answers_tick is not None}
     assert set(range(1, fell)) <= answering
-    rest = range(fell + WATCHDOG_TICKS + 2, back)
-    assert len(rest) > 0
-    assert all(inputs[tick]["cyan3"].drive == Drive() for tick in rest)
-    assert worlds[back - 1].robots["cyan3"].vx == pytest.approx(0.0, abs=0.01)
     assert set(range(back + 1, worlds[-1].tick)) <= answering
 
 

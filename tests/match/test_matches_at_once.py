@@ -134,33 +134,30 @@ def typed(page, beginning):
     return shlex.split(re.findall(rf"^touchline ({beginning} .*)$", text, re.MULTILINE)[0], comments=True)
 
 
-def test_the_team_of_the_readme_plays_as_typed_and_a_second_agent_is_refused(start, folder):
-    """The second agent is the one that docs/networking.md starts alone."""
-    endpoint = folder / "readme.json"
+def test_the_team_of_the_docs_plays_as_typed_and_a_second_agent_is_refused(start, folder):
+    endpoint = folder / "docs.json"
     (folder / "cup.toml").write_text('name = "cup"\n' + MATCH)
-    (folder / "my_team.py").write_text("from robot_agent.teams.simple import Simple as Striker\n")
-    assert command(start, folder, "readme_credentials", *typed("docs/networking.md", "credentials new")).status() == 0
+    assert command(start, folder, "docs_credentials", *typed("docs/networking.md", "credentials new")).status() == 0
     shutil.copy(folder / "credentials" / "magenta.json", folder)
     host = start(
         *("touchline", "host", "cup.toml", "--announcement", str(endpoint), "--listen", "tcp/127.0.0.1:0"),
         *("--credentials", "credentials/host.json"),
         folder=folder,
-        name="readme_host",
+        name="docs_host",
     )
     announcement = wait_for(lambda: announcement_in(endpoint), f"announcement; {host.err}")
 
     def here(words):
         return [re.sub(r"^tcp/\S+", announcement.endpoint, word) for word in words]
 
-    root = {"PYTHONPATH": str(ROOT)}
-    team = start("touchline", *here(typed("README.md", "team magenta")), folder=folder, name="readme_team", **root)
+    team = start("touchline", *here(typed("docs/networking.md", "team magenta")), folder=folder, name="docs_team")
     state = ("coach", "state", "--connect", announcement.endpoint, "--credentials", "credentials/viewer.json")
 
     def both_are_there():
-        return "2 of 4 robots are connected" in command(start, folder, "readme_state", *state).err
+        return "2 of 4 robots are connected" in command(start, folder, "docs_state", *state).err
 
     wait_for(both_are_there, f"robots of the team; {team.out} {team.err}")
-    second = command(start, folder, "readme_second", *here(typed("docs/networking.md", "agent")), **root)
+    second = command(start, folder, "docs_second", *here(typed("docs/networking.md", "agent")))
     assert second.status() == 2
     assert second.err.startswith("touchline: magenta1: refused by the host: magenta1 has an agent already: process ")
     assert team.popen.poll() is None

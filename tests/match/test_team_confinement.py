@@ -2,6 +2,7 @@
 
 import os
 import re
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -107,9 +108,11 @@ def test_a_team_plays_in_a_container_that_has_its_code_its_credentials_and_a_fol
         (credentials,) = re.findall(r"give it its credentials, and no other file: (\S+)", printed)
         (open_folder / "logs").mkdir()
         visible = (("--ro-bind", open_folder / "guests", "/tmp/team"), ("--bind", open_folder / "logs", "/tmp/logs"))
+        installed = (sys.prefix, Path(__file__).parents[2])  # which may be in /tmp
         return [
             *("bwrap", "--unshare-all", "--share-net", "--cap-drop", "ALL", "--die-with-parent"),
             *("--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--tmpfs", "/tmp"),
+            *(str(word) for folder in installed for word in ("--ro-bind", folder, folder)),
             *(str(word) for words in visible for word in words),
             *("--ro-bind", str(open_folder / credentials), "/tmp/credentials.json", "--chdir", "/tmp/logs"),
             *("--clearenv", "--setenv", "PATH", os.defpath, "--setenv", "PYTHONPATH", "/tmp/team", "--"),
