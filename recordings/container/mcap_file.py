@@ -9,7 +9,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import IO, cast
 
-from mcap.data_stream import ReadDataStream, RecordBuilder
+from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 from mcap.records import Attachment, Channel, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
@@ -188,11 +188,6 @@ def summary_of(file: IO[bytes] | mmap.mmap, size: int) -> Summary | None:
     except BROKEN:
         return None
     return summary if summary is not None and summary.statistics is not None else None
-
-
-def bytes_of(builder: RecordBuilder) -> bytes:
-    """Return the records built since the last call."""
-    return bytes(builder.end())  # type: ignore[no-untyped-call]
 
 
 def stream_of(content: bytes) -> ReadDataStream:

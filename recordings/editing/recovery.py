@@ -1,15 +1,26 @@
-"""Repairs a recording in place: adds a missing index, and leaves out damaged records.
+"""Repairs a recording: its intact records replace it, with a new index. No data is made up."""
 
-Undamaged chunks are not moved, so that a repair of a hundred megabytes takes less than a second. No data is made up: a
-chunk is kept only if its checksum is right.
-"""
-
+import mmap
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO, cast
 
+from mcap.records import Attachment, Channel, DataEnd, McapRecord, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader
+from mcap.summary import Summary
+from mcap.writer import MCAP0_MAGIC
+
+from recordings.container.chunks import BROKEN
+from recordings.container.environment import library
+from recordings.container.manifest import DAMAGED_RECORDS, RECOVERED, RESULT, Result
+from recordings.container.mcap_file import is_derived, summary_is_whole, summary_of
+from recordings.container.mcap_writer import CHUNK_BYTES, mcap_writer
 from recordings.container.parts import locked
-from recordings.container.repair import examine, execute
+from recordings.container.sealed_metadata import from_metadata, sealed, to_metadata
+from recordings.editing.intact_records import Findings, intact_records
 from schemas.errors import TouchlineError
+from schemas.process.whole_file import written_whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,32 +32,135 @@ class RecoverySummary:
     """False if the file was undamaged."""
     messages: int
     """Messages in the repaired file, without those for viewers."""
-    cut: int
-    """Bytes cut off at the end."""
-    rest: Path | None
-    """File with these bytes, if they are more than an unfinished chunk."""
-    damaged: int
+    cut: int = 0
+    """Bytes at the end that hold no complete record."""
+    damaged: int = 0
     """Damaged records that were left out."""
+    original: Path | None = None
+    """The damaged file, if more than an unfinished chunk was left out."""
 
 
 def recover(path: Path) -> RecoverySummary:
-    """Repair a file in place.
+    """Repair a file.
 
     Raises:
         TouchlineError: the file cannot be read or written, is being recorded, is not MCAP, or has no intact record.
     """
     try:
-        with locked(path):
-            done, plan = examine(path)
-            if plan is not None:
-                execute(path, plan)
-        return RecoverySummary(
-            path=path,
-            repaired=plan is not None,
-            messages=done.messages,
-            cut=done.cut,
-            rest=plan.rest[0] if plan is not None and plan.rest is not None else None,
-            damaged=done.damaged,
-        )
+        with locked(path), path.open("rb") as file:
+            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+                raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
+            with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
+                return _recover(path, content)
     except OSError as error:
         raise TouchlineError(f"{path}: {error.strerror}; give the path of a recording that can be written") from None
+
+
+def _recover(path: Path, content: mmap.mmap) -> RecoverySummary:
+    size = len(content)
+    summary = summary_of(content, size) if summary_is_whole(content, size) else None
+    if summary is not None and summary.statistics is not None and _is_intact(content):
+        counts = summary.statistics.channel_message_counts
+        read = (count for number, count in counts.items() if not is_derived(summary.channels[number].metadata))
+        return RecoverySummary(path, repaired=False, messages=sum(read))
+    with written_whole(path) as draft:
+        with draft.open("wb") as file:
+            copy = _Copy(file)
+            found = copy.fill(content, summary)
+        if copy.is_empty:
+            raise TouchlineError(f"{path}: truncated within its first record; nothing in it can be recovered")
+        cut = 0 if found.finished else size - found.end
+        original = None
+        if found.damaged or cut > CHUNK_BYTES:
+            original = path.rename(path.with_name(path.name + ".damaged"))
+    return RecoverySummary(path, True, copy.messages, cut, found.damaged, original)
+
+
+def _is_intact(content: mmap.mmap) -> bool:
+    """Whether the checksum at the end of the data section is right; False if there is none."""
+    content.seek(0)
+    reader = StreamReader(
+        cast(IO[bytes], content), emit_chunks=True, validate_crcs=True, record_size_limit=len(content)
+    )
+    try:
+        return any(isinstance(record, DataEnd) and record.data_section_crc for record in reader.records)
+    except BROKEN:
+        return False
+
+
+class _Copy:
+    """The repaired file. A channel is opened with its first message."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._mcap = mcap_writer(file)
+        self._schemas: dict[int, Schema] = {}
+        self._channels: dict[int, Channel] = {}
+        self._opened_schemas = {0: 0}
+        """Number in the damaged file → number in this one; 0 stands for no schema."""
+        self._opened: dict[int, int] = {}
+        self.messages = 0
+        self.is_empty = True
+
+    def fill(self, content: mmap.mmap, summary: Summary | None) -> Findings:
+        """Copy what is intact, and note what is not."""
+        found = Findings()
+        self._mcap.start(profile="", library=library())
+        if summary is not None:
+            self._schemas, self._channels = dict(summary.schemas), dict(summary.channels)
+        for record in intact_records(content, summary, found):
+            self.is_empty = False
+            if isinstance(record, Metadata):
+                self._add_metadata(record, found)
+            elif isinstance(record, Attachment):
+                times = record.create_time, record.log_time
+                self._mcap.add_attachment(*times, record.name, record.media_type, record.data)
+            elif not self._add_chunk(record):
+                found.damaged += 1
+                found.lost_messages = True
+        cut = 0 if found.finished else len(content) - found.end
+        note = {"cut_bytes": str(cut), DAMAGED_RECORDS: str(found.damaged), "library": library()}
+        self._add_metadata(Metadata(RECOVERED, sealed(note)), found)
+        self._mcap.finish()  # type: ignore[no-untyped-call]
+        return found
+
+    def _add_metadata(self, record: Metadata, found: Findings) -> None:
+        """Add metadata; a result loses its counts if messages that it counts were left out."""
+        metadata = record.metadata
+        if record.name == RESULT and found.lost_messages:
+            metadata = to_metadata(from_metadata(Result, metadata).counted({}))
+        self._mcap.flush()  # type: ignore[no-untyped-call]
+        self._mcap.add_metadata(record.name, metadata)
+
+    def _add_chunk(self, records: Iterable[McapRecord]) -> bool:
+        """Add the messages of a chunk; returns whether channels and schemas of all its messages are known."""
+        messages = []
+        for record in records:
+            if isinstance(record, Schema):
+                self._schemas[record.id] = record
+            elif isinstance(record, Channel):
+                self._channels[record.id] = record
+            elif isinstance(record, Message):
+                messages.append(record)
+        if not all(self._open(number) for number in dict.fromkeys(message.channel_id for message in messages)):
+            return False
+        for message in messages:
+            number = self._opened[message.channel_id]
+            self._mcap.add_message(number, message.log_time, message.data, message.publish_time, message.sequence)
+            self.messages += not is_derived(self._channels[message.channel_id].metadata)
+        return True
+
+    def _open(self, number: int) -> bool:
+        """Open a channel unless it is open; returns whether it and its schema are known."""
+        if number in self._opened:
+            return True
+        channel = self._channels.get(number)
+        if channel is None or not (channel.schema_id in self._opened_schemas or channel.schema_id in self._schemas):
+            return False
+        if channel.schema_id not in self._opened_schemas:
+            schema = self._schemas[channel.schema_id]
+            opened = self._mcap.register_schema(schema.name, schema.encoding, schema.data)
+            self._opened_schemas[channel.schema_id] = opened
+        schema_id = self._opened_schemas[channel.schema_id]
+        encoding, metadata = channel.message_encoding, channel.metadata
+        self._opened[number] = self._mcap.register_channel(channel.topic, encoding, schema_id, metadata)
+        return True

@@ -1,4 +1,4 @@
-"""`touchline recover`: repairs recordings in place."""
+"""`touchline recover`: repairs recordings."""
 
 import json as json_text
 from dataclasses import asdict
@@ -18,9 +18,10 @@ def recover(
     files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings, *.mcap.")],
     json: options.Json = False,
 ) -> None:
-    """Repair truncated or damaged recordings in place.
+    """Repair truncated or damaged recordings.
 
-    Intact recordings are not changed. All parts of a recording are repaired.
+    Intact recordings are not changed. All parts of a recording are repaired. Where more than an unfinished chunk is
+    lost, the damaged file is kept as FILE.damaged.
 
     Example: touchline recover final.mcap
     """
@@ -35,7 +36,10 @@ def recover(
         if not json:
             typer.echo(_sentence(done[-1]))
     if json:
-        facts = [{**asdict(one), "path": str(one.path), "rest": str(one.rest) if one.rest else None} for one in done]
+        facts = [
+            {**asdict(one), "path": str(one.path), "original": str(one.original) if one.original else None}
+            for one in done
+        ]
         typer.echo(json_text.dumps(facts))
 
 
@@ -45,6 +49,6 @@ def _sentence(done: "RecoverySummary") -> str:
     parts = [f"{done.path}: repaired, {done.messages} messages", f"{done.cut} bytes removed from the end"]
     if done.damaged:
         parts.append(f"{done.damaged} damaged records left out")
-    if done.rest is not None:
-        parts.append(f"the removed bytes are in {done.rest}")
+    if done.original is not None:
+        parts.append(f"the damaged file is {done.original}")
     return ", ".join(parts)

@@ -1,0 +1,115 @@
+"""The intact records of a damaged recording, in order: reading goes on behind each damaged record."""
+
+import mmap
+import struct
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from mcap.opcode import Opcode
+from mcap.records import Attachment, Chunk, McapRecord, Metadata
+from mcap.stream_reader import breakup_chunk
+from mcap.summary import Summary
+from mcap.writer import MCAP0_MAGIC
+
+from recordings.container.chunks import BROKEN, PRIVATE, RECORD_HEADER, is_known
+from recordings.container.manifest import MANIFEST, RESULT
+from recordings.container.mcap_file import stream_of
+from recordings.container.record_search import record_places
+from recordings.container.sealed_metadata import is_sealed
+
+_DAMAGED = 0x100
+"""Stands for the opcode of a record whose header is damaged; no record has it."""
+_IN_DATA = frozenset({Opcode.HEADER, Opcode.CHUNK, Opcode.MESSAGE_INDEX, Opcode.ATTACHMENT, Opcode.METADATA})
+"""Records before the end of the data section; all others are in chunks, or after the data section."""
+_DATA_END_BYTES = 4
+
+
+@dataclass(slots=True)
+class Findings:
+    """What was found so far."""
+
+    end: int = len(MCAP0_MAGIC)
+    """Offset of the end of the last complete record."""
+    finished: bool = False
+    """Whether the end of the data section was reached."""
+    damaged: int = 0
+    lost_messages: bool = False
+    """Whether one of the damaged records may have held messages."""
+
+
+def intact_records(
+    content: mmap.mmap, summary: Summary | None, found: Findings
+) -> Iterator[Metadata | Attachment | list[McapRecord]]:
+    """Yield metadata, attachments and the records of each chunk; a chunk is intact if its checksum is right.
+
+    `summary`, if the file has one, tells where records begin.
+    """
+    for opcode, begin, end in _records(content, _known_places(content, summary)):
+        found.end = end
+        try:
+            if opcode == Opcode.DATA_END:
+                found.finished = True
+            elif opcode == Opcode.CHUNK:
+                yield breakup_chunk(Chunk.read(stream_of(content[begin:end])), validate_crc=True)
+            elif opcode == Opcode.ATTACHMENT:
+                yield _attachment(content[begin:end])
+            elif opcode == Opcode.METADATA:
+                yield _metadata(content[begin:end])
+            elif opcode == _DAMAGED:
+                raise ValueError("header")
+        except BROKEN:
+            found.damaged += 1
+            found.lost_messages |= opcode in (Opcode.CHUNK, _DAMAGED)
+
+
+def _known_places(content: mmap.mmap, summary: Summary | None) -> list[int]:
+    """Offsets at which records begin, in order: by the summary, or by their first bytes."""
+    if summary is None:
+        return record_places(content)
+    places = [chunk.chunk_start_offset for chunk in summary.chunk_indexes]
+    places += [attachment.offset for attachment in summary.attachment_indexes]
+    return sorted(places + [metadata.offset for metadata in summary.metadata_indexes])
+
+
+def _records(content: mmap.mmap, known: Sequence[int]) -> Iterator[tuple[int, int, int]]:
+    """Yield opcode, begin of the content and end of each record, up to the end of the data or an incomplete record.
+
+    After a record with a damaged header, reading continues at the next of the `known` offsets, and the bytes between
+    are one damaged record. A record that is not allowed in the data section counts as damaged, too: a bit of its opcode
+    has changed.
+    """
+    at, size = len(MCAP0_MAGIC), len(content)
+    places = iter(known)
+    place = next(places, None)
+    while at + RECORD_HEADER.size <= size:
+        while place is not None and place <= at:
+            place = next(places, None)
+        opcode, length = RECORD_HEADER.unpack_from(content, at)
+        begin = at + RECORD_HEADER.size
+        at = begin + length
+        sound = is_known(opcode)
+        if place is not None and (not sound or at > place):
+            opcode, at = _DAMAGED, place
+        elif not sound or at > size:
+            return
+        elif not (opcode in _IN_DATA or opcode >= PRIVATE or (opcode, length) == (Opcode.DATA_END, _DATA_END_BYTES)):
+            opcode = _DAMAGED
+        yield opcode, begin, at
+        if opcode == Opcode.DATA_END:
+            return
+
+
+def _attachment(content: bytes) -> Attachment:
+    (expected,) = struct.unpack_from("<I", content, len(content) - 4)
+    if expected and zlib.crc32(content[:-4]) != expected:
+        raise ValueError("checksum")
+    attachment: Attachment = Attachment.read(stream_of(content))
+    return attachment
+
+
+def _metadata(content: bytes) -> Metadata:
+    metadata: Metadata = Metadata.read(stream_of(content))
+    if metadata.name in (MANIFEST, RESULT) and not is_sealed(metadata.metadata):
+        raise ValueError("seal")
+    return metadata
