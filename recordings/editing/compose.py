@@ -1,15 +1,19 @@
-"""Writes a recording from messages that were not sent on a bus: from a log, or from a match in one process."""
+"""Writes a recording from messages that no bus delivers: of a log, of a match in one process, of another recording."""
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 from typing import NamedTuple
 
 from recordings.container.manifest import EndReason, Manifest, Result
+from recordings.container.parts import NotWritableError
+from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.recording_writer import RecordingWriter
-from recordings.recorder.sequence_tracker import SequenceTracker
+from recordings.recorder.roster_metadata import RosterMetadata
+from recordings.recorder.sequence_tracker import LossCounts
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.errors import TouchlineError
 from schemas.game import Phase
 from schemas.messages.game import GameState
 from schemas.messages.world import World
@@ -32,52 +36,90 @@ class TimedMessage(NamedTuple):
     message: Message
 
 
-def compose(path: Path, manifest: Manifest, attachments: dict[str, bytes], messages: Iterable[TimedMessage]) -> Result:
-    """Write the messages, ordered by time, as a finished recording; times of sending follow from simulated time.
+class Composition:
+    """A recording that is being written."""
+
+    def __init__(self, writer: RecordingWriter, begins_ns: int) -> None:
+        self._writer, self._begins_ns = writer, begins_ns
+        self._counts = LossCounts()
+        self._batch: list[LoggedMessage] = []
+        self.messages = 0
+        """Messages so far."""
+
+    def add(self, log_ns: int, received: ReceivedMessage) -> None:
+        """Write a message; one from before the beginning of the recording is not in its counts."""
+        self.messages += 1
+        if log_ns >= self._begins_ns:
+            self._counts.add([received])
+        self._batch.append((log_ns, received))
+        if len(self._batch) >= _BATCH:
+            self._flush()
+
+    def finish(self, result: Result | None) -> Result | None:
+        """Write the result with the counts of this file, and return it."""
+        self._flush()
+        counted = result.counted(self._counts.counts()) if result is not None else None
+        self._writer.finish(counted)
+        return counted
+
+    def _flush(self) -> None:
+        self._writer.write(self._batch)
+        self._batch = []
+
+
+@contextmanager
+def composition(
+    path: Path,
+    manifest: Manifest,
+    attachments: dict[str, bytes],
+    roster: RosterMetadata | None = None,
+    *,
+    viz: bool = True,
+) -> Iterator[Composition]:
+    """A recording to be written in the block, which appears at `path` when it is complete.
 
     Raises:
         TouchlineError: the file cannot be written.
     """
     try:
         with written_whole(path) as draft:
-            writer = RecordingWriter(draft, WallClock())
+            writer = RecordingWriter(draft, WallClock(), viz=viz)
             try:
-                writer.begin(manifest, attachments)
-                result = _write(writer, manifest, messages)
-                writer.finish(result)
+                writer.begin(manifest, attachments, roster)
+                yield Composition(writer, manifest.begins_ns)
             finally:
                 writer.abandon()
+    except NotWritableError as error:
+        raise NotWritableError(path, error.reason) from None
     except OSError as error:
-        raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
-    return result
+        raise NotWritableError(path, error.strerror or str(error)) from None
 
 
-def _write(writer: RecordingWriter, manifest: Manifest, messages: Iterable[TimedMessage]) -> Result:
+def compose(path: Path, manifest: Manifest, attachments: dict[str, bytes], messages: Iterable[TimedMessage]) -> Result:
+    """Write the messages, ordered by time, as a finished recording; times of sending follow from simulated time.
+
+    Raises:
+        TouchlineError: the file cannot be written.
+    """
     began_ns = round(datetime.fromisoformat(manifest.started).timestamp() * 1e9)
-    trackers: dict[str, SequenceTracker] = {}
+    numbers: Counter[str] = Counter()
     state, tick, time = GameState(tick=0, time=0.0, phase=Phase.PRE_GAME), -1, 0.0
-    batch: list[tuple[int, ReceivedMessage]] = []
-    for timed in messages:
-        tracker = trackers.setdefault(timed.key, SequenceTracker())
-        payload = timed.message.encode()
-        stamp = Stamp(tracker.messages, began_ns + timed.sim_ns, timed.sim_ns)
-        tracker.add(stamp, len(payload))
-        batch.append((timed.sim_ns, ReceivedMessage(timed.topic, timed.key, payload, stamp)))
-        if isinstance(timed.message, GameState):
-            state = timed.message
-        elif isinstance(timed.message, World):
-            tick, time = timed.message.tick, timed.message.time
-        if len(batch) >= _BATCH:
-            writer.write(batch)
-            batch = []
-    writer.write(batch)
-    result = Result(
-        ended=EndReason.FULL_TIME if state.phase is Phase.FULL_TIME else EndReason.STOPPED,
-        finished=manifest.started,
-        phase=state.phase if STATE.key in trackers else None,
-        score=state.score if STATE.key in trackers else None,
-        clock=state.clock,
-        tick=tick,
-        time=time,
-    )
-    return result.counted({key: tracker.count() for key, tracker in sorted(trackers.items())})
+    with composition(path, manifest, attachments) as recording:
+        for timed in messages:
+            stamp = Stamp(numbers[timed.key], began_ns + timed.sim_ns, timed.sim_ns)
+            numbers[timed.key] += 1
+            recording.add(timed.sim_ns, ReceivedMessage(timed.topic, timed.key, timed.message.encode(), stamp))
+            if isinstance(timed.message, GameState):
+                state = timed.message
+            elif isinstance(timed.message, World):
+                tick, time = timed.message.tick, timed.message.time
+        result = Result(
+            ended=EndReason.FULL_TIME if state.phase is Phase.FULL_TIME else EndReason.STOPPED,
+            finished=manifest.started,
+            phase=state.phase if STATE.key in numbers else None,
+            score=state.score if STATE.key in numbers else None,
+            clock=state.clock,
+            tick=tick,
+            time=time,
+        )
+        return recording.finish(result) or result

@@ -3,15 +3,15 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+from recordings.container.applied_changes import changes_in
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import Manifest
-from recordings.container.mcap_file import is_derived
-from recordings.editing.copy_writer import CopyWriter, MessageCopy
+from recordings.editing.compose import composition
 from recordings.reading.recording import RecordedMessage, Recording
-from recordings.recorder.latched_messages import LatchedMessages
-from schemas.bus.contract import ReceivedMessage
+from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
+from recordings.recorder.roster_metadata import RosterMetadata
 from schemas.errors import TouchlineError
-from schemas.process.whole_file import written_whole
+from schemas.topics import APPLIED
 
 
 def filter_recording(
@@ -35,23 +35,19 @@ def filter_recording(
     if not any(selection.includes(channel.key) for channel in recording.channels):
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
     manifest = _manifest_of_copy(recording.manifest, selection, _ns(start))
-    try:
-        with written_whole(out) as draft, draft.open("wb") as file:
-            writer = CopyWriter(file)
-            writer.begin(manifest, recording.attachments, viz=bool(recording.drawn))
-            for entry in _latched_at(recording, selection, start) if start is not None else ():
-                writer.add(entry)
-            latched = writer.messages
-            for entry in _copies(recording, selection, _ns(start), _ns(end)):
-                writer.add(entry)
-            if writer.messages == latched:
-                raise TouchlineError(
-                    f"{recording.path}: has no message of the selected keys and times; {_lasts(recording)}"
-                )
-            writer.finish(recording.result)
-            return writer.messages
-    except OSError as error:
-        raise TouchlineError(f"{out}: {error.strerror}; make room, or give another path") from None
+    roster = _roster_of(recording)
+    with composition(out, manifest, recording.attachments, roster, viz=bool(recording.drawn)) as copy:
+        for log_ns, received in _latched_at(recording, selection, start) if start is not None else ():
+            copy.add(log_ns, received)
+        latched = copy.messages
+        for recorded in _selected(recording, selection, start, end):
+            copy.add(recorded.log_ns, recorded.received())
+        if copy.messages == latched:
+            raise TouchlineError(
+                f"{recording.path}: has no message of the selected keys and times; {_lasts(recording)}"
+            )
+        copy.finish(recording.result)
+        return copy.messages
 
 
 def _lasts(recording: Recording) -> str:
@@ -60,16 +56,20 @@ def _lasts(recording: Recording) -> str:
     return f"it lasts from {begin:.2f} to {end:.2f} s of simulated time"
 
 
-def _copies(
-    recording: Recording, selection: KeySelection, start_ns: int | None, end_ns: int | None
-) -> Iterator[MessageCopy]:
-    channels = {
-        channel.key: channel
-        for channel in recording.mcap_file.channels.values()
-        if not is_derived(channel.metadata) and selection.includes(channel.key)
-    }
-    for key, message in recording.mcap_file.messages({*channels}, start_ns, end_ns):
-        yield MessageCopy(message.log_time, channels[key], message.data, message.publish_time, message.sequence)
+def _selected(
+    recording: Recording, selection: KeySelection, start: float | None, end: float | None
+) -> Iterator[RecordedMessage]:
+    keys = [channel.key for channel in recording.channels if selection.includes(channel.key)]
+    return recording.messages(*keys, start=start, end=end)
+
+
+def _roster_of(recording: Recording) -> RosterMetadata:
+    """All robots that took part at any time."""
+    roster = RosterMetadata(recording.manifest.setup)
+    for recorded in recording.messages(APPLIED.key):
+        if changes_in(recorded.payload).robots is not None:
+            roster.update(recorded.message().robots or [])
+    return roster
 
 
 def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start_ns: int | None) -> Manifest:
@@ -83,23 +83,12 @@ def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start_ns: int
     )
 
 
-def _latched_at(recording: Recording, selection: KeySelection, start: float) -> list[MessageCopy]:
-    """The latched messages at a time, as copies."""
+def _latched_at(recording: Recording, selection: KeySelection, start: float) -> list[LoggedMessage]:
+    """The latched messages at a time."""
     latched = LatchedMessages()
-    latched.update((recorded.log_ns, _as_recorded(recorded)) for recorded in recording.messages(end=start))
-    channels = {channel.key: channel for channel in recording.mcap_file.channels.values()}
-    entries = []
-    for log_ns, received in latched.messages():
-        if selection.includes(received.key) and received.stamp is not None:
-            stamp = received.stamp
-            entries.append(MessageCopy(log_ns, channels[received.key], received.payload, stamp.sent_ns, stamp.sequence))
-    return entries
+    latched.update((recorded.log_ns, recorded.received()) for recorded in recording.messages(end=start))
+    return [logged for logged in latched.messages() if selection.includes(logged[1].key)]
 
 
 def _ns(seconds: float | None) -> int | None:
     return round(seconds * 1e9) if seconds is not None else None
-
-
-def _as_recorded(recorded: RecordedMessage) -> ReceivedMessage:
-    """The message with its recorded bytes, whatever version of the protocol they are of."""
-    return ReceivedMessage(recorded.topic, recorded.key, recorded.payload, recorded.stamp)

@@ -9,7 +9,7 @@ from pydantic_core import from_json
 from recordings.container.manifest import MANIFEST, EndReason, KeyCount, Result
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import ChannelFacts, Recording
-from recordings.recorder.sequence_tracker import SequenceTracker
+from recordings.recorder.sequence_tracker import LossCounts
 from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
@@ -49,7 +49,7 @@ def record_faults(recording: Recording) -> list[str]:
 
     Reads all messages.
     """
-    trackers: dict[str, SequenceTracker] = {}
+    counts = LossCounts()
     found: list[str] = []
     log_ns, before = -1, ""
     for recorded in recording.messages(start=recording.manifest.begins_ns / 1e9):
@@ -58,16 +58,13 @@ def record_faults(recording: Recording) -> list[str]:
                 f"{recorded.key} {recorded.sequence} at {recorded.time:.9g} s follows {before} at {log_ns / 1e9:.9g} s"
             )
         log_ns, before = recorded.log_ns, recorded.key
-        tracker = trackers.get(recorded.key)
-        if tracker is None:
-            tracker = trackers[recorded.key] = SequenceTracker()
-        tracker.add(recorded.stamp, len(recorded.payload))
+        counts.add([recorded])
     result = recording.result
     if result is None or not result.keys or recording.manifest.part > 1:
         return found  # the counts of a later part are those of the whole recording
-    for key in sorted({*trackers, *result.keys}, key=natural_order):
-        count = trackers[key].count() if key in trackers else KeyCount()
-        sealed = result.keys.get(key, KeyCount())
+    there = counts.counts()
+    for key in sorted({*there, *result.keys}, key=natural_order):
+        count, sealed = there.get(key, KeyCount()), result.keys.get(key, KeyCount())
         found += [
             f"{key}: {getattr(count, name)} {name} in the file, {getattr(sealed, name)} in the result"
             for name in ("messages", "bytes", "lost", "duplicates")

@@ -9,7 +9,7 @@ from recordings.container.manifest import EndReason, KeyCount
 from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
-from recordings.recorder.sequence_tracker import SequenceTracker
+from recordings.recorder.sequence_tracker import LossCounts
 from schemas.config.number_files import UNVERSIONED
 from schemas.game import Phase, Score
 from schemas.topics import EVENT
@@ -161,14 +161,14 @@ def _ending(recording: Recording) -> _Ending:
     if result is not None and result.keys and recording.manifest.part == 1:  # others have the counts of all parts
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
     progress = MatchProgress()
-    trackers: dict[str, SequenceTracker] = {}
+    counts = LossCounts()
     for recorded in recording.messages():
         received = recorded.received()
         progress.update([received])
         if recorded.log_ns >= recording.manifest.begins_ns:
-            trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
+            counts.add([received])
     progress.catch_up()
-    keys = {key: tracker.count() for key, tracker in trackers.items()}
+    keys = counts.counts()
     if result is not None:  # of a repaired file, or a later part
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, keys)
     state, applied = progress.state, progress.applied

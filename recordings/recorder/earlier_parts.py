@@ -9,8 +9,8 @@ from recordings.container.parts import locked, parts_of
 from recordings.container.sealed_metadata import from_metadata
 from recordings.reading.recording import open_recording
 from recordings.recorder.latched_messages import LatchedMessages
-from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.match_progress import MatchProgress
+from recordings.recorder.sequence_tracker import LossCounts
 from schemas.errors import TouchlineError
 from schemas.topic import Party
 
@@ -54,7 +54,7 @@ def read_earlier_parts(path: Path, host: int) -> EarlierParts:
     earlier.begins_ns = max(last_ns, from_metadata(Manifest, manifests[-1]).begins_ns)
     for recorded in recording.messages(end=earlier.begins_ns / 1e9):
         received = recorded.received()
-        earlier.loss_counts.add([(recorded.log_ns, received)])
+        earlier.loss_counts.add([received])
         earlier.latched.update([(recorded.log_ns, received)])
         earlier.match.update([received])
         earlier.messages += 1

@@ -7,9 +7,9 @@ from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.container.parts import part_path
 from recordings.recorder.earlier_parts import EarlierParts
 from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
-from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
+from recordings.recorder.sequence_tracker import LossCounts
 from schemas.config.settings import RecordOptions
 from schemas.process.clock import Clock
 
@@ -100,7 +100,7 @@ class PartSink:
 
     def _write_batch(self, batch: list[LoggedMessage]) -> None:
         if batch:
-            self.loss_counts.add(batch)
+            self.loss_counts.add(received for _, received in batch)
             self._latched.update(batch)
             self._writer.write(batch)
 

@@ -16,14 +16,13 @@ from recordings.container.environment import library
 from recordings.container.json_schema import flat_schema
 from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_writer import mcap_writer
-from recordings.container.parts import create_part
+from recordings.container.parts import NotWritableError, create_part
 from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.viz.drawing import READS
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage
-from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from schemas.process.idle_time import run_in_idle_time, start_thread
 from schemas.topics import TOPICS, key_prefix
@@ -89,9 +88,9 @@ class RecordingWriter:
         """Flush the messages so far to the disk soon, so that they survive a loss of power."""
         self._hand_over(self._sync)
 
-    def finish(self, result: Result) -> int:
-        """Write the result, close the file, and return its size in bytes."""
-        self._hand_over(partial(self._write_tail, to_metadata(result)))
+    def finish(self, result: Result | None) -> int:
+        """Write the result, if there is one, close the file, and return its size in bytes."""
+        self._hand_over(partial(self._write_tail, to_metadata(result) if result is not None else None))
         self._end()
         self._raise_error()
         self._file.close()
@@ -120,7 +119,8 @@ class RecordingWriter:
 
     def _raise_error(self) -> None:
         if isinstance(self._error, OSError):
-            raise TouchlineError(f"{self.path}: {self._error.strerror}; what was written before is readable")
+            reason = self._error.strerror or "cannot be written"
+            raise NotWritableError(self.path, reason, "what was written before is readable")
         if self._error is not None:
             raise self._error
 
@@ -197,9 +197,10 @@ class RecordingWriter:
         self._mcap.flush()  # type: ignore[no-untyped-call]
         os.fsync(self._file.fileno())
 
-    def _write_tail(self, result: dict[str, str]) -> None:
+    def _write_tail(self, result: dict[str, str] | None) -> None:
         self._mcap.flush()  # type: ignore[no-untyped-call]
-        self._mcap.add_metadata(RESULT, result)
+        if result is not None:
+            self._mcap.add_metadata(RESULT, result)
         self._mcap.finish()  # type: ignore[no-untyped-call]
         self._file.flush()
         os.fsync(self._file.fileno())

@@ -1,12 +1,17 @@
-"""Follows the sequence numbers of one key, and counts lost, duplicate and late messages.
+"""Follows the sequence numbers of keys, and counts lost, duplicate and late messages.
 
 A key may have several writers, one after the other or at the same time, as a restarted agent or a second agent of a
 robot. Each counts its own messages from 0. Messages do not name their writer: it is inferred from number and time of
 sending.
 """
 
+from collections import defaultdict
+from collections.abc import Iterable
+
 from recordings.container.manifest import KeyCount
-from schemas.bus.contract import Stamp
+from recordings.reading.recording import RecordedMessage
+from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.natural_order import natural_order
 
 _REMEMBERED = 10_000
 """Maximum number of missing sequence numbers kept to distinguish late messages from duplicates."""
@@ -127,3 +132,28 @@ def _is_plausible(writer: _Writer, stamp: Stamp) -> bool:
     """Whether a writer can have sent this message after its last one, with the missing ones between them."""
     gap, passed_ns = stamp.sequence - writer.expected, stamp.sent_ns - writer.sent_ns
     return passed_ns >= 0 and 0 <= gap <= _BURST + _MAX_RATE * passed_ns / 1e9
+
+
+class LossCounts:
+    """The trackers of all keys."""
+
+    def __init__(self) -> None:
+        self._trackers: defaultdict[str, SequenceTracker] = defaultdict(SequenceTracker)
+
+    def add(self, messages: Iterable[ReceivedMessage | RecordedMessage]) -> None:
+        """Count messages."""
+        trackers = self._trackers
+        for message in messages:
+            trackers[message.key].add(message.stamp, len(message.payload))
+
+    def counts(self) -> dict[str, KeyCount]:
+        """Key → its counts, sorted."""
+        return {key: tracker.count() for key, tracker in self._sorted()}
+
+    @property
+    def losses(self) -> dict[str, int]:
+        """Key → messages lost; keys without loss are left out."""
+        return {key: tracker.lost for key, tracker in self._sorted() if tracker.lost}
+
+    def _sorted(self) -> list[tuple[str, SequenceTracker]]:
+        return sorted(self._trackers.items(), key=lambda item: natural_order(item[0]))

@@ -8,7 +8,7 @@ from google.protobuf.message_factory import GetMessageClass
 
 from recordings.container.environment import library
 from recordings.container.file_descriptors import file_descriptor_set
-from recordings.container.typed_writer import TypedWriter
+from recordings.container.mcap_writer import mcap_writer
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.omissions import omitted_messages
 from recordings.exchange.protobuf.message_type import message_type
@@ -36,20 +36,26 @@ def export(recording: Recording, out: Path) -> ExportSummary:
         "contract": recording.manifest.contract,
         "setup": encode(recording.manifest.setup).decode(),
     }
-    with atomic_output(out) as path, TypedWriter(path, library()) as writer:
-        writer.metadata(ORIGIN, origin)
+    schemas: dict[str, int] = {}
+    channels: dict[str, int] = {}
+    with atomic_output(out) as path, path.open("wb") as file:
+        writer = mcap_writer(file)
+        writer.start(profile="", library=library())
+        writer.add_metadata(ORIGIN, origin)
         for recorded, message in recording.decoded():
             name = type(message).__name__
             if name not in classes:
                 descriptor = message_type(type(message))
                 classes[name] = GetMessageClass(descriptor)
-                writer.attach(f"{name}.proto", proto_text(descriptor).encode())
-                writer.schema(name, descriptor.full_name, "protobuf", file_descriptor_set(descriptor))
+                writer.add_attachment(0, 0, f"{name}.proto", "text/plain", proto_text(descriptor).encode())
+                content = file_descriptor_set(descriptor)
+                schemas[name] = writer.register_schema(descriptor.full_name, "protobuf", content)
             if recorded.key not in written:
-                writer.channel(recorded.key, name, "protobuf", {"topic": recorded.topic.key, "message": name})
-            payload = ParseDict(message.plain(), classes[name]())
-            writer.message(
-                recorded.key, payload.SerializeToString(), recorded.log_ns, recorded.sent_ns, recorded.sequence
-            )
+                metadata = {"topic": recorded.topic.key, "message": name}
+                channels[recorded.key] = writer.register_channel(recorded.key, "protobuf", schemas[name], metadata)
+            payload = ParseDict(message.plain(), classes[name]()).SerializeToString()
+            numbers = recorded.sent_ns, recorded.sequence
+            writer.add_message(channels[recorded.key], recorded.log_ns, payload, *numbers)
             written[recorded.key] = written.get(recorded.key, 0) + 1
+        writer.finish()  # type: ignore[no-untyped-call]
     return ExportSummary(out, written, dict(recording.unreadable), omitted_messages(recording, *TOPICS.values()))
