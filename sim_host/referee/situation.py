@@ -8,6 +8,7 @@ from schemas.game import SIDED, Phase
 from sim_host.referee.evidence import NO_EVIDENCE, evidence_after
 from sim_host.referee.game.refbox_presence import refbox_gone_after
 from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.game.restart import Spot
 from sim_host.referee.game.set_piece import set_piece_after
 from sim_host.referee.game.shoot_out import ShootOut
 from sim_host.referee.match_constants import MatchConstants
@@ -39,6 +40,11 @@ class Situation(NamedTuple):
     state: RefereeState
     snapshot: Snapshot
     crossing: Crossing | None
+
+    @property
+    def ball_spot(self) -> Spot:
+        """Where the ball is, on the ground."""
+        return self.snapshot.ball.x, self.snapshot.ball.y
 
 
 def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapshot, dt: float) -> Situation:

@@ -25,7 +25,4 @@ def judge(situation: Situation) -> Decision | None:
         return None
     again = " again without having released the ball" if dribble.spent else ""
     text = f"{dribble.robot} dribbled {way:.2f} m backward{again}, limit {limit:.2f}"
-    ball = situation.snapshot.ball
-    return foul(
-        situation, "backward", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=(ball.x, ball.y)
-    )
+    return foul(situation, "backward", (dribble.robot,), text, (way, limit, "m"))

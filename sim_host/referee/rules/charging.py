@@ -122,10 +122,8 @@ def _decision(situation: Situation, charge: Charge) -> Decision:
         "charging",
         (name,),
         text,
-        measured=charge.speed,
-        limit=numbers.charge_speed,
-        unit="m/s",
-        place=(robot.x, robot.y),
+        (charge.speed, numbers.charge_speed, "m/s"),
+        (robot.x, robot.y),
         phase=Phase.PENALTY if inside else Phase.FREE_KICK,
         card=Card.YELLOW if hard else None,
     )

@@ -6,10 +6,9 @@ kick.
 Not judged: intent; a ball that comes back from the boundary or an opponent is no exception.
 """
 
-from schemas.game import EventKind
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.set_piece import KICK_DURATION
-from sim_host.referee.rules.set_piece_foul import being_taken, given_away
+from sim_host.referee.rules.set_piece_foul import being_taken, given_away, restart_foul
 from sim_host.referee.situation import Situation
 
 
@@ -19,14 +18,5 @@ def judge(situation: Situation) -> Decision | None:
     if piece is None or piece.kicker is None or piece.kicker not in piece.now or piece.since_kick <= KICK_DURATION:
         return None
     asked = situation.match.book.restarts.in_play_distance
-    return Decision(
-        kind=EventKind.FOUL,
-        text=f"{piece.kicker} touched the ball twice: it had rolled {piece.rolled:.2f} m, in play after {asked:.2f} m",
-        restart=given_away(situation, piece),
-        side=piece.restart.side,
-        robot=piece.kicker,
-        place=(situation.snapshot.ball.x, situation.snapshot.ball.y),
-        measured=piece.rolled,
-        limit=asked,
-        unit="m",
-    )
+    text = f"{piece.kicker} touched the ball twice: it had rolled {piece.rolled:.2f} m, in play after {asked:.2f} m"
+    return restart_foul(situation, piece.kicker, text, given_away(situation, piece), (piece.rolled, asked, "m"))

@@ -8,9 +8,8 @@ Measures: the distance from the spot to the ball while the taker touches it, bef
 Not judged: how the dribbler turns the ball on its spot.
 """
 
-from schemas.game import EventKind
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.rules.set_piece_foul import being_taken, given_away
+from sim_host.referee.rules.set_piece_foul import being_taken, given_away, restart_foul
 from sim_host.referee.situation import Situation
 
 
@@ -23,14 +22,5 @@ def judge(situation: Situation) -> Decision | None:
     name = piece.now[-1]
     if piece.moved <= allowed or situation.match.roster.side_of(name) is not piece.restart.side:
         return None
-    return Decision(
-        kind=EventKind.FOUL,
-        text=f"{name} dragged the ball {piece.moved:.2f} m from its spot, limit {allowed:.2f} m",
-        restart=given_away(situation, piece),
-        side=piece.restart.side,
-        robot=name,
-        place=(situation.snapshot.ball.x, situation.snapshot.ball.y),
-        measured=piece.moved,
-        limit=allowed,
-        unit="m",
-    )
+    text = f"{name} dragged the ball {piece.moved:.2f} m from its spot, limit {allowed:.2f} m"
+    return restart_foul(situation, name, text, given_away(situation, piece), (piece.moved, allowed, "m"))

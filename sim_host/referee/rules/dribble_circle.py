@@ -21,10 +21,8 @@ def judge(situation: Situation) -> Decision | None:
     dribble = situation.state.evidence.dribble
     if dribble is None or situation.snapshot.possession != dribble.robot:
         return None
-    ball, limit = situation.snapshot.ball, situation.match.book.handling.circle
-    place = (ball.x, ball.y)
-    way = math.dist(dribble.caught, place)
+    way, limit = math.dist(dribble.caught, situation.ball_spot), situation.match.book.handling.circle
     if way <= limit or not is_called(situation, "dribble_circle"):
         return None
     text = f"{dribble.robot} dribbled {way:.2f} m from where it caught the ball, limit {limit:.2f}"
-    return foul(situation, "dribble_circle", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=place)
+    return foul(situation, "dribble_circle", (dribble.robot,), text, (way, limit, "m"))

@@ -8,9 +8,9 @@ time limit, when any robot may play the ball.
 Not judged: whether the opponent could have avoided the ball.
 """
 
-from schemas.game import EventKind, Phase
+from schemas.game import Phase
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.rules.set_piece_foul import being_taken, given_away
+from sim_host.referee.rules.set_piece_foul import being_taken, given_away, restart_foul
 from sim_host.referee.situation import Situation
 
 
@@ -26,18 +26,9 @@ def judge(situation: Situation) -> Decision | None:
             continue
         required = situation.match.book.restarts.in_play_distance
         who = "a teammate of the taker" if is_mate else "an opponent"
-        place = (situation.snapshot.ball.x, situation.snapshot.ball.y)
-        return Decision(
-            kind=EventKind.FOUL,
-            text=f"{name}, {who}, touched the ball after {piece.rolled:.2f} m, in play after {required:.2f} m",
-            restart=given_away(situation, piece) if is_mate else piece.restart,
-            side=roster.side_of(name),
-            robot=name,
-            place=place,
-            measured=piece.rolled,
-            limit=required,
-            unit="m",
-        )
+        text = f"{name}, {who}, touched the ball after {piece.rolled:.2f} m, in play after {required:.2f} m"
+        restart = given_away(situation, piece) if is_mate else piece.restart
+        return restart_foul(situation, name, text, restart, (piece.rolled, required, "m"))
     return None
 
 

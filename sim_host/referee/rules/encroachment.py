@@ -11,13 +11,12 @@ START until the ball is in play.
 Not judged: penalties, which have positions of their own; whether the encroachment helped.
 """
 
-from schemas.game import EventKind
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.set_piece import Intrusion
 from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.positions import distance_violations
 from sim_host.referee.rules.foul import CARDS, exceeds
-from sim_host.referee.rules.set_piece_foul import being_taken, given_away
+from sim_host.referee.rules.set_piece_foul import being_taken, given_away, restart_foul
 from sim_host.referee.situation import Situation, is_encroachment_judged
 
 
@@ -38,17 +37,14 @@ def judge(situation: Situation) -> Decision | None:
         who = "a teammate of the taker" if is_mate else "an opponent"
         late = f", {intrusion.lasted:.1f} s after START" if intrusion.excused else ""
         robot = situation.snapshot.robots[intrusion.robot]
-        return Decision(
-            kind=EventKind.FOUL,
-            text=f"{name}, {who}, encroached before the ball was in play: {violation.phrase}{late}",
-            restart=given_away(situation, piece) if is_mate else piece.restart,
-            side=side,
-            robot=name,
-            place=(robot.x, robot.y),
-            measured=violation.measured,
-            limit=violation.limit,
-            unit="m",
-            card=CARDS[situation.match.book.fouls.encroachment],
+        return restart_foul(
+            situation,
+            name,
+            f"{name}, {who}, encroached before the ball was in play: {violation.phrase}{late}",
+            given_away(situation, piece) if is_mate else piece.restart,
+            (violation.measured, violation.limit, "m"),
+            (robot.x, robot.y),
+            CARDS[situation.match.book.fouls.encroachment],
         )
     return None
 

@@ -6,12 +6,15 @@ The referee stops the game at once, unless it plays an advantage. People may und
 from schemas.game import Card, EventKind, Phase
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.restart import Spot
 from sim_host.referee.game.timing import ROUNDING
 from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.situation import Situation
 
 CARDS = {"on": None, "yellow": Card.YELLOW}
 """The rule book's choice → the card that goes with the restart."""
+Figures = tuple[float | None, float | None, str]
+"""The quantity that broke a rule, its limit, and the unit of both; None for a rule without a quantity."""
 
 
 def exceeds(measured: float, limit: float) -> bool:
@@ -30,13 +33,11 @@ def foul(
     name: str,
     offenders: tuple[str, ...],
     text: str,
+    figures: Figures,
+    place: Spot | None = None,
     *,
-    measured: float,
-    limit: float,
-    unit: str,
-    place: tuple[float, float],
     phase: Phase = Phase.FREE_KICK,
-    restart_from: tuple[float, float] | None = None,
+    restart_from: Spot | None = None,
     card: Card | None = None,
 ) -> Decision:
     """The decision on a foul: a restart for the other side where the ball is, and a card for the first offender.
@@ -46,26 +47,23 @@ def foul(
         name: name of the foul in the rule book's section `fouls`.
         offenders: robots of one side, the one that is shown a card first.
         text: what they did, with quantity and limit.
-        measured: the quantity that broke the rule, in `unit`.
-        limit: the limit of the rule book, in `unit`.
-        unit: the unit of both.
-        place: m; where it happened.
+        figures: the quantity that broke the rule, the limit of the rule book, and their unit.
+        place: m; where it happened, if not where the ball is.
         phase: the restart.
         restart_from: m; the place that determines the spot of the restart, if not the ball's.
         card: the card that the deed itself earns; otherwise the rule book's choice for the foul.
     """
     side = situation.match.roster.side_of(offenders[0])
-    ball = situation.snapshot.ball
+    measured, limit, unit = figures
     remark = "" if situation.match.advantage else "; no advantage is played"
-    start = restart_from if restart_from is not None else (ball.x, ball.y)
     return Decision(
         kind=EventKind.FOUL,
         text=text + remark,
-        restart=restart_at(situation.match, situation.state, phase, side.opponent, start),
+        restart=restart_at(situation.match, situation.state, phase, side.opponent, restart_from or situation.ball_spot),
         side=side,
         robot=offenders[0],
         robots=offenders if len(offenders) > 1 else (),
-        place=place,
+        place=place or situation.ball_spot,
         measured=measured,
         limit=limit,
         unit=unit,

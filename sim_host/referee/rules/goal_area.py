@@ -26,14 +26,5 @@ def judge(situation: Situation) -> Decision | None:
             name, area = roster.names[stay.robot], "its own" if defends else "the other"
             what = f"illegal {'defence' if defends else 'attack'}"
             text = f"{what}: {name} is in {area} goal area for {stay.lasted:.2f} s, limit {limit:.2f}"
-            return foul(
-                situation,
-                "goal_area",
-                (name,),
-                text,
-                measured=stay.lasted,
-                limit=limit,
-                unit="s",
-                place=(robot.x, robot.y),
-            )
+            return foul(situation, "goal_area", (name,), text, (stay.lasted, limit, "s"), (robot.x, robot.y))
     return None

@@ -26,14 +26,5 @@ def judge(situation: Situation) -> Decision | None:
             and is_called(situation, "leaving_field")
         ):
             text = f"{name} has been outside the field for {lasted:.1f} s, limit {limit:.1f}"
-            return foul(
-                situation,
-                "leaving_field",
-                (name,),
-                text,
-                measured=lasted,
-                limit=limit,
-                unit="s",
-                place=(robot.x, robot.y),
-            )
+            return foul(situation, "leaving_field", (name,), text, (lasted, limit, "s"), (robot.x, robot.y))
     return None

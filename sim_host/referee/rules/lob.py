@@ -11,7 +11,6 @@ Not judged: a ball that is touched, or that leaves the field, before it comes do
 
 import math
 
-from schemas.game import Phase
 from sim_host.referee.evidence.flight import Flight
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import foul, is_called
@@ -49,11 +48,8 @@ def judge(situation: Situation) -> Decision | None:
         "lob",
         (flight.robot,),
         text,
-        measured=flight.apex,
-        limit=numbers.lob_height,
-        unit="m",
-        place=flight.kicked_from,
-        phase=Phase.FREE_KICK,
+        (flight.apex, numbers.lob_height, "m"),
+        flight.kicked_from,
         restart_from=(0.0, _across(flight, flight.landed)),
     )
 

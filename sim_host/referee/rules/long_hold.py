@@ -15,11 +15,9 @@ def judge(situation: Situation) -> Decision | None:
     dribble = situation.state.evidence.dribble
     if dribble is None or situation.snapshot.possession != dribble.robot:
         return None
-    ball, limit = situation.snapshot.ball, situation.match.book.handling.hold_duration
+    limit = situation.match.book.handling.hold_duration
     kept = situation.snapshot.time - dribble.since
     if not exceeds(kept, limit) or not is_called(situation, "long_hold"):
         return None
     text = f"{dribble.robot} kept the ball for {kept:.1f} s, limit {limit:.1f}"
-    return foul(
-        situation, "long_hold", (dribble.robot,), text, measured=kept, limit=limit, unit="s", place=(ball.x, ball.y)
-    )
+    return foul(situation, "long_hold", (dribble.robot,), text, (kept, limit, "s"))

@@ -9,10 +9,9 @@ where it was when it left the last circle.
 Not judged: which robot could have played it.
 """
 
-from schemas.game import EventKind, Phase
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.rules.foul import exceeds
+from sim_host.referee.rules.out import dropped
 from sim_host.referee.situation import Situation
 from sim_host.referee.wording import place_text
 
@@ -29,21 +28,10 @@ def judge(situation: Situation) -> Decision | None:
     progress, numbers = situation.state.evidence.progress, situation.match.book.stall
     if progress is None or not is_due(situation):
         return None
-    lasted, ball, holder = (
-        situation.snapshot.time - progress.since,
-        situation.snapshot.ball,
-        situation.snapshot.possession,
-    )
-    place = (ball.x, ball.y)
-    return Decision(
-        kind=EventKind.STALL,
-        text=f"no progress: the ball has been within {numbers.progress_distance:.2f} m of "
+    lasted, holder = situation.snapshot.time - progress.since, situation.snapshot.possession
+    text = (
+        f"no progress: the ball has been within {numbers.progress_distance:.2f} m of "
         f"{place_text(progress.place)} for {lasted:.1f} s, limit {numbers.progress_duration:.1f}"
-        f"{f'; {holder} has it' if holder is not None else ''}",
-        restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, place),
-        robot=holder,
-        place=place,
-        measured=lasted,
-        limit=numbers.progress_duration,
-        unit="s",
+        f"{f'; {holder} has it' if holder is not None else ''}"
     )
+    return dropped(situation, text, (lasted, numbers.progress_duration, "s"), robot=holder)

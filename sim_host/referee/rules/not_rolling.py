@@ -20,15 +20,12 @@ def judge(situation: Situation) -> Decision | None:
     dribble = situation.state.evidence.dribble
     if dribble is None or not dribble.slid:
         return None
-    handling, ball = situation.match.book.handling, situation.snapshot.ball
-    place = (ball.x, ball.y)
+    handling = situation.match.book.handling
     for measured, limit, unit in (
         (dribble.slid_way, handling.roll_distance, "m"),
         (dribble.slid, handling.roll_duration, "s"),
     ):
         if exceeds(measured, limit) and is_called(situation, "not_rolling"):
             text = f"{dribble.robot} moved the ball {measured:.2f} {unit} without letting it roll, limit {limit:.2f}"
-            return foul(
-                situation, "not_rolling", (dribble.robot,), text, measured=measured, limit=limit, unit=unit, place=place
-            )
+            return foul(situation, "not_rolling", (dribble.robot,), text, (measured, limit, unit))
     return None

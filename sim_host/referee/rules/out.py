@@ -4,8 +4,32 @@ from schemas.game import EventKind, Phase
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.rules.foul import Figures
 from sim_host.referee.situation import Crossing, Situation
 from sim_host.referee.wording import last_touch_text, level_touch_text, place_text
+
+
+def dropped(
+    situation: Situation,
+    text: str,
+    figures: Figures | None = None,
+    *,
+    robot: str | None = None,
+    robots: tuple[str, ...] = (),
+) -> Decision:
+    """The decision to drop the ball where it is, or at the nearest legal place."""
+    measured, limit, unit = figures or (None, None, "")
+    return Decision(
+        kind=EventKind.STALL,
+        text=text,
+        restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, situation.ball_spot),
+        robot=robot,
+        robots=robots,
+        place=situation.ball_spot,
+        measured=measured,
+        limit=limit,
+        unit=unit,
+    )
 
 
 def ball_out(situation: Situation, crossing: Crossing, phase: Phase, taker: Side | None) -> Decision:

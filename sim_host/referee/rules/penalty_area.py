@@ -78,8 +78,7 @@ def _foul(
     situation: Situation, offender: int, names: tuple[str, ...], text: str, lasted: float, limit: float
 ) -> Decision:
     robot = situation.snapshot.robots[offender]
-    place = (robot.x, robot.y)
-    return foul(situation, "penalty_area", names, text, measured=lasted, limit=limit, unit="s", place=place)
+    return foul(situation, "penalty_area", names, text, (lasted, limit, "s"), (robot.x, robot.y))
 
 
 def _offence(situation: Situation, index: int, end: int) -> str:

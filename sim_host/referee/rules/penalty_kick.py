@@ -81,7 +81,7 @@ def _side(situation: Situation, stray: PositionFault) -> Side:
 def _decision(
     situation: Situation, strays: Sequence[PositionFault], outcome: str, restart: Restart, *, card: bool = True
 ) -> Decision:
-    first, ball = strays[0], situation.snapshot.ball
+    first = strays[0]
     robots = tuple([stray.robot for stray in strays])
     return Decision(
         kind=EventKind.FOUL,
@@ -90,7 +90,7 @@ def _decision(
         side=_side(situation, first),
         robot=first.robot,
         robots=robots if len(robots) > 1 else (),
-        place=(ball.x, ball.y),
+        place=situation.ball_spot,
         measured=first.measured,
         limit=first.limit,
         unit="m" if first.limit is not None else "",

@@ -34,17 +34,8 @@ def judge(situation: Situation) -> Decision | None:
             f"{roster.names[offender]} pushed {roster.names[victim]} {way:.2f} m{' in its own penalty area' * inside}, "
             f"limit {limit:.2f}; intent is not judged"
         )
-        return foul(
-            situation,
-            "pushing",
-            (roster.names[offender],),
-            text,
-            measured=way,
-            limit=limit,
-            unit="m",
-            place=(robot.x, robot.y),
-            phase=Phase.PENALTY if inside else Phase.FREE_KICK,
-        )
+        phase, place = Phase.PENALTY if inside else Phase.FREE_KICK, (robot.x, robot.y)
+        return foul(situation, "pushing", (roster.names[offender],), text, (way, limit, "m"), place, phase=phase)
     return None
 
 

@@ -9,9 +9,8 @@ than 0.5 s, since the ball last moved by `progress`.
 Not judged: which robot holds the ball in this time.
 """
 
-from schemas.game import EventKind, Phase
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.rules.out import dropped
 from sim_host.referee.situation import Situation
 from sim_host.referee.wording import place_text
 
@@ -22,16 +21,10 @@ def judge(situation: Situation) -> Decision | None:
     numbers = situation.match.book.scrum
     if contest is None or contest.stuck < numbers.duration:
         return None
-    ball, names = situation.snapshot.ball, situation.match.roster.names
-    place = (ball.x, ball.y)
-    return Decision(
-        kind=EventKind.STALL,
-        text=f"scrum: both sides at the ball at {place_text(place)} for {contest.stuck:.1f} s without "
-        f"{numbers.progress:.2f} m of progress, limit {numbers.duration:.1f}",
-        restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, place),
-        robots=tuple([names[index] for index in contest.robots]),
-        place=place,
-        measured=contest.stuck,
-        limit=numbers.duration,
-        unit="s",
+    names = situation.match.roster.names
+    text = (
+        f"scrum: both sides at the ball at {place_text(situation.ball_spot)} for {contest.stuck:.1f} s without "
+        f"{numbers.progress:.2f} m of progress, limit {numbers.duration:.1f}"
     )
+    robots = tuple([names[index] for index in contest.robots])
+    return dropped(situation, text, (contest.stuck, numbers.duration, "s"), robots=robots)

@@ -1,9 +1,11 @@
-"""Common parts of the rules on taking a restart: when they judge, and the restart after a foul."""
+"""Common parts of the rules on taking a restart: when they judge, and the decision on a foul."""
 
-from schemas.game import Phase
-from sim_host.referee.game.restart import Restart
+from schemas.game import Card, EventKind, Phase
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.restart import Restart, Spot
 from sim_host.referee.game.set_piece import SetPiece
 from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.rules.foul import Figures
 from sim_host.referee.situation import Situation
 
 KEPT = frozenset({Phase.KICK_OFF, Phase.THROW_IN})
@@ -27,3 +29,28 @@ def given_away(situation: Situation, piece: SetPiece) -> Restart:
         return restart
     phase = restart.phase if restart.phase in KEPT else Phase.FREE_KICK
     return restart_at(situation.match, situation.state, phase, restart.side.opponent, restart.spot)
+
+
+def restart_foul(
+    situation: Situation,
+    name: str,
+    text: str,
+    restart: Restart,
+    figures: Figures,
+    place: Spot | None = None,
+    card: Card | None = None,
+) -> Decision:
+    """The decision on a foul of a robot at a restart; `place` in m is where the ball is by default."""
+    measured, limit, unit = figures
+    return Decision(
+        kind=EventKind.FOUL,
+        text=text,
+        restart=restart,
+        side=situation.match.roster.side_of(name),
+        robot=name,
+        place=place or situation.ball_spot,
+        measured=measured,
+        limit=limit,
+        unit=unit,
+        card=card,
+    )

@@ -82,14 +82,13 @@ def _over(
     limit: float | None = None,
     unit: str = "",
 ) -> Decision:
-    ball = situation.snapshot.ball
     return Decision(
         kind=EventKind.SHOT,
         text=f"penalty of {side} {'scored' if scored else 'missed'}: {why}",
         shot_scored=scored,
         side=side,
         robot=piece.kicker or piece.taker,
-        place=(ball.x, ball.y),
+        place=situation.ball_spot,
         measured=measured,
         limit=limit,
         unit=unit,

@@ -5,11 +5,10 @@ Measures: the time for which the engine has reported the two in contact, with ga
 Not judged: which of them began.
 """
 
-from schemas.game import EventKind, Phase
 from sim_host.referee.evidence.pushes import Push
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.offence_order import worst_first
-from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.rules.out import dropped
 from sim_host.referee.situation import Situation
 
 
@@ -20,19 +19,10 @@ def judge(situation: Situation) -> Decision | None:
     for push in worst_first(situation, pushes, lambda push: push.lasted, lambda push: _nearer_to_ball(situation, push)):
         if push.lasted < limit:
             continue
-        names, ball = situation.match.roster.names, situation.snapshot.ball
+        names = situation.match.roster.names
         robots = (names[push.first], names[push.second])
-        place = (ball.x, ball.y)
-        return Decision(
-            kind=EventKind.STALL,
-            text=f"stand-off: {' and '.join(robots)} leaned on each other for {push.lasted:.1f} s, limit {limit:.1f}",
-            restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, place),
-            robots=robots,
-            place=place,
-            measured=push.lasted,
-            limit=limit,
-            unit="s",
-        )
+        text = f"stand-off: {' and '.join(robots)} leaned on each other for {push.lasted:.1f} s, limit {limit:.1f}"
+        return dropped(situation, text, (push.lasted, limit, "s"), robots=robots)
     return None
 
 
