@@ -2,8 +2,8 @@
 
 from recordings.container.json_schema import whole_schema
 from schemas.config.match_config import MatchConfig
-from schemas.config.profile import profile_tables
-from schemas.config.rule_book import rule_book_tables
+from schemas.config.profile import FILES as PROFILES
+from schemas.config.rule_book import FILES as RULE_BOOKS
 from schemas.topic import Delivery
 from schemas.topics import TOPICS
 from schemas.wire.message import Message
@@ -27,6 +27,6 @@ def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
     files = {"message_schemas.json": encode({name: whole_schema(model) for name, model in models.items()})}
     if config is not None:
         files["match.json"] = encode(config)
-        files[PROFILE] = encode(config.profile_tables or profile_tables(config.profile))
-        files[RULE_BOOK] = encode(config.rule_book_tables or rule_book_tables(config.rules))
+        files[PROFILE] = encode(config.profile_tables or PROFILES.tables(config.profile))
+        files[RULE_BOOK] = encode(config.rule_book_tables or RULE_BOOKS.tables(config.rules))
     return files

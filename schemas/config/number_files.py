@@ -11,7 +11,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from schemas.config.quantity import merge_tables
+from schemas.config.quantity import merge_tables, read_section
 from schemas.errors import TouchlineError, did_you_mean
 
 VERSION_KEY = "version"
@@ -68,6 +68,30 @@ class NumberFiles:
         except OSError as error:
             given = ", ".join(self.shipped)
             raise TouchlineError(f'{self.kind} is "{name}": {error.strerror}; give one of {given}') from None
+
+
+def read_numbers(
+    name: str,
+    tables: Mapping[str, Any],
+    sections: Mapping[str, type],
+    header: tuple[str, ...],
+    others: tuple[str, ...] = (),
+) -> tuple[dict[str, Any], dict[str, str], int]:
+    """The sections of a file, `section.key` → origin of each number, and the file's version.
+
+    `header` and `others` are the keys and tables that the file may have besides its sections.
+
+    Raises:
+        TouchlineError: the tables are invalid.
+    """
+    origins: dict[str, str] = {}
+    read: dict[str, Any] = {
+        key: read_section(cls, tables.get(key, {}), name, key, origins) for key, cls in sections.items()
+    }
+    known = (*sections, *others)
+    for section in sorted(set(tables) - {*known, *header}):
+        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, known)}")
+    return read, origins, version_of(tables, name)
 
 
 def version_of(tables: Mapping[str, Any], where: str) -> int:

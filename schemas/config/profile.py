@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from schemas.config.number_files import UNVERSIONED, VERSION_KEY, NumberFiles, version_of
-from schemas.config.quantity import merge_tables, read_changes, read_section
+from schemas.config.number_files import UNVERSIONED, VERSION_KEY, NumberFiles, read_numbers
+from schemas.config.quantity import merge_tables, read_changes
 from schemas.config.sections import (
     SECTIONS,
     TYPE_SECTIONS,
@@ -96,7 +96,6 @@ class Profile:
         """
         origins: dict[str, str] = {}
         types = merge_tables(dict(self.types), read_types(tables, where, origins))
-        origins = {key.removeprefix(f"{where}: "): origin for key, origin in origins.items()}
         profile = dataclasses.replace(self, types=types, origins={**self.origins, **origins})
         check_consistent(profile)
         return profile
@@ -108,24 +107,17 @@ def load_profile(name: str) -> Profile:
     Raises:
         TouchlineError: there is no such profile, or it is invalid.
     """
-    return profile_of(name, profile_tables(name))
+    return profile_of(name, FILES.tables(name))
 
 
 def profile_of(name: str, tables: Mapping[str, Any]) -> Profile:
-    """The profile of these tables, as `profile_tables` returns them.
+    """The profile of these tables, as `FILES.tables` returns them.
 
     Raises:
         TouchlineError: they are invalid.
     """
-    origins: dict[str, str] = {}
-    sections: dict[str, Any] = {
-        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
-    }
+    sections, origins, version = read_numbers(name, tables, SECTIONS, (VERSION_KEY,), ("types",))
     types = read_types(tables.get("types", {}), name, origins)
-    version, known = version_of(tables, name), (*SECTIONS, "types")
-    for section in sorted(set(tables) - {*known, VERSION_KEY}):
-        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, known)}")
-    origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
     profile = Profile(name=name, types=types, origins=origins, version=version, **sections)
     check_consistent(profile)
     return profile
@@ -146,7 +138,7 @@ def read_types(tables: Any, where: str, origins: dict[str, str]) -> dict[str, Ch
         for section, table in _table(sections, at).items():
             if section not in TYPE_SECTIONS:
                 raise TouchlineError(f"{at}.{section} is not known; {did_you_mean(section, TYPE_SECTIONS)}")
-            changes[section] = read_changes(TYPE_SECTIONS[section], table, f"{at}.{section}", origins)
+            changes[section] = read_changes(TYPE_SECTIONS[section], table, where, f"types.{name}.{section}", origins)
         types[name] = changes
     return types
 
@@ -155,15 +147,6 @@ def _table(content: Any, at: str) -> dict[str, Any]:
     if not isinstance(content, dict):
         raise TouchlineError(f"{at} is {content!r}; write tables, for example [types.NAME.drive]")
     return content
-
-
-def profile_tables(name: str) -> dict[str, Any]:
-    """The tables of a profile, merged into those that it extends.
-
-    Raises:
-        TouchlineError: there is no such profile, it is not TOML, or it extends itself.
-    """
-    return FILES.tables(name)
 
 
 def check_consistent(profile: Profile) -> None:

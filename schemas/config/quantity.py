@@ -57,25 +57,25 @@ def meanings(section: type) -> dict[str, Quantity | Choice]:
     return {field.name: get_args(hints[field.name])[1] for field in fields(section)}
 
 
-def read_section(section: type[T], table: dict[str, Any], where: str, origins: dict[str, str]) -> T:
-    """The dataclass of a TOML table; the origin of each number is added to `origins` under `where.key`.
+def read_section(section: type[T], table: dict[str, Any], file: str, name: str, origins: dict[str, str]) -> T:
+    """The dataclass of the TOML table `name` of a file; the origin of each number is added to `origins`, by `name.key`.
 
     Raises:
         TouchlineError: an unknown or missing key, or an invalid unit, type or range; names place, value and remedy.
     """
     for key in meanings(section):
         if key not in table:
-            raise TouchlineError(f"{where}.{key} is missing; add it, or extend a profile that has it")
-    return section(**read_changes(section, table, where, origins))
+            raise TouchlineError(f"{file}: {name}.{key} is missing; add it, or extend a profile that has it")
+    return section(**read_changes(section, table, file, name, origins))
 
 
-def read_changes(section: type, table: dict[str, Any], where: str, origins: dict[str, str]) -> dict[str, Any]:
+def read_changes(section: type, table: dict[str, Any], file: str, name: str, origins: dict[str, str]) -> dict[str, Any]:
     """The checked values of the keys in a TOML table of a section, in the section's order.
 
     Raises:
         TouchlineError: an unknown key, or an invalid unit, type or range; names place, value and remedy.
     """
-    known = meanings(section)
+    known, where = meanings(section), f"{file}: {name}"
     if not isinstance(table, dict):
         raise TouchlineError(f"{where} is {table!r}; write a table of numbers")
     for key in table:
@@ -90,7 +90,7 @@ def read_changes(section: type, table: dict[str, Any], where: str, origins: dict
         entry = table[key]
         if not isinstance(entry, dict) or set(entry) - {"value", "unit", "origin"} or "origin" not in entry:
             raise TouchlineError(f'{at} is {entry!r}; write {{ value = …, unit = "…", origin = "…" }}')
-        origins[at] = str(entry["origin"])
+        origins[f"{name}.{key}"] = str(entry["origin"])
         values[key] = _check_entry(entry, meaning, hints[key], at)
     return values
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
-from schemas.config.number_files import HEADER, PROFILE_KEY, UNVERSIONED, NumberFiles, version_of
-from schemas.config.quantity import Quantity, read_section
+from schemas.config.number_files import HEADER, PROFILE_KEY, UNVERSIONED, NumberFiles, read_numbers
+from schemas.config.quantity import Quantity
 from schemas.config.roster import MAX_ROBOTS
-from schemas.errors import TouchlineError, did_you_mean
+from schemas.errors import TouchlineError
 
 SHIPPED = ("china-sim-2020", "eleven", "friendly", "msl", "msl-2016", "msl-2019", "paper")
 """The rule books that the package ships."""
@@ -194,32 +194,17 @@ def load_rule_book(name: str) -> RuleBook:
     Raises:
         TouchlineError: there is no such rule book, or it is invalid.
     """
-    return rule_book_of(name, rule_book_tables(name))
+    return rule_book_of(name, FILES.tables(name))
 
 
 def rule_book_of(name: str, tables: Mapping[str, Any]) -> RuleBook:
-    """The rule book of these tables, as `rule_book_tables` returns them.
+    """The rule book of these tables, as `FILES.tables` returns them.
 
     Raises:
         TouchlineError: they are invalid.
     """
-    origins: dict[str, str] = {}
-    sections: dict[str, Any] = {
-        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
-    }
-    version, profile = version_of(tables, name), tables.get(PROFILE_KEY)
+    sections, origins, version = read_numbers(name, tables, SECTIONS, HEADER)
+    profile = tables.get(PROFILE_KEY)
     if profile is not None and not isinstance(profile, str):
         raise TouchlineError(f'{name}: profile is {profile!r}; write the name of a profile, profile = "msl"')
-    for section in sorted(set(tables) - {*SECTIONS, *HEADER}):
-        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, SECTIONS)}")
-    origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
     return RuleBook(name=name, origins=origins, version=version, profile=profile, **sections)
-
-
-def rule_book_tables(name: str) -> dict[str, Any]:
-    """The tables of a rule book, merged into those that it extends.
-
-    Raises:
-        TouchlineError: there is no such rule book, it is not TOML, or it extends itself.
-    """
-    return FILES.tables(name)
