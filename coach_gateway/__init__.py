@@ -7,10 +7,10 @@ if TYPE_CHECKING:
 
 
 def run(settings: "GatewaySettings") -> int:
-    """Serve a match's page and bridges, or show it as plain lines, until SIGINT or SIGTERM; the process's exit status.
+    """Serve a match's page and bridges until SIGINT or SIGTERM; the process's exit status.
 
     Raises:
-        TouchlineError: no host answers, a package is not installed, a port is taken, or tokens cannot be read.
+        TouchlineError: nothing is to be served, a package is not installed, a port is taken, or tokens cannot be read.
     """
     from coach_gateway.process import run as run_process
 

@@ -1,25 +1,19 @@
-"""The gateway process: the match's page and other bridges, or the match as plain lines."""
+"""The gateway process: the match's page and other bridges."""
 
-import signal
 import socket
 import sys
-import threading
 from typing import TYPE_CHECKING
 
 from coach_gateway.access.tokens import Tokens, tokens_of
 from coach_gateway.bridges import bridges_of, services_of
-from coach_gateway.match.change_log import log_changes
 from coach_gateway.match.team_names import printable
 from coach_gateway.ports import InheritedSockets
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.settings import GatewaySettings
-from coach_gateway.timing import REPLY_S
 from coach_gateway.web.settings import WebSettings, need_web
-from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
-from schemas.bus.zenoh.bus import open_client
-from schemas.process.clock import WallClock
+from schemas.errors import TouchlineError
 from schemas.process.process_log import configure_log, log_line
 
 if TYPE_CHECKING:
@@ -27,32 +21,14 @@ if TYPE_CHECKING:
 
 
 def run(settings: GatewaySettings) -> int:
-    """Serve, or show the match, until SIGINT or SIGTERM comes; the exit status of the process.
+    """Serve what is wanted until SIGINT or SIGTERM comes; hosts may come and go meanwhile. Returns the exit status.
 
     Raises:
-        TouchlineError: no host answers, a package is not installed, a port is taken, or tokens cannot be read.
+        TouchlineError: nothing is wanted, a package is not installed, a port is taken, or tokens cannot be read.
     """
     configure_log("gateway", settings.log_format)
     if settings.web is None and not settings.bridges.wanted:
-        _show(settings)
-    else:
-        _serve(settings)
-    return 0
-
-
-def _show(settings: GatewaySettings) -> None:
-    """Print the match until its host goes."""
-    stop = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: stop.set())
-    with open_client(
-        settings.match, WallClock(), settings.connect, REPLY_S, settings.credentials, Account.VIEWER
-    ) as bus:
-        log_changes(bus, say, stop)
-
-
-def _serve(settings: GatewaySettings) -> None:
-    """Serve what is wanted; hosts may come and go meanwhile."""
+        raise TouchlineError("the settings have neither a page nor a bridge; add `web` or `bridges`")
     bridges, inherited = bridges_of(settings.bridges), InheritedSockets()
     ports = bridges.open_ports(inherited)
     known = tokens_of(settings.tokens)
@@ -65,6 +41,7 @@ def _serve(settings: GatewaySettings) -> None:
         return [*([page.show(bus)] if page is not None else []), *services_of(bus, bridges, ports, known, say)]
 
     run_services(settings, services, say, page)
+    return 0
 
 
 def _page(settings: GatewaySettings, web: WebSettings, tokens: Tokens, listener: socket.socket | None) -> "WebServer":

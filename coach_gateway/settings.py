@@ -1,4 +1,4 @@
-"""What a gateway process is started with: the page, the bridges, or a match to show as plain lines."""
+"""What a gateway process is started with: the page, the bridges, or both."""
 
 from pathlib import Path
 from typing import Annotated
@@ -44,7 +44,7 @@ NO_BRIDGES = BridgeOptions()
 
 
 class GatewaySettings(ClientSettings, LogSettings):
-    """One gateway process: a page, bridges, or both; with neither it shows the match as plain lines."""
+    """One gateway process: a page, bridges, or both."""
 
     tokens: Annotated[Path | None, CommandLine(environment="TOUCHLINE_TOKENS")] = None
     """File of the tokens, made when it is not there; without one they last as long as the process."""

@@ -3,7 +3,7 @@
 POLL_S = 0.01
 """Between two polls of the bus, or of who is due: half a tick of the host."""
 REPLY_S = 3.0
-"""For a reply of the host, and to find one whose match is to be shown: a busy host replies between two ticks."""
+"""For a reply of the host: a busy one replies between two ticks."""
 HOST_SEARCH_S = 1.0
 """One attempt to find a host; attempts follow each other, so that this is how soon a signal ends the process."""
 HOST_RETRY_S = 0.5

@@ -1,12 +1,12 @@
 """`touchline watch`: a running match, or a replay, as a panel in the terminal."""
 
 import sys
+from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coach_gateway import run
-from coach_gateway.settings import GatewaySettings
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import TouchlineError, did_you_mean
@@ -38,7 +38,9 @@ def watch(
     if not sys.stdout.isatty():
         if robot is not None:
             raise TouchlineError("--robot lists values on a terminal only; leave it out, or write to a terminal")
-        raise typer.Exit(run(GatewaySettings(**connection.model_dump())))
+        with bus_client(connection) as bus, suppress(KeyboardInterrupt):
+            watch_lines(bus, typer.echo)
+        return
     from touchline.cli.console import console
 
     with bus_client(connection, Account.OPERATOR) as bus:
@@ -47,6 +49,36 @@ def watch(
         except KeyboardInterrupt:
             return
     typer.echo("the host is gone", err=True)
+
+
+def watch_lines(bus: "Bus", log: Callable[[str], None]) -> None:
+    """Log each event, and each state in which more has changed than its clock, until the host ends.
+
+    Raises:
+        TouchlineError: no host plays this match.
+    """
+    from coach_gateway.match.follower import MatchFollower
+    from coach_gateway.match.host_client import HostClient
+    from coach_gateway.match.lines import event_line, state_line
+    from coach_gateway.match.team_names import printable
+    from schemas.bus.contract import PresenceKind
+
+    seen, before = MatchFollower(bus), None
+    bus.declare_alive(PresenceKind.COACH, "watch")
+    if not seen.host.wait(HOST_S):
+        raise TouchlineError(f'match "{bus.match}": no host plays it there; name the match with --match')
+    names = HostClient(bus, HOST_S).team_names()
+    while not seen.gone:
+        news = seen.update()
+        for event in news.events:
+            log(printable(event_line(event, names)))
+        for state in news.states:
+            asked = [(question.side, question.action) for question in state.questions]
+            now = (state.phase, state.side, state.running, state.half, state.score, asked)
+            if now != before:
+                before = now
+                log(printable(state_line(state, names)))
+        bus.clock.sleep_until(bus.clock.now() + REFRESH_S)
 
 
 def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:

@@ -9,12 +9,15 @@ from typer.testing import CliRunner
 
 from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
+from schemas.game import EventKind, Phase, Score
 from schemas.messages.debug import Debug, RobotDebug
+from schemas.messages.game import GameEvent, GameState
 from schemas.process.clock import SteppedClock
-from schemas.topics import DEBUG, WORLD
+from schemas.side import Side
+from schemas.topics import DEBUG, EVENT, STATE, WORLD
 from support.messages import make_setup, make_world
 from touchline.command_line import app
-from touchline.commands.watch import watch_on
+from touchline.commands.watch import watch_lines, watch_on
 from touchline.watch.debug_values import values
 
 SETUP = make_setup()
@@ -83,3 +86,45 @@ def test_values_are_not_listed_in_plain_lines() -> None:
 def test_a_match_without_a_host_is_wrong_input() -> None:
     with pytest.raises(TouchlineError, match='match "cup": no process answers host/setup'):
         watch_on(SharedState().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))
+
+
+class HostOf(SteppedClock):
+    """Publishes its next message whenever the watcher waits, and leaves after the last."""
+
+    __slots__ = ("host", "messages")
+
+    def sleep_until(self, moment: float) -> None:
+        super().sleep_until(moment)
+        if not self.messages:
+            self.host.close()
+            return
+        message = self.messages.pop(0)
+        self.host.publisher(STATE if isinstance(message, GameState) else EVENT).put(message)
+
+
+def lines_of(*messages: GameState | GameEvent) -> list[str]:
+    medium, clock, logged = SharedState(), HostOf(), list[str]()
+    clock.host, clock.messages = medium.open_bus("friendly", SteppedClock()), list(messages)
+    clock.host.declare_alive("host", "host")
+    watch_lines(medium.open_bus("friendly", clock), logged.append)
+    return logged
+
+
+def state(clock: float, phase: Phase = Phase.PLAY, side: Side | None = None) -> GameState:
+    return GameState(tick=1, time=clock, clock=clock, phase=phase, side=side, running=False, score=Score(cyan=2))
+
+
+def test_a_line_is_logged_for_every_event_and_when_more_changes_than_the_clock() -> None:
+    event = GameEvent(tick=5, time=0.1, clock=0.1, kind=EventKind.BALL_OUT, rule="ball_out", text="over the touch line")
+    throw_in = state(61.25, Phase.THROW_IN, Side.MAGENTA)
+    assert lines_of(state(0.0), state(1.0), event, event, throw_in, state(62.0)) == [
+        " 0:00.0  half 1  cyan 2 : 0 magenta  play",
+        *[" 0:00.1  ball out: over the touch line"] * 2,
+        " 1:01.2  half 1  cyan 2 : 0 magenta  throw in, magenta",
+        " 1:02.0  half 1  cyan 2 : 0 magenta  play",
+    ]
+
+
+def test_lines_of_a_match_without_a_host_are_an_error_with_the_remedy() -> None:
+    with pytest.raises(TouchlineError, match='match "cup": no host plays it there; name the match'):
+        watch_lines(SharedState().open_bus("cup", SteppedClock()), lambda line: None)
