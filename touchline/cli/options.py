@@ -5,11 +5,12 @@ import shlex
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from coach_gateway.web.settings import WebSettings
+from recordings.container.key_selection import KeySelection
 from robot_agent.stdio.command_line import check_command_line, command_line
 from schemas.bus.settings import ListenSettings, check_protected
 from schemas.config.match_config import MatchConfig, load_match
@@ -22,9 +23,6 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.missing_engine import missing_engine_text
 from touchline.cli.option_groups import FieldsOf
-
-if TYPE_CHECKING:
-    from recordings.container.key_selection import KeySelection
 
 MatchFile = Annotated[
     Path | None, typer.Argument(metavar="[MATCH.toml]", help="The match file; without one, a five-a-side friendly.")
@@ -182,13 +180,12 @@ def need_scipy() -> None:
         raise TouchlineError("intervals need scipy, which is not installed; pip install 'touchline[sim]'")
 
 
-def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelection":
+def selection(include: list[str] | None, exclude: list[str] | None) -> KeySelection:
     """The selection for these key expressions.
 
     Raises:
         TouchlineError: an expression is invalid.
     """
-    from recordings.container.key_selection import KeySelection
 
     return KeySelection(tuple(include or ()), tuple(exclude or ()))
 

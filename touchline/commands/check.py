@@ -8,8 +8,11 @@ from typing import Annotated
 
 import typer
 
+from robot_agent.stdio.command_line import check_command_line
+from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from touchline.cli import options
+from touchline.matches.series.team_names import brain_of
 
 
 def check(
@@ -34,12 +37,9 @@ def check(
 
     Example: touchline check my_team:Striker
     """
-    from robot_agent.stdio.command_line import check_command_line
-    from schemas.config.match_config import load_match
     from touchline.check.checks import CHECKS, run_checks
     from touchline.check.examination import Examination
     from touchline.check.subject import Subject
-    from touchline.matches.series.team_names import brain_of
 
     if list_checks:
         for row in CHECKS:

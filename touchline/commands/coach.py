@@ -2,6 +2,8 @@
 
 import typer
 
+from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.host_client import HostClient
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
@@ -32,8 +34,6 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
 
     Example: touchline coach state --json | jq .score
     """
-    from coach_gateway.match.follower import MatchFollower
-    from coach_gateway.match.host_client import HostClient
     from coach_gateway.match.lines import state_line
 
     with bus_client(connection, Account.REFEREE) as bus:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from schemas.bus.settings import ClientSettings
+from schemas.process.clock import WallClock
 from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
 
 def examine_and_print(connection: ClientSettings, *, json: bool) -> int:
     """Examine this machine and the way to a host; returns the exit status, which tells whether a line failed."""
-    from schemas.process.clock import WallClock
     from touchline.doctor.examination import examine
     from touchline.doctor.finding import Status
     from touchline.doctor.machine import MachineFacts

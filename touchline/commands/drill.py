@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from schemas.config.scene import load_scene, shipped_scenes
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+from touchline.matches.series.seeds import seeds_of
+from touchline.matches.series.team_names import brain_of
 
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome
@@ -63,11 +66,8 @@ def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str
     Raises:
         TouchlineError: the scene has no drill, or an option is invalid.
     """
-    from schemas.config.scene import load_scene, shipped_scenes
     from touchline.matches.drill.drill_match import drill_match
     from touchline.matches.engine.planned_match import PlannedMatch
-    from touchline.matches.series.seeds import seeds_of
-    from touchline.matches.series.team_names import brain_of
 
     loaded = load_scene(scene)
     if loaded.drill is None:

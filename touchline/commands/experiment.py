@@ -2,6 +2,7 @@
 
 import json as json_text
 import signal
+from dataclasses import asdict
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -129,7 +130,6 @@ def compare(
     Example: touchline experiment compare runs/before runs/after
     """
     _need_packages()
-    from dataclasses import asdict
 
     from touchline.matches.study.compare_studies import compare_studies
     from touchline.matches.study.sentences import sentence_of
@@ -173,7 +173,6 @@ def _check(
     folder: Path, sample: int | None, brains: Path | None, jobs: int, *, from_recordings: bool, json: bool
 ) -> None:
     _need_packages()
-    from dataclasses import asdict
 
     from touchline.matches.engine.session import session_of
     from touchline.matches.study.verify_study import verify_study

@@ -2,6 +2,7 @@
 
 import json as json_text
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,8 +16,6 @@ from touchline.cli.option_groups import with_option_groups
 from touchline.timing import HOST_S
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rich.console import Console
 
     from touchline.health.ledger import Ledger

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from recordings.exchange.formats import IMPORTERS
 from touchline.cli import options
 
 
@@ -25,7 +26,6 @@ def import_log(
 
     Example: touchline import 20160703_120000.TeamA-TeamB.zip --out final.mcap
     """
-    from recordings.exchange.formats import IMPORTERS
 
     imported = IMPORTERS["msl-log"].import_log(log, out or log[0].with_suffix(".mcap"), profile, team_a)
     if json:

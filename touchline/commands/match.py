@@ -4,6 +4,7 @@ import shutil
 import sys
 from dataclasses import replace
 from pathlib import Path
+from socket import socket
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -16,14 +17,12 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import Patience
 from schemas.config.settings import RecordOptions
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.process.clock import Clock, WallClock
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
-    import socket
-
-    from schemas.process.clock import Clock
     from touchline.launch.processes import MatchPlan, Page
     from touchline.launch.result import MatchResult
 
@@ -65,14 +64,21 @@ def match(
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
-    from schemas.process.clock import WallClock
     from touchline.launch.check_brains import check_reload, check_teams
     from touchline.launch.confinement import isolation_note, team_confinements
     from touchline.launch.processes import CREDENTIALS, check_robot_names
     from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run, with_credentials
 
-    teams = _teams_of(ghost) if ghost else {}
-    sockets = _open_ports(bridges) if bridges.wanted else ()
+    teams: dict[str, Any] = {}
+    if ghost:
+        from touchline.replay.ghost import check_ghosts, teams_of
+
+        teams = teams_of(ghost)
+    sockets: tuple[socket, ...] = ()
+    if bridges.wanted:
+        from coach_gateway.bridges import bridges_of
+
+        sockets = tuple(bridges_of(bridges).open_ports().all)
     if web or bridges.wanted:
         played.changes.setdefault("pace", "realtime")
     if bridges.refbox is not None:
@@ -86,7 +92,7 @@ def match(
         **isolation,
     )
     if ghost:
-        _check_ghosts(config, ghost)
+        check_ghosts(config, ghost)
     check_robot_names(config)
     if reload:
         check_reload(config)
@@ -96,11 +102,14 @@ def match(
     confinements = team_confinements(config, brain_folder, RUNS)
     check_teams(config, brain_folder, lambda line: typer.echo(line, err=True), confinements)
     clock = WallClock()
-    served = _open_page(page) if web else None
+    served: Page | None = None
+    if web:
+        from touchline.launch.page import open_page
+
+        served = open_page(page)
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
-    plan = replace(plan, reload=reload)
-    plan = replace(plan, isolation_note=isolation_note(config, brain_folder))
+    plan = replace(plan, reload=reload, isolation_note=isolation_note(config, brain_folder))
     if played.listening.credentials is not None:
         plan = with_credentials(plan, played.listening.credentials.resolve().parent)
     elif not played.listening.insecure:
@@ -148,31 +157,7 @@ def _check_tls(listening: ListenSettings, *, tls: bool) -> None:
     need_trustme()
 
 
-def _teams_of(ghosts: list[str]) -> dict[str, dict[str, Any]]:
-    from touchline.replay.ghost import teams_of
-
-    return teams_of(ghosts)
-
-
-def _check_ghosts(config: MatchConfig, ghosts: list[str]) -> None:
-    from touchline.replay.ghost import check_ghosts
-
-    check_ghosts(config, ghosts)
-
-
-def _open_page(options: dict[str, Any]) -> "Page":
-    from touchline.launch.page import open_page
-
-    return open_page(options)
-
-
-def _open_ports(bridges: BridgeOptions) -> "tuple[socket.socket, ...]":
-    from coach_gateway.bridges import bridges_of
-
-    return tuple(bridges_of(bridges).open_ports().all)
-
-
-def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
+def _play(plan: "MatchPlan", clock: Clock, *, quiet: bool) -> None:
     """Play the match on a screen for the output, and print its result; with `quiet` stdout has the JSON result alone.
 
     With a page it returns when the page with the result is closed.

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from touchline.new_team import class_name, make_team
+
 
 def new(
     name: Annotated[str, typer.Argument(help="Lower-case letters, digits and _; the folder and its module get it.")],
@@ -14,7 +16,6 @@ def new(
 
     Example: touchline new my_team
     """
-    from touchline.new_team import class_name, make_team
 
     made = make_team(name, folder)
     typer.echo(f"{made}: a team of five, {class_name(name)}")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from coach_gateway.match.host_client import HostClient
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.game import Point
@@ -111,7 +112,6 @@ def _order(
     connection: ClientSettings,
     **more: Any,
 ) -> None:
-    from coach_gateway.match.host_client import HostClient
 
     content = {**{key: getattr(order_options, key) for key in (field.name for field in fields(order_options))}, **more}
     from_options(CoachOrder, sequence=1, **content)

@@ -2,19 +2,20 @@
 
 import json as json_text
 import math
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from coach_gateway.match.host_client import HostClient
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest, Value
+from schemas.wire.faults import FaultError
+from schemas.wire.part_faults import validated
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
-
-if TYPE_CHECKING:
-    from schemas.messages.parameters import Parameter, ParametersReply, ParametersRequest, Value
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -36,7 +37,6 @@ def list_all(
 
     Example: touchline parameters list --json | jq '.[] | select(.live).name'
     """
-    from schemas.messages.parameters import ParameterOperation, ParametersRequest
 
     _show(_query(connection, ParametersRequest(operation=ParameterOperation.LIST)), json=json)
 
@@ -53,7 +53,6 @@ def get(
 
     Example: touchline parameters get ball radio.loss
     """
-    from schemas.messages.parameters import ParameterOperation
 
     _show(_query(connection, _request(operation=ParameterOperation.GET, names=names)), json=json)
 
@@ -70,7 +69,6 @@ def set_values(
 
     Example: touchline parameters set radio.loss=0.3 noise.preset=perfect
     """
-    from schemas.messages.parameters import ParameterOperation
 
     _show(
         _query(connection, _request(operation=ParameterOperation.SET, values=dict(map(_setting, settings)))), json=json
@@ -91,19 +89,18 @@ def reset(
 
     Example: touchline parameters reset ball
     """
-    from schemas.messages.parameters import ParameterOperation
 
     _show(_query(connection, _request(operation=ParameterOperation.RESET, names=names or [])), json=json)
 
 
-def _setting(argument: str) -> "tuple[str, Value]":
+def _setting(argument: str) -> tuple[str, Value]:
     name, equals, text = argument.partition("=")
     if not equals:
         raise TouchlineError(f'"{argument}" has no value; write NAME=VALUE, like ball.rolling_deceleration=1.2')
     return name.strip(), _value(text.strip())
 
 
-def _value(text: str) -> "Value":
+def _value(text: str) -> Value:
     """A finite number or a list of them if the text is one, else the text itself."""
     try:
         value = json_text.loads(text)
@@ -114,10 +111,7 @@ def _value(text: str) -> "Value":
     return value if are_numbers and all(math.isfinite(item) for item in items) else text
 
 
-def _request(**content: object) -> "ParametersRequest":
-    from schemas.messages.parameters import ParametersRequest
-    from schemas.wire.faults import FaultError
-    from schemas.wire.part_faults import validated
+def _request(**content: object) -> ParametersRequest:
 
     try:
         return validated(ParametersRequest, content)
@@ -127,8 +121,7 @@ def _request(**content: object) -> "ParametersRequest":
         ) from None
 
 
-def _query(connection: ClientSettings, request: "ParametersRequest") -> "ParametersReply":
-    from coach_gateway.match.host_client import HostClient
+def _query(connection: ClientSettings, request: ParametersRequest) -> ParametersReply:
 
     with bus_client(connection, Account.OPERATOR) as bus:
         reply = HostClient(bus).parameters(request)
@@ -137,7 +130,7 @@ def _query(connection: ClientSettings, request: "ParametersRequest") -> "Paramet
     return reply
 
 
-def _show(reply: "ParametersReply", *, json: bool) -> None:
+def _show(reply: ParametersReply, *, json: bool) -> None:
     if json:
         fields = [parameter.plain() for parameter in reply.parameters]
         typer.echo(json_text.dumps(fields, ensure_ascii=False, indent=2))
@@ -149,7 +142,7 @@ def _show(reply: "ParametersReply", *, json: bool) -> None:
         typer.echo("  ".join([*cells, line[4]]).rstrip())
 
 
-def _line(parameter: "Parameter") -> tuple[str, str, str, str, str]:
+def _line(parameter: Parameter) -> tuple[str, str, str, str, str]:
     """Name, value with unit, range, initial value if changed, description."""
     unit = "" if parameter.unit in ("", "1") else f" {parameter.unit}"
     limits = (
@@ -160,7 +153,7 @@ def _line(parameter: "Parameter") -> tuple[str, str, str, str, str]:
     return parameter.name, f"{_value_text(parameter.value)}{unit}", limits, before, description
 
 
-def _value_text(value: "Value") -> str:
+def _value_text(value: Value) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 

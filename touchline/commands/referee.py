@@ -7,6 +7,7 @@ from typing import Annotated, NamedTuple
 import typer
 
 from coach_gateway.access.referee_name import terminal_name
+from coach_gateway.match.host_client import HostClient
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError
@@ -148,7 +149,6 @@ SEAT_COMMANDS: dict[str, SeatCommand] = {
 
 def _seat_command(row: SeatCommand) -> Callable[..., None]:
     def command(connection: ClientSettings) -> None:
-        from coach_gateway.match.host_client import HostClient
 
         with bus_client(connection, Account.REFEREE) as bus:
             reply = HostClient(bus, referee=terminal_name()).referee_seat(row.operation)
@@ -166,7 +166,6 @@ app.command("admit-recorder")(admit.recorder)
 
 
 def _send(connection: ClientSettings, action: RefereeAction) -> None:
-    from coach_gateway.match.host_client import HostClient
 
     with bus_client(connection, Account.REFEREE) as bus:
         reply = HostClient(bus, referee=terminal_name()).act(action)

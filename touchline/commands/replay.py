@@ -10,22 +10,27 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from recordings.container.key_selection import KeySelection
+from schemas.access.accounts import Account
+from schemas.access.credentials import account_file, read_host_credentials
+from schemas.access.protection import Protection
+from schemas.bus.contract import Bus
 from schemas.bus.endpoint import local_endpoint, parse_endpoint
 from schemas.bus.settings import ClientSettings, ListenSettings
 from schemas.errors import TouchlineError
+from schemas.messages.replay import ReplayOperation, ReplayRequest
+from schemas.process.clock import Clock, WallClock
+from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.option_groups import from_options, with_option_groups
+from touchline.launch.stop_signals import StopSignals
 
 if TYPE_CHECKING:
     from recordings.reading.recording import RecordedMessage
     from recordings.replay.live_view import LiveView
     from recordings.replay.player import Player
     from recordings.replay.replay import Replay
-    from schemas.access.protection import Protection
-    from schemas.bus.contract import Bus
     from schemas.bus.zenoh.bus import ZenohBus
-    from schemas.process.clock import Clock
-    from touchline.launch.stop_signals import StopSignals
     from touchline.launch.supervisor import Notice
 
 
@@ -122,11 +127,8 @@ def replay(
         raise TouchlineError(
             "--every-difference, --pdb, --live, --out and --brain-folder need --agent, such as --agent cyan2=my:Brain"
         )
-    from recordings.container.key_selection import KeySelection
     from recordings.replay.replay import Replay, ReplaySettings
-    from schemas.process.clock import WallClock
     from touchline.launch.page import open_page, serve_page_beside
-    from touchline.launch.stop_signals import StopSignals
 
     opened_page = open_page(page) if web else None
     settings = ReplaySettings(
@@ -175,13 +177,10 @@ def replay(
         typer.echo(json_text.dumps(fields))
 
 
-def _protection(opened: "Replay", match: str, credentials: Path | None) -> "Protection | None":
+def _protection(opened: "Replay", match: str, credentials: Path | None) -> Protection | None:
     """The protection of the replay's own host; None without credentials."""
     if credentials is None:
         return None
-    from schemas.access.credentials import read_host_credentials
-    from schemas.access.protection import Protection
-    from schemas.side import Side
 
     setup = opened.recording.manifest.setup
     robots = {side: setup.teams[side].robots if setup is not None else [] for side in Side}
@@ -190,8 +189,6 @@ def _protection(opened: "Replay", match: str, credentials: Path | None) -> "Prot
 
 def _operator_of(credentials: Path | None) -> Path | None:
     """The operator's file in the folder of the host's."""
-    from schemas.access.accounts import Account
-    from schemas.access.credentials import account_file
 
     return account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
 
@@ -199,10 +196,10 @@ def _operator_of(credentials: Path | None) -> Path | None:
 @contextmanager
 def _open_bus(
     match: str,
-    clock: "Clock",
+    clock: Clock,
     connect: str | None,
     listen: str | None,
-    protection: "Protection | None",
+    protection: Protection | None,
     credentials: Path | None,
 ) -> "Iterator[ZenohBus]":
     """A client's bus beside the running host at `connect`; without one, the bus of a host, which clients find."""
@@ -236,9 +233,9 @@ def _live_view(opened: "Replay", port: int) -> "LiveView":
 
 def _play(
     opened: "Replay",
-    bus: "Bus",
-    clock: "Clock",
-    stop: "StopSignals",
+    bus: Bus,
+    clock: Clock,
+    stop: StopSignals,
     look_after: "Callable[[], list[Notice]]",
     view: "LiveView | None",
     *,
@@ -246,7 +243,6 @@ def _play(
 ) -> "Player":
     """Play until the end or a signal, with its progress on the output."""
     from recordings.replay.host import ReplayHost
-    from schemas.messages.replay import ReplayOperation, ReplayRequest
     from touchline.replay.progress import progress_on
 
     stream = sys.stderr if quiet else sys.stdout

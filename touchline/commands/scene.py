@@ -1,20 +1,23 @@
 """`touchline scene`: sets up the pitch of a running match."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+from coach_gateway.match.host_client import HostClient
 from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
+from schemas.config.scene import REMEDIES, load_scene
+from schemas.config.toml_file import table_error
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.messages.scene import SceneRequest
 from schemas.side import Side
+from schemas.wire.faults import FaultError
+from schemas.wire.part_faults import validated
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
 from touchline.commands.scenes import scenes
-
-if TYPE_CHECKING:
-    from schemas.messages.scene import SceneRequest
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -44,7 +47,6 @@ def load(
 
     Example: touchline scene load two_on_one
     """
-    from schemas.config.scene import load_scene
 
     content = {"scene": load_scene(name).model_dump(mode="json")} if Path(name).suffix == ".toml" else {"load": name}
     _send(connection, operation="load", **content)
@@ -151,7 +153,6 @@ def reset(
 
 
 def _send(connection: ClientSettings, **content: Any) -> None:
-    from coach_gateway.match.host_client import HostClient
 
     request = _request(**content)
     with bus_client(connection, Account.OPERATOR) as bus:
@@ -161,17 +162,12 @@ def _send(connection: ClientSettings, **content: Any) -> None:
     typer.echo(f"{request.operation.value} accepted, episode {reply.episode}")
 
 
-def _request(**content: Any) -> "SceneRequest":
+def _request(**content: Any) -> SceneRequest:
     """The request for these command-line values.
 
     Raises:
         TouchlineError: a value is invalid.
     """
-    from schemas.config.scene import REMEDIES
-    from schemas.config.toml_file import table_error
-    from schemas.messages.scene import SceneRequest
-    from schemas.wire.faults import FaultError
-    from schemas.wire.part_faults import validated
 
     try:
         return validated(SceneRequest, content)

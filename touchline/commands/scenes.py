@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from schemas.config.scene import load_scene, shipped_scenes
 from touchline.cli import options
 
 
@@ -18,7 +19,6 @@ def scenes(
 
     Example: touchline scene list penalty
     """
-    from schemas.config.scene import load_scene, shipped_scenes
 
     if name is None:
         found = {shipped: load_scene(shipped).description for shipped in shipped_scenes()}

@@ -13,6 +13,8 @@ from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
 from touchline.cli.option_groups import FieldsOf, with_option_groups
+from touchline.matches.series.seeds import seeds_of
+from touchline.matches.series.team_names import brain_of
 
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome
@@ -58,9 +60,7 @@ def series(
     from touchline.matches.engine.play_list import play_list
     from touchline.matches.series.match_row import row_of, rows_of
     from touchline.matches.series.plan import plan_series, with_brains
-    from touchline.matches.series.seeds import seeds_of
     from touchline.matches.series.table import sentence_of
-    from touchline.matches.series.team_names import brain_of
 
     named = {"scene": scene, "profile": profile, "rules": rules, **changes}
     settings = {key.replace(".", "__"): value for key, value in options.settings_of(change or []).items()}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from schemas.side import Side
 from touchline.cli import options
 
 if TYPE_CHECKING:
@@ -45,7 +46,6 @@ def _show(figures: "MatchFigures") -> None:
     from rich.table import Table
 
     from recordings.stats.table import ROBOT_HEADINGS, headline, remarks, robot_rows, side_rows
-    from schemas.side import Side
     from touchline.cli.console import console as new_console
 
     console = new_console()

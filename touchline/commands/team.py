@@ -12,6 +12,7 @@ from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
+from schemas.process.clock import WallClock
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
 
@@ -46,7 +47,6 @@ def team(
     from schemas.bus.find_host import announced_credentials
     from schemas.bus.zenoh.bus import ZenohBus, open_client
     from schemas.bus.zenoh.waiting_client import open_when_there
-    from schemas.process.clock import WallClock
     from touchline.launch.check_brains import check_reload
     from touchline.launch.run_folder import new_run_folder
     from touchline.launch.team_run import TeamPlan, TeamRun

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
+from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.topic import Topic
 from schemas.topics import TOPICS
@@ -42,7 +43,6 @@ def topics(
 
 def _schema(name: str) -> dict[str, Any]:
     """The schema of a topic's message or of a class by name, replies to queries and the match file among them."""
-    from schemas.config.match_config import MatchConfig
 
     models: dict[str, type[Message]] = {}
     for topic, row in TOPICS.items():

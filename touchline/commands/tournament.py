@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from schemas.errors import TouchlineError
+from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.errors import FAILED
+from touchline.launch.team_code import team_code
 
 if TYPE_CHECKING:
     from touchline.matches.cup.cup_config import CupConfig
@@ -125,8 +127,6 @@ def _print_digest(brain: str) -> None:
     Raises:
         TouchlineError: there is no such file.
     """
-    from schemas.side import Side
-    from touchline.launch.team_code import team_code
     from touchline.matches.cup.cup_config import CupConfig, TeamEntry
     from touchline.matches.cup.cup_plan import config_with
     from touchline.matches.engine.code_digest import code_digest

@@ -7,18 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from coach_gateway.match.debug_follower import DebugFollower
+from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.host_client import HostClient
 from schemas.access.accounts import Account
+from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.settings import ClientSettings
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.messages.setup import Setup
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
 from touchline.timing import HOST_S, REFRESH_S
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-    from schemas.bus.contract import Bus
-    from schemas.messages.setup import Setup
 
 
 @with_option_groups
@@ -51,17 +53,14 @@ def watch(
     typer.echo("the host is gone", err=True)
 
 
-def watch_lines(bus: "Bus", log: Callable[[str], None]) -> None:
+def watch_lines(bus: Bus, log: Callable[[str], None]) -> None:
     """Log each event, and each state in which more has changed than its clock, until the host ends.
 
     Raises:
         TouchlineError: no host plays this match.
     """
-    from coach_gateway.match.follower import MatchFollower
-    from coach_gateway.match.host_client import HostClient
     from coach_gateway.match.lines import event_line, state_line
     from coach_gateway.match.team_names import printable
-    from schemas.bus.contract import PresenceKind
 
     seen, before = MatchFollower(bus), None
     bus.declare_alive(PresenceKind.COACH, "watch")
@@ -81,7 +80,7 @@ def watch_lines(bus: "Bus", log: Callable[[str], None]) -> None:
         bus.clock.sleep_until(bus.clock.now() + REFRESH_S)
 
 
-def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
+def watch_on(bus: Bus, console: "Console", robot: str | None = None) -> None:
     """Show the panel until the host ends; its last state stays on the terminal. The values of `robot` are listed.
 
     Raises:
@@ -90,10 +89,6 @@ def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
     from rich.console import Group
     from rich.live import Live
 
-    from coach_gateway.match.debug_follower import DebugFollower
-    from coach_gateway.match.follower import MatchFollower
-    from coach_gateway.match.host_client import HostClient
-    from schemas.bus.contract import PresenceKind
     from touchline.watch.panel import panel
 
     client, seen = HostClient(bus, HOST_S), MatchFollower(bus, details=True)
@@ -121,7 +116,7 @@ def watch_on(bus: "Bus", console: "Console", robot: str | None = None) -> None:
             bus.clock.sleep_until(bus.clock.now() + REFRESH_S)
 
 
-def _check_robot(robot: str | None, setup: "Setup") -> None:
+def _check_robot(robot: str | None, setup: Setup) -> None:
     names = [name for team in setup.teams.values() for name in team.robots]
     if robot is not None and robot not in names:
         raise TouchlineError(f"--robot {robot}: no such robot takes part; {did_you_mean(robot, names)}")
