@@ -2,34 +2,23 @@
 
     python -m touchline.replay.ghost RECORDING.mcap
 
-Endpoint, match and robot are read from the environment, as in every robot program.
+It is a program of lines: briefing and sights on standard input, a command for each sight on standard output.
 """
 
-import os
-import signal
+import json
 import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 from recordings.reading.recording import Recording, open_recording
-from robot_agent.claim import Membership
-from robot_agent.runner import serve
-from schemas.bus.zenoh.bus import open_client
-from schemas.config.match_config import LOCKSTEP, MatchConfig
+from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.messages.command import Command
-from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
-from schemas.process.clock import WallClock
-from schemas.process.scheduling import use_batch_scheduling
 from schemas.side import Side
 from schemas.topics import APPLIED
-
-_PATIENCE_S = 10.0
-"""Wall time to wait for a missing host, s."""
 
 
 class Ghost:
@@ -81,7 +70,7 @@ def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
         team = setup.teams[Side(word)]
         teams[word] = {
             "name": f"{team.name}, recorded",
-            "command": [sys.executable, "-P", "-m", "touchline.replay.ghost", str(Path(file).resolve())],
+            "stdio": [sys.executable, "-P", "-m", "touchline.replay.ghost", str(Path(file).resolve())],
             "size": max(1, len(team.robots)),
             "robots": team.robots,
             "types": team.types,
@@ -110,40 +99,14 @@ def check_ghosts(config: MatchConfig, ghosts: Iterable[str]) -> None:
             raise TouchlineError(f"--ghost {ghost}: {', '.join(strangers)} did not play there; name another recording")
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run one robot's ghost; returns the exit status of the process."""
-    signal.signal(signal.SIGTERM, _end)
-    (file,) = sys.argv[1:] if arguments is None else arguments
-    robot = os.environ["TOUCHLINE_ROBOT"]
-    try:
-        recording = open_recording(Path(file))
-
-        def build(setup: Setup) -> Ghost:
-            use_batch_scheduling(setup.pace == LOCKSTEP)
-            return Ghost(robot, inputs_of(recording))
-
-        file_of_account = os.environ.get("TOUCHLINE_CREDENTIALS")
-        with open_client(
-            os.environ["TOUCHLINE_MATCH"],
-            WallClock(),
-            os.environ["TOUCHLINE_CONNECT"],
-            _PATIENCE_S,
-            Path(file_of_account) if file_of_account else None,
-        ) as bus:
-            membership = Membership(bus, robot, os.environ.get("TOUCHLINE_LAUNCH_TOKEN"))
-            return serve(bus, build, robot, _PATIENCE_S, membership)
-    except TouchlineError as error:
-        sys.stderr.write(f"{error}\n")
-        return 2
-    except KeyboardInterrupt:
-        return 0
-
-
-def _end(number: int, frame: FrameType | None) -> None:
-    """Treat SIGTERM from a supervisor like Ctrl-C."""
-    del number, frame
-    raise KeyboardInterrupt
+def main() -> None:
+    """Play the robot of the briefing until the end of the input."""
+    briefing, lines = json.loads(sys.stdin.buffer.readline()), sys.stdin.buffer
+    ghost = Ghost(briefing["robot"], inputs_of(open_recording(Path(sys.argv[1]))))
+    for line in lines:
+        sys.stdout.buffer.write(ghost.act(Sight.decode(line)).encode() + b"\n")
+        sys.stdout.buffer.flush()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

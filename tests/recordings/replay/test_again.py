@@ -72,7 +72,7 @@ def test_a_ghost_side_takes_the_robots_that_were_recorded(played):
     assert teams["magenta"]["robots"] == ["magenta1", "magenta2"]
     config = load_match(None, {"teams.magenta": teams["magenta"]})
     check_ghosts(config, [f"magenta={played.path}"])
-    assert config.teams.magenta.command[-1] == str(Path(played.path).resolve())
+    assert config.teams.magenta.stdio[-1] == str(Path(played.path).resolve())
 
 
 @pytest.mark.parametrize(
