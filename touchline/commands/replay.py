@@ -243,9 +243,11 @@ def _play(
 ) -> "Player":
     """Play until the end or a signal, with its progress on the output."""
     from recordings.replay.host import ReplayHost
-    from touchline.replay.progress import progress_on
+    from touchline.replay.progress import bar_text, status_text
+    from touchline.watch.screen import screen_for
 
     stream = sys.stderr if quiet else sys.stdout
+    text_of = bar_text if stream.isatty() else status_text
 
     def make_player(publish: "Callable[[RecordedMessage], None]", can_publish: Callable[[], bool]) -> "Player":
         def publish_and_show(recorded: "RecordedMessage") -> None:
@@ -256,18 +258,19 @@ def _play(
         return opened.player(clock, publish=publish_and_show, can_publish=can_publish)
 
     host = ReplayHost(bus, opened.recording.manifest.setup, make_player)
-    with progress_on(stream, clock) as show:
+    with screen_for(stream, clock) as screen:
 
         def meanwhile(player: "Player") -> None:
             if stop.received is not None:
                 player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
-            show(player.status())
+            screen.status(text_of(player.status()))
             if view is not None:
                 view.update(player)
             for notice in look_after():
                 typer.echo(f"touchline: {notice.sentence}", err=True)
 
         host.run(meanwhile)
+        screen.event(text_of(host.player.status()), notable=True)
     if host.unknown_keys:
         typer.echo(f"touchline: {host.unknown_keys} messages on unknown keys were left out", err=True)
     if stop.received is not None:

@@ -1,10 +1,7 @@
 """The progress of a replay on the screen."""
 
-import io
-
 from schemas.messages.replay import ReplayReply
-from schemas.process.clock import SteppedClock
-from touchline.replay.progress import progress_on, status_text
+from touchline.replay.progress import bar_text, status_text
 
 AT_5 = ReplayReply(accepted=True, time=5.0, start=0.0, end=20.0, rate=1.0)
 
@@ -14,10 +11,5 @@ def test_how_it_stands_is_one_line():
     assert status_text(AT_5.replace(rate=None, loop=True)) == "0:05.0 of 0:20.0  as fast as possible  loop"
 
 
-def test_a_pipe_gets_a_line_now_and_then():
-    clock, stream = SteppedClock(), io.StringIO()
-    with progress_on(stream, clock) as show:
-        for _ in range(110):
-            show(AT_5)
-            clock.sleep_until(clock.now() + 0.1)
-    assert stream.getvalue().count("\n") == 3
+def test_a_terminal_has_a_bar_before_it():
+    assert bar_text(AT_5) == f"{'━' * 10}{'╌' * 30}  {status_text(AT_5)}"
