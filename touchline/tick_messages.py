@@ -1,13 +1,32 @@
-"""The messages of a match in one process, tick by tick, as a recording of it has them."""
+"""The messages and the ticks of a match in one process, as a recording of it has them."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
+from recordings.stats.match_tick import MatchTick, match_ticks
 from schemas.messages.applied import Applied
 from schemas.messages.world import World
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.match.state_schedule import StateSchedule
+from touchline.play import InProcessMatch
+
+
+def played_ticks(match: InProcessMatch, after: Callable[[TickResult], None] = lambda _: None) -> Iterator[MatchTick]:
+    """Play a match that has just begun, and yield its ticks; `after` is called after each step of the match.
+
+    A step may be ahead of the tick that is yielded.
+    """
+    return match_ticks(match.simulation.setup(), _messages(match, after))
+
+
+def _messages(match: InProcessMatch, after: Callable[[TickResult], None]) -> Iterator[tuple[int, Any]]:
+    messages = TickMessages(match.simulation)
+    yield from messages.of(match.simulation.now)
+    while not match.simulation.over:
+        tick = match.step()
+        after(tick)
+        yield from messages.of(tick)
 
 
 class TickMessages:

@@ -15,12 +15,13 @@ from schemas.messages.command import Command
 from schemas.messages.game import GameEvent
 from schemas.side import Side
 from touchline.matches.drill.drill_match import drill_match
+from touchline.matches.judging.judge import verdict_of
 from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
 from touchline.matches.series.team_names import brain_of
 from touchline.play import BrainSource, InProcessMatch
 from touchline.testing.facts import Facts
 from touchline.testing.runs import Runs
-from touchline.testing.scene_run import run_scene
+from touchline.tick_messages import played_ticks
 
 DEFAULT_SECONDS = 10.0
 """Time in s for which a scene is played that has no verdict, if none is given."""
@@ -84,7 +85,14 @@ class ScenePlayer:
         try:
             tracker, log = OccurrenceTracker(match.simulation.setup()), _Log(match)
             wanted = seconds if seconds is not None or scene.drill is not None else DEFAULT_SECONDS
-            verdict = run_scene(match, tracker, scene.drill, wanted, log.watch, log.add_commands)
+            verdict = None
+            for tick in played_ticks(match, lambda _: log.add_commands()):
+                occurrences = tracker.update(tick)
+                log.watch(tick, occurrences)
+                if verdict is None and scene.drill is not None:
+                    verdict = verdict_of(scene.drill, tick.world.time, occurrences)
+                if tick.world.time >= wanted - 1e-9 if wanted is not None else verdict is not None:
+                    break
             log.occurrences += tracker.end()
             return Facts(
                 scene=scene.name,

@@ -2,17 +2,15 @@
 
 import signal
 import traceback
-from collections.abc import Iterator
 from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import replace
-from typing import Any
 
 from recordings.container.parts import remove_parts
-from recordings.stats.match_tick import match_ticks
 from robot_agent.user_code import place_of
 from schemas.errors import TouchlineError
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
-from sim_host.match.simulation import Simulation
+from sim_host.match.simulation import Simulation, TickResult
 from touchline.match_recording import MatchRecording
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.hang_watch import HangWatch
@@ -21,7 +19,7 @@ from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Playe
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.judging.judge import Judge
 from touchline.play import InProcessMatch, RobotNotStartedError
-from touchline.tick_messages import TickMessages
+from touchline.tick_messages import played_ticks
 
 TRACEBACK = "traceback.txt"
 """The file with the traceback of a brain, in the folder of a match's logs."""
@@ -52,9 +50,9 @@ class _WatchedMatch(InProcessMatch):
         if not self._is_built:
             self._watch.renew()
 
-    def step_watched(self) -> Any:
+    def step(self, actions: tuple[RefereeAction, ...] = ()) -> TickResult:
         """One tick, after which the time begins anew."""
-        tick = self.step()
+        tick = super().step(actions)
         self._watch.renew()
         return tick
 
@@ -135,19 +133,10 @@ def _measured(planned: PlannedMatch, match: _WatchedMatch) -> Played:
     drill = scene.drill if scene is not None and planned.is_drill else None
     judge, verdict = Judge(drill, setup) if drill is not None else None, None
     with recording_of(planned, match.simulation) as recording:
-        for tick in match_ticks(setup, _messages(match, recording)):
+        record = (lambda tick: recording.add(tick, match.commands)) if recording is not None else (lambda _: None)
+        for tick in played_ticks(match, record):
             measurement.update(tick)
             verdict = judge.update(tick) if judge is not None else None
             if verdict is not None:
                 break
     return replace(measurement.played(planned.identity, planned.recording), verdict=verdict)
-
-
-def _messages(match: _WatchedMatch, recording: MatchRecording | None) -> Iterator[tuple[int, Any]]:
-    messages = TickMessages(match.simulation)
-    yield from messages.of(match.simulation.now)
-    while not match.simulation.over:
-        tick = match.step_watched()
-        if recording is not None:
-            recording.add(tick, match.commands)
-        yield from messages.of(tick)
