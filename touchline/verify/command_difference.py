@@ -1,4 +1,4 @@
-"""The fields in which two commands differ, with their units."""
+"""The fields in which two commands, or two messages of other kinds, differ, with their units."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -39,13 +39,14 @@ def differences(recorded: Command, answered: Command) -> list[FieldDifference]:
     for name in _WITHOUT_EFFECT:
         before.pop(name, None)
         now.pop(name, None)
-    return list(_differences(before, now))
+    return list(field_differences(before, now))
 
 
-def _differences(recorded: Any, answered: Any, path: str = "") -> Iterator[FieldDifference]:
+def field_differences(recorded: Any, answered: Any, path: str = "") -> Iterator[FieldDifference]:
+    """Where two nested tables differ; None stands for what one of them lacks."""
     if isinstance(recorded, dict) and isinstance(answered, dict):
         for name in {**recorded, **answered}:
-            yield from _differences(recorded.get(name), answered.get(name), f"{path}.{name}".lstrip("."))
+            yield from field_differences(recorded.get(name), answered.get(name), f"{path}.{name}".lstrip("."))
     elif recorded != answered:
         yield FieldDifference(path, recorded, answered)
 

@@ -1,6 +1,6 @@
 """Compares the recorded events and states of the game with the simulated referee's."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import zip_longest
 from typing import Any
 
@@ -10,6 +10,7 @@ from schemas.messages.game import GameEvent, GameState
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
 from sim_host.match.referee_resimulation import OfficiatedTick
+from touchline.verify.command_difference import field_differences
 from touchline.verify.verdict import Detail
 
 
@@ -59,20 +60,14 @@ def _differences(name: str, recorded: GameState | GameEvent | None, simulated: G
         return []
     if recorded is None:
         return [Detail(name, "message", "not a valid message", "a valid one")]
-    return list(_fields(name, recorded.plain(), simulated.plain()))
+    found = field_differences(recorded.plain(), simulated.plain())
+    return [Detail(name, one.field, one.recorded, one.answered, _apart(one.recorded, one.answered)) for one in found]
 
 
-def _fields(name: str, recorded: Any, simulated: Any, path: str = "") -> list[Detail]:
-    if isinstance(recorded, Mapping) and isinstance(simulated, Mapping):
-        return [
-            detail
-            for key in {**simulated, **recorded}
-            for detail in _fields(name, recorded.get(key), simulated.get(key), f"{path}.{key}".lstrip("."))
-        ]
-    if recorded == simulated:
-        return []
-    numbers = [value for value in (recorded, simulated) if isinstance(value, float)]
-    return [Detail(name, path, recorded, simulated, abs(numbers[0] - numbers[1]) if len(numbers) == 2 else None)]
+def _apart(recorded: Any, simulated: Any) -> float | None:
+    """The absolute difference of two numbers; None for other values."""
+    are_numbers = isinstance(recorded, float) and isinstance(simulated, float)
+    return abs(recorded - simulated) if are_numbers else None
 
 
 def _event_name(event: GameEvent | None) -> str:
