@@ -5,12 +5,10 @@ import math
 from robot_agent.contract import Briefing
 from robot_agent.skills.avoid import circles, steer
 from robot_agent.skills.go_to import drive
-from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.keep_off import keep_off
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import best_receiver, pass_speed, pass_to
-from robot_agent.skills.take_ball import take_ball
 from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.action import Action
 from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
@@ -23,7 +21,7 @@ from robot_agent.teams.zones import owner_of
 from robot_agent.world_model import SeenBall, WorldBelief, places_of
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder, CoachTest
-from schemas.messages.command import Drive, KickMode
+from schemas.messages.command import KickMode
 
 HOMES = (
     (-10.5, 0.0),
@@ -158,7 +156,9 @@ class NuBot(Player):
         )
         if self._machine.state is State.CHASE_BALL:
             self._receiver = None
-            return Action(PLAYS, self._machine.state.value, self._meet(belief, ball), dribble=True)
+            return Action(
+                PLAYS, self._machine.state.value, fetch(belief, ball.now, self.setup, self.limits), dribble=True
+            )
         if belief.holding and not self.may_score:
             prepared = self._pass_ahead(belief)
             if prepared is not None:
@@ -186,14 +186,6 @@ class NuBot(Player):
         x, y = self._points.dribble
         point = x, math.copysign(y, ball.now.y)
         return belief.me[:2] if math.dist(point, belief.me[:2]) < _NEAR_ENOUGH else point
-
-    def _meet(self, belief: WorldBelief, ball: SeenBall) -> Drive:
-        """CHASE_BALL in a match: the paper's ball lies still, this one rolls, or an opponent has it."""
-        way = way_of(ball.now, self.rolling)
-        gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.reach + 0.05
-        meeting = meet(belief.me, way, gap, self.limits)
-        foes, mates = belief.opponents, places_of(belief.mates).values()
-        return take_ball(belief.me, ball.now, meeting, gap, foes, clearance, self.limits, mates)
 
     def _carried_out(self, belief: WorldBelief, output: MachineOutput) -> Action:
         """The machine's output, steered around opponents, and turned to the goal on the last metres with the ball."""

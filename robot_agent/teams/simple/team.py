@@ -5,11 +5,10 @@ from collections.abc import Sequence
 
 from robot_agent.bodies import Ball
 from robot_agent.contract import Briefing
-from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_to
-from robot_agent.skills.take_ball import HAS_IT, take_ball
+from robot_agent.skills.take_ball import HAS_IT
 from robot_agent.teams.action import Action
 from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
 from robot_agent.teams.player import Player
@@ -45,7 +44,6 @@ class Simple(Player):
         self._receiver: str | None = None
         """The receiver of the ball that this robot holds or is about to play."""
         self._gap, self._reach = self.setup.dribble.gap, self.setup.robot.reach
-        self._clearance = 2.0 * self._reach + 0.05
 
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """Find the role, then act by it."""
@@ -132,13 +130,7 @@ class Simple(Player):
                 self._promised = Promise(action.pass_to)
             return action
         self._receiver = None
-        return Action(Role.STRIKER, "get the ball", self._get(belief, ball), dribble=True)
-
-    def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
-        way = way_of(ball, self.rolling)
-        meeting = meet(belief.me, way, self._gap, self.limits)
-        foes, mates = belief.opponents, places_of(belief.mates).values()
-        return take_ball(belief.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
+        return Action(Role.STRIKER, "get the ball", fetch(belief, ball, self.setup, self.limits), dribble=True)
 
     def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
         """Hold the role's place; the defender leaves it for an opponent with the ball."""
