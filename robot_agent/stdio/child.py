@@ -10,7 +10,6 @@ import select
 import signal
 import struct
 import subprocess
-import sys
 import termios
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -18,7 +17,7 @@ from contextlib import suppress
 from robot_agent.stdio.lines import Line, LineSplitter
 from robot_agent.timing import OWN_SIGNAL_S, PROGRAM_ENDS_S
 from schemas.messages.command import Command
-from schemas.process import leash
+from schemas.process.leash import leashed
 
 _CHUNK = 65_536
 """Bytes of one read."""
@@ -31,10 +30,9 @@ class Child:
 
     def __init__(self, command: Sequence[str], environment: Mapping[str, str] | None = None) -> None:
         """`environment` is added to this process's."""
-        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), "{}")
         inherited = {name: value for name, value in os.environ.items() if name not in _NOT_PASSED}
         self._popen = subprocess.Popen(
-            [*launcher, *command],
+            [*leashed({}), *command],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**inherited, **(environment or {})},

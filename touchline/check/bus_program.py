@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import sys
 from collections.abc import Sequence
 from contextlib import suppress
 
@@ -15,10 +14,11 @@ from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
-from schemas.process import leash
 from schemas.process.clock import WallClock
+from schemas.process.leash import leashed
 from schemas.topics import COMMAND, ROBOT_CLAIM, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
+from touchline.launch.supervisor import ending
 from touchline.timing import POLL_S, PROGRAM_ENDS_S, PROGRAM_S, WATCH_S
 
 
@@ -46,9 +46,8 @@ class BusProgram:
             "TOUCHLINE_ROBOT": self._robot,
             "TOUCHLINE_SIDE": briefing.side.value,
         }
-        launcher = (sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), "{}")
         self._popen = subprocess.Popen(
-            [*launcher, *command], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+            [*leashed({}), *command], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
         )
         try:
             self._await_claim()
@@ -107,8 +106,7 @@ class BusProgram:
         """
         status = self._popen.poll()
         if status is not None:
-            how = f"ended with status {status}" if status >= 0 else f"was ended by {signal.Signals(-status).name}"
-            raise TouchlineError(f"{self._robot}: the program {how}")
+            raise TouchlineError(f"{self._robot}: the program {ending(status)}")
         while (query := self._setups.receive(0.0)) is not None:
             query.reply(self._setup)
         is_claimed = False

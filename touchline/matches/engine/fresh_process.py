@@ -5,7 +5,6 @@ A process that dies or hangs costs its own match only.
 
 import multiprocessing
 import os
-import signal
 import tempfile
 import threading
 from collections.abc import Callable
@@ -18,6 +17,7 @@ from typing import Any
 from pebble import ProcessExpired, concurrent
 
 from robot_agent.brain_folders import added_folders, remove_folders
+from touchline.launch.supervisor import ending
 from touchline.matches.engine.hang_watch import Note, read_note
 
 _PRELOAD = "touchline.matches.engine.preload"
@@ -79,7 +79,7 @@ class FreshProcesses(Executor):
                 return process.result()
             except ProcessExpired as error:
                 status = error.exitcode or 0
-                raise DiedProcessError(_end_of(status), status, read_note(Path(folder))) from None
+                raise DiedProcessError(f"its process {ending(status)}", status, read_note(Path(folder))) from None
             except CancelledError:
                 raise DiedProcessError("it was ended with the run") from None
             finally:
@@ -92,11 +92,6 @@ def _in_process(context: ForkServerContext) -> "Callable[..., Future[Any]]":
     options: dict[str, Any] = {"daemon": False, "context": context}  # stubs of pebble name the context differently
     decorated: Callable[..., Callable[..., Future[Any]]] = concurrent.process(**options)
     return decorated(_run)
-
-
-def _end_of(status: int) -> str:
-    how = f"was ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
-    return f"its process {how}"
 
 
 def _run(call: Callable[[Path], Any], folder: Path) -> Any:
