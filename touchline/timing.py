@@ -36,3 +36,5 @@ REFRESH_S = 0.1
 """Between two states of what is shown on a terminal."""
 LINE_S = 5.0
 """Between two lines of status on a stream that is no terminal."""
+ATTENDANCE_S = 86_400.0
+"""For which a host on its own waits for its robots, which people start on other machines."""

@@ -9,9 +9,7 @@ from sim_host import run
 from sim_host.server.settings import HostSettings
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
-
-_ALWAYS_S = 86_400.0
-"""Wall time for which a host on its own waits for its robots, which people start on other machines, s."""
+from touchline.timing import ATTENDANCE_S
 
 
 @with_option_groups
@@ -32,7 +30,7 @@ def host(
     """
     config = match.read(**{f"patience__{key}": value for key, value in waiting.items()})
     if "attendance" not in config.patience.model_fields_set:
-        config = config.model_copy(update={"patience": config.patience.model_copy(update={"attendance": _ALWAYS_S})})
+        config = config.model_copy(update={"patience": config.patience.model_copy(update={"attendance": ATTENDANCE_S})})
     match.endpoint()  # checked before the host is loaded
     settings = from_options(HostSettings, config=config, **match.listening.model_dump(), **more)
     raise typer.Exit(run(settings))

@@ -28,16 +28,12 @@ def info(
     from rich.table import Table
 
     from touchline.cli.console import console as new_console
+    from touchline.cli.console import table
 
     console = new_console()
     about = Table.grid(padding=(0, 2))
     for name, value in summary_lines(facts):
         about.add_row(name, value)
-    table = Table(*HEADINGS, box=None, pad_edge=False)
-    for column in table.columns[2:]:
-        column.justify = "right"
-    for row in key_rows(facts):
-        table.add_row(*row)
     console.print(about)
     console.print()
-    console.print(table)
+    console.print(table(HEADINGS, key_rows(facts), names=2))

@@ -162,13 +162,12 @@ def _play(plan: "MatchPlan", clock: Clock, *, quiet: bool) -> None:
 
     With a page it returns when the page with the result is closed.
     """
-    from touchline.launch.match_files import losses_of, published_by
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
     from touchline.watch.screen import screen_for
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
-            run = MatchRun(plan, screen, clock, losses_of, published_by)
+            run = MatchRun(plan, screen, clock)
             result = run.play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()

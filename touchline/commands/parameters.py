@@ -14,6 +14,7 @@ from schemas.messages.parameters import Parameter, ParameterOperation, Parameter
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import validated
 from touchline.cli import options
+from touchline.cli.aligned import aligned
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
 
@@ -136,10 +137,8 @@ def _show(reply: ParametersReply, *, json: bool) -> None:
         typer.echo(json_text.dumps(fields, ensure_ascii=False, indent=2))
         return
     lines = [_line(parameter) for parameter in reply.parameters]
-    widths = [max(len(line[place]) for line in lines) for place in range(4)]
-    for line in lines:
-        cells = [cell.ljust(width) for cell, width in zip(line, widths, strict=False)]
-        typer.echo("  ".join([*cells, line[4]]).rstrip())
+    for line in aligned(lines):
+        typer.echo(line)
 
 
 def _line(parameter: Parameter) -> tuple[str, str, str, str, str]:

@@ -7,6 +7,7 @@ import typer
 
 from schemas.config.scene import load_scene, shipped_scenes
 from touchline.cli import options
+from touchline.cli.aligned import aligned
 
 
 def scenes(
@@ -25,9 +26,8 @@ def scenes(
         if json:
             typer.echo(json_text.dumps(found, ensure_ascii=False, indent=2))
             return
-        width = max(map(len, found))
-        for shipped, description in found.items():
-            typer.echo(f"{shipped.ljust(width)}  {description}")
+        for line in aligned(list(found.items())):
+            typer.echo(line)
         return
     scene = load_scene(name)
     if json:

@@ -11,6 +11,7 @@ import typer
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
 from touchline.cli import options
+from touchline.cli.aligned import aligned
 from touchline.cli.errors import FAILED
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 from touchline.matches.series.seeds import seeds_of
@@ -111,14 +112,14 @@ def _plain(part: Any) -> Any:
 
 
 def _show(plan: "SeriesPlan", summary: "Summary", rows: "list[MatchRow]", failed: "list[FailedMatch]") -> None:
-    from touchline.matches.series.table import aligned, figure_rows, headline, longest_lines
+    from touchline.matches.series.table import figure_rows, headline, longest_lines
 
     typer.echo(headline(plan, rows, failed))
     if not rows:
         return
     for heading, figures in (((*plan.teams,), summary.teams), ((*Side,), summary.sides), (("both",), summary.match)):
         typer.echo()
-        for line in aligned(("", *heading), figure_rows(figures)):
+        for line in aligned([("", *heading), *figure_rows(figures)]):
             typer.echo(line)
     typer.echo()
     for line in longest_lines(summary):

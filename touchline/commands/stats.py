@@ -43,24 +43,16 @@ def stats(
 
 
 def _show(figures: "MatchFigures") -> None:
-    from rich.table import Table
-
     from recordings.stats.table import ROBOT_HEADINGS, headline, remarks, robot_rows, side_rows
     from touchline.cli.console import console as new_console
+    from touchline.cli.console import table
 
     console = new_console()
-    sides = Table("", *Side, box=None, pad_edge=False)
-    robots = Table(*ROBOT_HEADINGS, box=None, pad_edge=False)
-    for table, rows in ((sides, side_rows(figures)), (robots, robot_rows(figures))):
-        for column in table.columns[1:]:
-            column.justify = "right"
-        table.columns[0].no_wrap = True
-        for row in rows:
-            table.add_row(*row)
     console.print(headline(figures), style="bold")
-    console.print()
-    console.print(sides)
-    console.print()
-    console.print(robots)
+    for headings, rows in ((("", *Side), side_rows(figures)), (ROBOT_HEADINGS, robot_rows(figures))):
+        shown = table(headings, rows)
+        shown.columns[0].no_wrap = True
+        console.print()
+        console.print(shown)
     for remark in remarks(figures):
         console.print(remark, style="yellow")

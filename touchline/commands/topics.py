@@ -11,6 +11,7 @@ from schemas.topic import Topic
 from schemas.topics import TOPICS
 from schemas.wire.message import Message
 from touchline.cli import options
+from touchline.cli.aligned import aligned
 
 _COLUMNS = ("name", "key", "message", "from", "to", "rate", "delivery", "recorded", "description")
 
@@ -35,10 +36,9 @@ def topics(
         typer.echo(json_text.dumps(rows, ensure_ascii=False, indent=2))
         return
     cells = [_COLUMNS, *(tuple(_cell(row[column]) for column in _COLUMNS) for row in rows)]
-    widths = [max(len(line[place]) for line in cells) for place in range(len(_COLUMNS))]
     typer.echo("All keys are below touchline/{match}/.\n")
-    for line in cells:
-        typer.echo("  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip())
+    for line in aligned(cells):
+        typer.echo(line)
 
 
 def _schema(name: str) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from rich.style import Style
 from rich.table import Table
 from rich.text import Text
 
+from touchline.cli.console import table
 from touchline.health.ledger import Ledger, RobotLedger
 
 _TROUBLE = Style(color="yellow", bold=True)
@@ -47,26 +48,23 @@ def _headline(ledger: Ledger) -> str:
 
 
 def _robot_table(ledger: Ledger) -> Table:
-    table = Table(*HEADINGS, box=None, pad_edge=False)
-    for column in table.columns[2:]:
-        column.justify = "right"
+    shown = table(HEADINGS, names=2)
     for row in ledger.robots:
         in_trouble = row.state in ("absent", "silent")
-        table.add_row(
+        shown.add_row(
             row.robot, row.state, *(value(row) for _, value in _COLUMNS), style=_TROUBLE if in_trouble else None
         )
-    return table
+    return shown
 
 
 def _account_table(ledger: Ledger) -> Table:
-    table = Table("account", "messages", "kB", "dropped", box=None, pad_edge=False)
-    for column in table.columns[1:3]:
-        column.justify = "right"
+    shown = table(("account", "messages", "kB", "dropped"))
+    shown.columns[-1].justify = "left"
     for row in ledger.accounts:
         dropped = "; ".join(f"{count} {reason}" for reason, count in row.dropped.items()) or "0"
         style = _TROUBLE if row.dropped else None
-        table.add_row(row.account, str(row.messages), f"{row.size / 1e3:.1f}", dropped, style=style)
-    return table
+        shown.add_row(row.account, str(row.messages), f"{row.size / 1e3:.1f}", dropped, style=style)
+    return shown
 
 
 def _remarks(ledger: Ledger) -> Iterator[str]:

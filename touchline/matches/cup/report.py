@@ -3,10 +3,10 @@
 from dataclasses import asdict
 from typing import Any
 
+from touchline.cli.aligned import aligned
 from touchline.matches.cup.cup_state import CupMatch, CupState, MatchState
 from touchline.matches.cup.match_result import score_text
 from touchline.matches.cup.site import signed
-from touchline.matches.series.table import aligned
 from touchline.matches.statistics.ratings import rate
 
 RESULT = "result.json"
@@ -33,7 +33,7 @@ def report_text(state: CupState) -> str:
     lines: list[str] = []
     for stage, rows in state.schedule.tables.items():
         cells = [(str(row.place), row.team, *_numbers(row)) for row in rows]
-        lines += [stage, *aligned(("", "team", "P", "W", "D", "L", "goals", "points"), cells), ""]
+        lines += [stage, *aligned([("", "team", "P", "W", "D", "L", "goals", "points"), *cells]), ""]
     if state.schedule.bracket is not None:
         names = {one.name for one in state.schedule.bracket.fixtures}
         played = [one for one in state.matches if one.slot.fixture.name in names and one.result is not None]
@@ -44,7 +44,7 @@ def report_text(state: CupState) -> str:
     rated = rate(state.cup.names, state.results)
     cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]
     sentence = "the order is significant" if rated.significant else "the order is not significant"
-    lines += [*aligned(("", "rating", "interval of 95 %"), cells), sentence, ""]
+    lines += [*aligned([("", "rating", "interval of 95 %"), *cells]), sentence, ""]
     lines.append(f"winner  {state.winner}" if state.winner is not None else "the cup is not complete")
     return "\n".join(lines)
 

@@ -27,15 +27,6 @@ def figure_rows(figures: Sequence[Figure]) -> list[Cells]:
     return [(one.name, *(_cell(value, percent=one.percent) for value in one.values)) for one in figures]
 
 
-def aligned(heading: Cells, rows: Sequence[Cells]) -> list[str]:
-    """Lines in which the columns of all rows are aligned, below a heading."""
-    widths = [max(map(len, column)) for column in zip(heading, *rows, strict=True)]
-    return [
-        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in (heading, *rows)
-    ]
-
-
 def longest_lines(summary: Summary) -> list[str]:
     """One line for each longest time, with the match that it was in."""
     return [_longest(one) for one in summary.longest]
