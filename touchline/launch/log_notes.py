@@ -1,11 +1,33 @@
-"""Finds in the logs of robots what their processes want to be shown to the user."""
+"""Watches the logs of a match: limits them, and finds what their processes want to be shown to the user."""
 
 from pathlib import Path
 
 from schemas.process.process_log import NOTE, message_of
+from touchline.launch.log_limit import LogLimit
+from touchline.launch.supervisor import Notice
+from touchline.watch.screen import Screen
 
 _MOST_BYTES = 1_000_000
 """Bytes of a log that one search reads; of a longer one, the newest."""
+
+
+class LogWatch:
+    """Shows on the screen what is to be known of processes and their logs."""
+
+    def __init__(self, screen: Screen) -> None:
+        self._screen = screen
+        self._limit, self._notes = LogLimit(), LogNotes()
+
+    def update(self, log: Path) -> None:
+        """Show what was added to a log since the last call."""
+        for sentence in filter(None, (self._limit.check(log), *self._notes.update(log))):
+            self._screen.warn(sentence)
+
+    def show(self, notice: Notice) -> None:
+        """Show a notice with the last lines of the log."""
+        self._screen.warn(notice.sentence)
+        for line in notice.log:
+            self._screen.warn(f"  {notice.name}: {line}")
 
 
 class LogNotes:

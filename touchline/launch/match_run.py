@@ -12,7 +12,7 @@ from coach_gateway.match.lines import clock_text
 from coach_gateway.match.team_names import TeamNames
 from schemas.access.accounts import Account
 from schemas.bus.announcement import announcement_in
-from schemas.bus.contract import Bus, BusError, ReceivedMessage
+from schemas.bus.contract import Bus, BusError
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
@@ -20,8 +20,8 @@ from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.fork_server import ROBOTS
-from touchline.launch.log_limit import LogLimit
-from touchline.launch.log_notes import LogNotes
+from touchline.launch.log_notes import LogWatch
+from touchline.launch.match_files import published_by
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.process_table import Process, ProcessKind
@@ -55,31 +55,18 @@ class InterruptedMatchError(Exception):
 class MatchRun:
     """One match from launch to result."""
 
-    def __init__(
-        self,
-        plan: MatchPlan,
-        screen: Screen,
-        clock: Clock,
-        losses: Callable[[MatchPlan], dict[str, int]],
-        published: Callable[[MatchPlan], Iterable[ReceivedMessage]],
-        check: Callable[[], None] = lambda: None,
-    ) -> None:
-        """`losses` returns the losses of a finished recording, `published` the host's events and last state.
-
-        `check` is called while the host starts; what it raises ends the match.
-        """
+    def __init__(self, plan: MatchPlan, screen: Screen, clock: Clock, check: Callable[[], None] = lambda: None) -> None:
+        """`check` is called while the host starts; what it raises ends the match."""
         self._plan = plan
         self._screen = screen
         self._clock = clock
-        self._losses = losses
-        self._published = published
         self._check = check
         self._has_clients = False
         self._names = TeamNames.of_match(plan.config)
         self._remote = RemoteTeams(plan.config)
         self._match_screen = MatchScreen(plan, screen, self._remote, clock)
         self._logs: dict[str, Path] = {}
-        self._log_limit, self._log_notes = LogLimit(), LogNotes()
+        self._log_watch = LogWatch(screen)
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
 
     def play(self) -> MatchResult:
@@ -191,14 +178,10 @@ class MatchRun:
     def _poll_processes(self, stop: StopSignals) -> bool:
         if stop.received is not None:
             return False  # processes that end with the same signal are no crashes
-        for sentence in filter(None, map(self._log_limit.check, self._logs.values())):
-            self._screen.warn(sentence)
-        for sentence in (note for log in self._logs.values() for note in self._log_notes.update(log)):
-            self._screen.warn(sentence)
+        for log in self._logs.values():
+            self._log_watch.update(log)
         for notice in self._supervisor.check():
-            self._screen.warn(notice.sentence)
-            for line in notice.log:
-                self._screen.warn(f"  {notice.name}: {line}")
+            self._log_watch.show(notice)
         return self._supervisor.host_status is None and self._empty_side() is None
 
     def _is_ending(self, stop: StopSignals) -> bool:
@@ -233,7 +216,7 @@ class MatchRun:
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
             # this process may have missed the last messages if it was stalled
-            self._match_screen.report(follower, follower.merge_recorded(self._published(self._plan)))
+            self._match_screen.report(follower, follower.merge_recorded(published_by(self._plan)))
         if status == 0 and follower is not None and follower.finished:
             return self._result(follower)
         log = self._supervisor.last_lines("host")
@@ -257,4 +240,4 @@ class MatchRun:
         return replace(MatchResult.of(follower, self._recording()), names=self._names)
 
     def _recording(self) -> RecordingOutcome:
-        return outcome_of(self._plan, *self._supervisor.failure("recorder"), self._losses)
+        return outcome_of(self._plan, *self._supervisor.failure("recorder"))

@@ -1,12 +1,13 @@
 """What became of a match's recording: where it is, what it misses, and what can be done about it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from schemas.errors import TouchlineError
 from schemas.topic import Party
 from schemas.topics import TOPICS
+from touchline.launch.match_files import losses_of
 from touchline.launch.processes import MatchPlan
 from touchline.launch.supervisor import ending
 
@@ -32,13 +33,8 @@ NO_RECORDING = RecordingOutcome(None, {})
 """No recording was asked for."""
 
 
-def outcome_of(
-    plan: MatchPlan, status: int | None, log: Sequence[str], losses: Callable[[MatchPlan], Mapping[str, int]]
-) -> RecordingOutcome:
-    """The outcome after the recorder has ended with this exit status and these last lines of its log.
-
-    `losses` returns the finished recording's.
-    """
+def outcome_of(plan: MatchPlan, status: int | None, log: Sequence[str]) -> RecordingOutcome:
+    """The outcome after the recorder has ended with this exit status and these last lines of its log."""
     path = plan.recording
     if path is None:
         return NO_RECORDING
@@ -48,7 +44,7 @@ def outcome_of(
         reason = f"the recorder {ending(status)}"
     if status == 0 and parts:
         try:
-            return finished_recording(path, losses(plan))
+            return finished_recording(path, losses_of(plan))
         except TouchlineError as error:
             reason = str(error)
     return unfinished_recording(path, parts, reason, plan.folder / "recorder.log")

@@ -18,8 +18,7 @@ from schemas.side import Side
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.confinement import team_confinements, team_isolation_note
 from touchline.launch.fork_server import ROBOTS
-from touchline.launch.log_limit import LogLimit
-from touchline.launch.log_notes import LogNotes
+from touchline.launch.log_notes import LogWatch
 from touchline.launch.process_table import Process
 from touchline.launch.robot_process import robot_process
 from touchline.launch.stop_signals import StopSignals
@@ -69,7 +68,7 @@ class TeamRun:
         member = Membership(bus, self._robots[0], plan.agent.launch_token, plan.agent.match, plan.side)
         if not member.fits(setup):
             member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
-        self._log_limit, self._log_notes = LogLimit(), LogNotes()
+        self._log_watch = LogWatch(screen)
         self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
 
     def play(self) -> None:
@@ -102,15 +101,11 @@ class TeamRun:
 
     def _show(self, follower: MatchFollower) -> None:
         for robot in self._robots:
-            log = self._log_of(robot)
-            for sentence in filter(None, (self._log_limit.check(log), *self._log_notes.update(log))):
-                self._screen.warn(sentence)
+            self._log_watch.update(self._log_of(robot))
         for notice in self._supervisor.check():
             if self._supervisor.ended.get(notice.name) == 0 and follower.gone:
                 continue  # it has left with its host
-            self._screen.warn(notice.sentence)
-            for line in notice.log:
-                self._screen.warn(f"  {notice.name}: {line}")
+            self._log_watch.show(notice)
         if follower.gone:
             self._screen.status("the host is gone")
         else:

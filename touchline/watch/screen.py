@@ -1,7 +1,7 @@
 """Display of a running match: one live line on a terminal, otherwise plain lines."""
 
 from types import TracebackType
-from typing import Protocol, Self, TextIO
+from typing import Self, TextIO
 
 from rich.live import Live
 from rich.text import Text
@@ -11,32 +11,8 @@ from touchline.cli.console import console
 from touchline.timing import LINE_S, REFRESH_S
 
 
-class Screen(Protocol):
-    """Shows a match."""
-
-    def status(self, line: str) -> None:
-        """Show the current status; some calls may be skipped."""
-
-    def event(self, line: str, *, notable: bool) -> None:
-        """Show an event of the match."""
-
-    def warn(self, line: str) -> None:
-        """Show a warning."""
-
-    def __enter__(self) -> Self: ...
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None: ...
-
-
-def screen_for(stream: TextIO, clock: Clock) -> "Screen":
-    """The screen for a stream."""
-    return LiveScreen(stream, clock) if stream.isatty() else PlainScreen(stream, clock)
-
-
-class PlainScreen:
-    """Lines for logs and pipes."""
+class Screen:
+    """Shows a match in lines, for logs and pipes."""
 
     def __init__(self, stream: TextIO, clock: Clock) -> None:
         self._stream = stream
@@ -72,14 +48,13 @@ class PlainScreen:
         return None
 
 
-class LiveScreen:
+class LiveScreen(Screen):
     """One line that is rewritten in place; goals and warnings scroll above it."""
 
     def __init__(self, stream: TextIO, clock: Clock) -> None:
+        super().__init__(stream, clock)
         self._console = console(stream)
         self._live = Live(console=self._console, auto_refresh=False, transient=True)
-        self._clock = clock
-        self._shown_at = -REFRESH_S
 
     def status(self, line: str) -> None:
         """Rewrite the line."""
@@ -105,3 +80,8 @@ class LiveScreen:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._live.stop()
+
+
+def screen_for(stream: TextIO, clock: Clock) -> Screen:
+    """The screen for a stream."""
+    return LiveScreen(stream, clock) if stream.isatty() else Screen(stream, clock)

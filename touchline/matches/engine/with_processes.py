@@ -22,7 +22,6 @@ from schemas.errors import MatchFailedError, TouchlineError
 from schemas.process.clock import WallClock
 from touchline.launch.check_brains import check_teams
 from touchline.launch.confinement import team_confinements
-from touchline.launch.match_files import losses_of, published_by
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
 from touchline.launch.processes import CREDENTIALS, MatchPlan, check_robot_names
 from touchline.launch.run_folder import RECORDING, prepare_credentials
@@ -32,7 +31,7 @@ from touchline.matches.engine.measurement import measured
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.team_faults import fault_of, last_health
-from touchline.watch.screen import PlainScreen
+from touchline.watch.screen import Screen
 
 LOG = "match.log"
 """The log of a match, next to the logs of its processes."""
@@ -76,7 +75,7 @@ def _outcome(planned: PlannedMatch, folder: Path) -> Outcome:
         confinements = team_confinements(config, plan.brain_folder, folder.parent)
         plan = prepare_credentials(replace(plan, confinements=confinements), tls=False)
         check = partial(check_teams, config, plan.brain_folder, confinements=confinements)
-        result = MatchRun(plan, PlainScreen(sys.stderr, clock), clock, losses_of, published_by, check).play()
+        result = MatchRun(plan, Screen(sys.stderr, clock), clock, check).play()
     except TeamError as error:
         return Failed(identity, FailureKind.DID_NOT_START, str(error), error.side, logs)
     except TeamLeftError as error:
