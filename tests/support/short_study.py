@@ -1,6 +1,5 @@
 """A study of four matches of one robot a side that last a second and a half."""
 
-from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -22,6 +21,4 @@ radio.loss = [0, 0.4]
 class Run(Protocol):
     """Plays the study of a text, and adds the labels of the matches that were played to a list."""
 
-    def __call__(
-        self, text: str, played: list[str] | None = None, *, fresh: bool = False, executor: Executor | None = None
-    ) -> "StudyResult": ...
+    def __call__(self, text: str, played: list[str] | None = None, *, fresh: bool = False) -> "StudyResult": ...

@@ -1,6 +1,6 @@
 """The state of a cup is a function of how its matches ended."""
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from touchline.matches.cup.cup_config import CupConfig, FormatConfig, FormatKind, TeamEntry
@@ -30,6 +30,7 @@ def play(cup: CupConfig, order: st.DataObject | None = None) -> tuple[CupState, 
     return state_of(cup, lambda slot: ended.get(slot.name)), sorted(ended)
 
 
+@settings(max_examples=15)
 @given(st.data(), st.sampled_from(FormatKind), st.sampled_from([1, 3]))
 def test_the_order_in_which_matches_end_changes_nothing(data: st.DataObject, kind: FormatKind, best_of: int) -> None:
     one, played = play(cup_of(kind, best_of))

@@ -6,7 +6,7 @@ from itertools import combinations
 from random import Random
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support.cup_results import result_of, stronger_wins
@@ -89,6 +89,7 @@ def test_seeds_are_placed_so_that_the_first_meet_last(number: int) -> None:
     assert byes == set(range(len(places) - number)), "the strongest teams have the byes"
 
 
+@settings(max_examples=30)
 @given(st.integers(2, 33), st.randoms())
 def test_a_knock_out_ends_with_the_team_that_wins_all_and_each_other_loses_once(number: int, random: Random) -> None:
     order = names(number)
@@ -147,6 +148,7 @@ def ranked(order: Sequence[str]) -> Callable[[Sequence[FixtureResult], Sequence[
     return lambda results, byes: [row.team for row in table(order, results, Ranking(), byes)]
 
 
+@settings(max_examples=20)
 @given(st.integers(2, 17), st.randoms())
 def test_in_a_swiss_tournament_no_pair_meets_twice_and_no_team_rests_twice(number: int, random: Random) -> None:
     teams, results = names(number), dict[str, FixtureResult]()

@@ -191,17 +191,3 @@ def command_line(pid: int) -> str:
         return Path(f"/proc/{pid}/cmdline").read_text()
     except OSError:
         return ""
-
-
-@pytest.mark.processes
-def test_a_team_that_does_not_start_is_named_with_processes_too(
-    match_of: MatchOf, folder: Path, tmp_path: Path
-) -> None:
-    outcome = in_fresh_process(
-        PlannedMatch(match_of(magenta="NotBuilt"), way=Way.PROCESSES, brain_folder=folder, logs=tmp_path / "logs")
-    )
-    assert isinstance(outcome, Failed)
-    assert (outcome.kind, outcome.culprit) == (FailureKind.DID_NOT_START, Side.MAGENTA)
-    assert outcome.evidence == str(tmp_path / "logs")
-    assert outcome.reason in (tmp_path / "logs" / "match.log").read_text()
-    assert not (tmp_path / "logs" / "credentials").exists()

@@ -61,19 +61,19 @@ def bytes_of(outcomes: Mapping[str, Outcome]) -> dict[str, bytes]:
 
 
 def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
-    plan = ListPlan(tuple(matches(match_of, folder, 4)))
+    plan = ListPlan(tuple(matches(match_of, folder, 2)))
     results = []
     executors: list[tuple[Executor, bool]] = [
         (ThreadPoolExecutor(1), False),
         (FreshProcesses(1), False),
-        (FreshProcesses(8), False),
+        (FreshProcesses(4), False),
         (ThreadPoolExecutor(2), True),
     ]
     for number, (executor, is_remote) in enumerate(executors):
         with executor, RunStore(tmp_path / str(number)) as store:
             results.append(bytes_of(run_plan(plan, executor, store, Log(), is_remote=is_remote, at_once=8)))
     assert all(result == results[0] for result in results)
-    assert len(results[0]) == 4
+    assert len(results[0]) == 2
 
 
 def test_recordings_of_other_machines_come_back(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
@@ -227,13 +227,13 @@ def _play_in_child(plan: ListPlan, folder: Path) -> None:
 def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
-    """Killed 20 times, each time a random while after it has begun, and resumed."""
-    plan = ListPlan(tuple(matches(match_of, folder, 6)))
+    """Killed 8 times, each time a random while after it has begun, and resumed."""
+    plan = ListPlan(tuple(matches(match_of, folder, 4)))
     with ThreadPoolExecutor(1) as executor, RunStore(tmp_path / "undisturbed") as store:
         wanted = bytes_of(run_plan(plan, executor, store, Log()))
     draw = random.Random(7)
     context = multiprocessing.get_context("fork")
-    for _ in range(20):
+    for _ in range(8):
         child = context.Process(target=_play_in_child, args=(plan, tmp_path / "killed"))
         child.start()
         child.join(draw.uniform(0.02, 0.5))

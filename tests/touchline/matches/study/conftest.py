@@ -1,15 +1,17 @@
 """Studies of constructed results and of short matches."""
 
+import shutil
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from support.short_study import Run
+from support.short_study import SHORT, Run
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
 
@@ -97,23 +99,36 @@ class Labels:
         return planned.label
 
 
+def play(folder: Path, text: str, played: list[str] | None = None, *, fresh: bool = False) -> "StudyResult":
+    """Play the study of a text in a folder; its results are in `study` there."""
+    from touchline.matches.study.cells import cells_of
+    from touchline.matches.study.run_study import run_study
+    from touchline.matches.study.study_config import load_study
+    from touchline.matches.study.study_plan import StudyPlan
+
+    path, home = folder / "try.toml", folder / "study"
+    path.write_text(text)
+    study = load_study(path)
+    plan = StudyPlan(study, cells_of(study, folder), folder, home)
+    return run_study(plan, home, ThreadPoolExecutor(1), Labels(played if played is not None else []), fresh=fresh)
+
+
 @pytest.fixture
-def run(tmp_path: Path, home: Path) -> Run:
+def run(tmp_path: Path) -> Run:
     """Plays the study of a text into `home`."""
+    return partial(play, tmp_path)
 
-    def play(
-        text: str, played: list[str] | None = None, *, fresh: bool = False, executor: Executor | None = None
-    ) -> "StudyResult":
-        from touchline.matches.study.cells import cells_of
-        from touchline.matches.study.run_study import run_study
-        from touchline.matches.study.study_config import load_study
-        from touchline.matches.study.study_plan import StudyPlan
 
-        path = tmp_path / "try.toml"
-        path.write_text(text)
-        study = load_study(path)
-        plan = StudyPlan(study, cells_of(study, tmp_path), tmp_path, home)
-        labels = Labels(played if played is not None else [])
-        return run_study(plan, home, executor or ThreadPoolExecutor(1), labels, fresh=fresh)
+@pytest.fixture(scope="session")
+def short_study(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the short study, which was played once."""
+    folder = tmp_path_factory.mktemp("short")
+    play(folder, SHORT)
+    return folder
 
-    return play
+
+@pytest.fixture
+def played(short_study: Path, tmp_path: Path) -> Path:
+    """A copy of the short study in `home`."""
+    shutil.copytree(short_study, tmp_path, dirs_exist_ok=True)
+    return tmp_path / "study"

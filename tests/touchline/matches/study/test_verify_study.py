@@ -37,23 +37,22 @@ def check(home: Path, sample: int | None = None) -> list[str]:
     return verdict_of(home, sample).faults
 
 
-def test_a_study_is_reproduced_to_the_byte(run: Run, home: Path) -> None:
-    run(SHORT)
+def test_a_study_is_reproduced_to_the_byte(played: Path, home: Path) -> None:
     verdict = verdict_of(home)
     assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
     assert verdict.notes == []
 
 
-def test_a_study_folder_can_be_moved_and_verified_without_its_study_file(run: Run, home: Path, tmp_path: Path) -> None:
-    run(SHORT)
+def test_a_study_folder_can_be_moved_and_verified_without_its_study_file(
+    played: Path, home: Path, tmp_path: Path
+) -> None:
     (tmp_path / "try.toml").unlink()
     moved = shutil.move(home, tmp_path / "published")
     (Path(moved) / "run.sqlite").unlink()
     assert check(Path(moved), sample=1) == []
 
 
-def test_verification_names_the_match_whose_result_was_changed(run: Run, home: Path) -> None:
-    run(SHORT)
+def test_verification_names_the_match_whose_result_was_changed(played: Path, home: Path) -> None:
     table = pd.read_csv(home / "results.csv")
     table.loc[2, "distance"] += 1.0
     table.to_csv(home / "results.csv", index=False, lineterminator="\n")
@@ -78,8 +77,7 @@ def test_a_study_is_verified_from_its_recordings_without_its_teams(run: Run, hom
     assert any("its configuration is not that of the plan" in fault for fault in faults)
 
 
-def test_a_study_that_is_older_than_a_figure_is_reproduced_without_it(run: Run, home: Path) -> None:
-    run(SHORT)
+def test_a_study_that_is_older_than_a_figure_is_reproduced_without_it(played: Path, home: Path) -> None:
     table = pd.read_csv(home / "results.csv").drop(columns="fouls")
     (home / "results.csv").write_bytes(study_folder.csv_bytes(table))
     table.to_parquet(home / "results.parquet", index=False)
@@ -98,8 +96,7 @@ def test_recordings_of_inputs_alone_are_small_and_are_verified(run: Run, home: P
     assert (again.faults, again.byte_identical) == ([], True)
 
 
-def test_a_row_that_was_taken_out_of_the_table_is_missed(run: Run, home: Path) -> None:
-    run(SHORT)
+def test_a_row_that_was_taken_out_of_the_table_is_missed(played: Path, home: Path) -> None:
     table = pd.read_csv(home / "results.csv")
     table.drop(index=1).to_csv(home / "results.csv", index=False, lineterminator="\n")
     assert "cell 2, seed 1: has no result, and was played to its end again" in check(home)
