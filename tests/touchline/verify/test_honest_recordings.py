@@ -112,6 +112,15 @@ def honest(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     return path
 
 
+@pytest.fixture(scope="module")
+def officiated(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Path:
+    """A match in which people decide."""
+    match, options = KINDS["people who officiate"]
+    path = tmp_path_factory.mktemp("officiated") / "match.mcap"
+    match_recorder(path, load_match(None, {"seed": 4, **TWO_A_SIDE, **match}), **options)
+    return path
+
+
 def test_it_is_identical_with_its_referee(honest: Path) -> None:
     verdict = verify(honest)
     assert verdict.difference is None and not verdict.contradictions
@@ -126,8 +135,8 @@ def test_it_is_identical_from_each_of_its_starts(honest: Path) -> None:
         assert (result.difference, result.ticks) == (None, len(segment.ticks))
 
 
-def test_a_part_of_it_is_identical_where_it_can_be_simulated(honest: Path, tmp_path: Path) -> None:
-    filter_recording(open_recording(honest), tmp_path / "part.mcap", start=1.0)
+def test_a_part_of_it_is_identical_where_it_can_be_simulated(officiated: Path, tmp_path: Path) -> None:
+    filter_recording(open_recording(officiated), tmp_path / "part.mcap", start=1.0)
     part = open_recording(tmp_path / "part.mcap")
     assert not record_faults(part)
     if list(tick_index_of(part).segments(0, 0)):
@@ -139,26 +148,24 @@ def recorded_kinds(path: Path) -> set[str]:
     return {event.kind.value for _, event in open_recording(path).decoded("game/event")}
 
 
-def test_the_recordings_have_what_they_are_made_for(tmp_path: Path, match_recorder: Callable[..., None]) -> None:
-    match, options = KINDS["people who officiate"]
-    match_recorder(tmp_path / "people.mcap", load_match(None, {"seed": 4, **TWO_A_SIDE, **match}), **options)
-    recording = open_recording(tmp_path / "people.mcap")
-    assert {"action", "goal", "card", "restart", "start"} <= recorded_kinds(recording.path)
+def test_the_recordings_have_what_they_are_made_for(officiated: Path) -> None:
+    recording = open_recording(officiated)
+    assert {"action", "goal", "card", "restart", "start"} <= recorded_kinds(officiated)
     assert sum(len(applied.actions) for _, applied in recording.decoded("host/applied")) == 11
     states = [state for _, state in recording.decoded("game/state")]
     assert states[-1].robots["cyan2"].off_field is OffField.RED_CARD
 
 
-def test_without_the_match_file_the_setup_has_the_referees_settings(honest: Path, rewritten) -> None:
+def test_without_the_match_file_the_setup_has_the_referees_settings(officiated: Path, rewritten) -> None:
     def without(name: str, fields: dict[str, str]) -> dict[str, str]:
         return {key: value for key, value in fields.items() if (name, key) != ("manifest", "config")}
 
-    verdict = verify(rewritten(honest, lambda messages: messages, metadata=without))
+    verdict = verify(rewritten(officiated, lambda messages: messages, metadata=without))
     assert verdict.identical and verdict.referee
 
 
-def test_a_recording_of_some_keys_is_identical_and_the_others_are_named(honest: Path, tmp_path: Path) -> None:
-    recording: Recording = open_recording(honest)
+def test_a_recording_of_some_keys_is_identical_and_the_others_are_named(officiated: Path, tmp_path: Path) -> None:
+    recording: Recording = open_recording(officiated)
     filter_recording(recording, tmp_path / "some.mcap", KeySelection(("world", "host/applied")))
     verdict = verify(tmp_path / "some.mcap")
     assert verdict.identical
@@ -205,8 +212,8 @@ def test_a_recording_of_several_parts_and_its_copy_are_identical(parts: list[Pat
         assert verdict.identical and verdict.referee and verdict.ticks == 451
 
 
-def test_a_recovered_recording_is_identical_up_to_its_end(honest: Path, tmp_path: Path) -> None:
-    content = honest.read_bytes()
+def test_a_recovered_recording_is_identical_up_to_its_end(officiated: Path, tmp_path: Path) -> None:
+    content = officiated.read_bytes()
     path = tmp_path / "cut.mcap"
     path.write_bytes(content[: len(content) * 3 // 4])
     recover(path)

@@ -76,7 +76,7 @@ def faster(fields):
     return fields
 
 
-@pytest.mark.parametrize("tick", [1, 200, 261, 512])
+@pytest.mark.parametrize("tick", [1, 261])
 def test_one_bit_of_one_input_is_caught_at_its_tick(operated: Path, edited, at_tick, tick: int) -> None:
     result = run(edited(operated, "host/applied", at_tick(tick, faster)), "--jobs", "1")
     assert result.exit_code == 1
@@ -86,20 +86,6 @@ def test_one_bit_of_one_input_is_caught_at_its_tick(operated: Path, edited, at_t
     )
     assert said[1].startswith("  input of cyan2: drive.vx is ") and "in its command" in said[1]
     assert f"identical before that: {tick} ticks" in said
-
-
-@pytest.mark.slow
-def test_one_bit_of_one_command_is_caught_at_the_tick_it_was_applied_in(operated: Path, edited) -> None:
-    def edit(fields):
-        if fields["answers_tick"] == 199:
-            fields["drive"]["omega"] = ulp(fields["drive"]["omega"])
-        return fields
-
-    verdict = verify(edited(operated, "robot/magenta2/command", edit))
-    assert verdict.difference is not None and verdict.difference.tick == 200
-    (detail,) = verdict.difference.details
-    assert (detail.of, detail.field) == ("input of magenta2", "drive.omega")
-    assert detail.by == pytest.approx(0.0, abs=1e-12) and detail.by > 0
 
 
 @pytest.mark.slow
