@@ -10,7 +10,6 @@ from recordings.reading.recording import open_recording
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
 TEAM = """
-import time
 from touchline import Command
 
 class Still:
@@ -23,20 +22,6 @@ class Still:
 class Raises(Still):
     def act(self, sight):
         raise ValueError("no plan")
-
-class HalfRaises(Still):
-    def act(self, sight):
-        return None if self.robot == "cyan1" else super().act(sight)
-
-class Constant(Still):
-    def act(self, sight):
-        return Command(answers_tick=0) if self.robot == "cyan1" else super().act(sight)
-
-class Slow(Still):
-    def act(self, sight):
-        if self.robot == "cyan1" and sight.tick < 30:
-            time.sleep(0.12)
-        return super().act(sight)
 """
 
 
@@ -68,28 +53,6 @@ def test_a_team_whose_robots_all_fail_at_once_ends_the_match_with_the_reason_and
     assert f"no robot of Lions (cyan) is left; cyan1: {fault}; logs are in runs/" in line
     (recording,) = tmp_path.glob("runs/*/match.mcap")
     assert open_recording(recording).complete
-
-
-def test_a_team_that_has_lost_one_robot_plays_on(play):
-    program = play("HalfRaises")
-    assert program.status() == 0, program.err
-    assert program.out.count("cyan1 failed at its first sight; not started again") == 1
-    assert "Lions 0 : 0 Tigers" in program.out
-
-
-def test_an_agent_that_answers_one_tick_for_ever_is_named_and_does_not_hold_the_match(play):
-    program = play("Constant", 4.0)
-    assert program.status() == 0, program.err
-    assert "cyan1 does not answer, its robot stops: answers tick 0, the match is at " in program.out
-    assert "; use sight.tick" in program.out
-
-
-def test_a_slow_brain_is_named_with_its_figure(play):
-    program = play("Slow")
-    assert program.status() == 0, program.err
-    (line,) = [line for line in program.out.splitlines() if line.startswith("cyan1 takes ")]
-    assert int(line.split()[2]) >= 120
-    assert "make its act faster, or play with --pace realtime" in line
 
 
 def test_a_recorder_without_a_host_reports_that_it_waits_and_can_be_interrupted(start, tmp_path):

@@ -111,9 +111,3 @@ def test_a_remote_team_may_be_a_program_of_lines(run: Run, tmp_path: Path) -> No
     assert (match.status(), team.status()) == (0, 0), (match.err, team.err, team.out)
     (log,) = tmp_path.glob("runs/cup-magenta-*/magenta1.log")
     assert log.read_text() == "briefed magenta1\n"
-
-
-def test_a_program_of_lines_that_does_not_exist_is_one_line(run: Run) -> None:
-    team = run("team", "magenta", "--connect", "tcp/127.0.0.1:9", "--stdio", "nobody robot.py")
-    assert team.status() == 2
-    assert team.err.startswith('touchline: --stdio begins with "nobody", which is not a program here or in the current')

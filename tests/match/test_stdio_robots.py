@@ -38,13 +38,6 @@ def test_a_robot_whose_program_crashes_is_started_again_and_the_crash_is_named(t
     assert "robot.py` was ended by SIGSEGV at tick 60" in played.printed
 
 
-def test_a_program_that_ends_at_its_first_sight_is_not_started_again(tmp_path: Path) -> None:
-    played = StdioMatch(tmp_path, "sys.exit(4)").play()
-    assert played.status == 1
-    assert "cyan1 failed at its first sight; not started again" in played.printed
-    assert "ended with status 4 at tick 0" in played.printed
-
-
 def test_garbage_is_named_in_the_robots_log_and_the_match_goes_on(tmp_path: Path) -> None:
     played = StdioMatch(tmp_path, "print('ball?', sight['ball'] is not None)\nprint('{\"answers_tick\": NaN}')").play()
     assert played.is_whole()
@@ -61,16 +54,3 @@ def test_a_program_is_confined_as_its_agent_is(open_folder: Path) -> None:
     played = StdioMatch(open_folder, body, top='isolate = "bubblewrap"').play()
     assert played.is_whole()
     assert f"{played.run / 'cyan1'} True False" in played.log("cyan1")
-
-
-def test_a_program_that_does_not_exist_is_one_line_before_the_launch(tmp_path: Path) -> None:
-    match = StdioMatch(tmp_path, "pass")
-    file = match.folder / "match.toml"
-    file.write_text(file.read_text().replace("robot.py", "robot7.py"))
-    played = match.play()
-    assert played.status == 2
-    assert played.printed == (
-        f'touchline: teams.cyan.stdio names "robot7.py", which is not in the current directory ({tmp_path}); '
-        "put the file there\n"
-    )
-    assert not (tmp_path / "runs").exists()

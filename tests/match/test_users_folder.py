@@ -56,20 +56,6 @@ def test_a_brain_is_found_beside_the_match_file_from_another_directory(start, cu
     assert "not started again" not in program.out
 
 
-def test_a_match_in_one_process_finds_its_brains_beside_its_file(start, cup, tmp_path):
-    (tmp_path / "play.py").write_text(
-        "from pathlib import Path\n"
-        "from touchline import load_match, play_match\n"
-        f"cup = Path({str(cup)!r})\n"
-        "outcome = play_match(load_match(cup / 'match.toml'), brain_folder=cup)\n"
-        "print(outcome.ticks > 0)\n"
-    )
-    program = start("play", folder=tmp_path)
-    assert program.status() == 0, program.err
-    assert program.out == "True\n"
-    assert program.err == ""
-
-
 def _with_current_directory() -> str:
     """A PYTHONPATH with an empty entry, which means the current directory; `PYTHONPATH=$PYTHONPATH:/lib` makes one."""
     return ":".join(["", *(entry for entry in sys.path if entry)])

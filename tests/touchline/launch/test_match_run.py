@@ -3,7 +3,6 @@
 import io
 import signal
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -15,12 +14,12 @@ from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
 from schemas.process.clock import WallClock
 from schemas.topics import EVENT, STATE
-from touchline.launch import match_run
+from touchline.launch import match_run, recording_outcome
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.processes import MatchPlan
 from touchline.launch.result import MatchResult
-from touchline.watch.screen import PlainScreen
+from touchline.watch.screen import Screen
 
 pytestmark = pytest.mark.processes
 
@@ -57,14 +56,9 @@ WRONG = "import sys; sys.stderr.write('pybullet says hello\\ntouchline: profile 
 RESTS = "import signal; signal.pause()"
 CRASHES = "import sys; sys.exit('brain raised')"
 RECORDS = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_bytes(b'recorded')"
-BREAKS_OFF = (
-    "import os, pathlib, signal, sys; pathlib.Path(sys.argv[1]).write_bytes(b'so far');"
-    "os.kill(os.getpid(), signal.SIGKILL)"
-)
-LOSES = "import sys; sys.exit('disk full')"
 
 
-class WatchedScreen(PlainScreen):
+class WatchedScreen(Screen):
     """Leaves a file for the host when play is seen and `awaited` was printed, so that its next lines come in time."""
 
     def __init__(self, words: io.StringIO, clock: WallClock, seen: Path, awaited: str) -> None:
@@ -102,11 +96,12 @@ class Stage:
         ]
         monkeypatch.setattr(match_run, "host_process", lambda plan: host)
         monkeypatch.setattr(match_run, "client_processes", lambda plan: clients)
+        monkeypatch.setattr(recording_outcome, "losses_of", lambda plan: {"world": 2})
 
-    def play(self, awaited: str = "", published: Sequence[ReceivedMessage] = ()) -> MatchResult:
+    def play(self, awaited: str = "") -> MatchResult:
         clock = WallClock()
         screen = WatchedScreen(self.words, clock, self.plan.folder / "seen", awaited)
-        return MatchRun(self.plan, screen, clock, lambda plan: {"world": 2}, lambda plan: published).play()
+        return MatchRun(self.plan, screen, clock).play()
 
 
 def stage(
@@ -188,27 +183,12 @@ def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_what_the_ho
         for number, (topic, message) in enumerate([(EVENT, goal), (EVENT, end), (STATE, over)])
     ]
     match = stage(tmp_path, monkeypatch, CUT_SHORT)
-    result = match.play(published=published)
+    monkeypatch.setattr(match_run, "published_by", lambda plan: published)
+    result = match.play()
     assert (result.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
     assert [event.text for event in result.events] == ["goal by cyan3", "full time"]
     assert match.words.getvalue().count("goal by cyan3") == 1
     assert "full time" in match.words.getvalue()
-
-
-def test_a_match_whose_recording_is_lost_has_its_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    result = stage(tmp_path, monkeypatch, FULL_TIME, recorder=LOSES).play()
-    assert (result.score.cyan, result.ticks) == (1, 21)
-    assert result.recording.path is None
-    assert f"the recording {tmp_path / 'match.mcap'} is lost: disk full" in result.recording.fault
-
-
-def test_what_a_recorder_has_left_unfinished_is_named_with_its_remedy(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    result = stage(tmp_path, monkeypatch, FULL_TIME, recorder=BREAKS_OFF).play()
-    assert result.recording.path == tmp_path / "match.mcap"
-    assert "the recorder was ended by SIGKILL" in result.recording.fault
-    assert "recorder.log" in result.recording.fault
 
 
 def test_ctrl_c_ends_all_processes_and_is_passed_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,6 +1,11 @@
+import signal
 from pathlib import Path
 
-from touchline.launch.recording_outcome import finished_recording, unfinished_recording
+import pytest
+
+from schemas.config.match_config import load_match
+from touchline.launch.processes import MatchPlan
+from touchline.launch.recording_outcome import finished_recording, outcome_of, unfinished_recording
 
 PATH, LOG = Path("runs/a/match.mcap"), Path("runs/a/recorder.log")
 
@@ -38,3 +43,16 @@ def test_a_recording_of_which_nothing_is_left_is_lost() -> None:
     assert outcome.fault == (
         "the recording runs/a/match.mcap is lost: no host answers there; the recorder's log is runs/a/recorder.log"
     )
+
+
+@pytest.mark.parametrize(
+    ("status", "fault"),
+    [
+        (1, "runs/a/match.mcap is lost: disk full;"),
+        (-signal.SIGKILL, "runs/a/match.mcap is lost: the recorder was ended by SIGKILL;"),
+        (0, "runs/a/match.mcap is lost: it is missing;"),
+    ],
+)
+def test_what_a_recorder_ended_with_is_the_reason(status: int, fault: str) -> None:
+    plan = MatchPlan(load_match(None), None, PATH.parent, PATH)
+    assert fault in outcome_of(plan, status, ["touchline: disk full"]).fault

@@ -1,7 +1,7 @@
 import io
 
 from schemas.process.clock import SteppedClock
-from touchline.watch.screen import LiveScreen, PlainScreen, screen_for
+from touchline.watch.screen import LiveScreen, Screen, screen_for
 
 
 class Terminal(io.StringIO):
@@ -10,13 +10,13 @@ class Terminal(io.StringIO):
 
 
 def test_a_pipe_gets_plain_lines_and_a_terminal_a_live_one() -> None:
-    assert isinstance(screen_for(io.StringIO(), SteppedClock()), PlainScreen)
+    assert isinstance(screen_for(io.StringIO(), SteppedClock()), Screen)
     assert isinstance(screen_for(Terminal(), SteppedClock()), LiveScreen)
 
 
 def test_plain_status_lines_come_every_five_seconds_and_events_at_once() -> None:
     out, clock = io.StringIO(), SteppedClock()
-    with PlainScreen(out, clock) as screen:
+    with Screen(out, clock) as screen:
         for second in range(11):
             clock.sleep_until(float(second))
             screen.status(f"status at {second}")
