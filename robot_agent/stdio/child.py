@@ -11,7 +11,7 @@ import signal
 import struct
 import subprocess
 import termios
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 
 from robot_agent.stdio.lines import Line, LineSplitter
@@ -28,14 +28,12 @@ _NOT_PASSED = ("TOUCHLINE_CONNECT", "TOUCHLINE_LAUNCH_TOKEN", "TOUCHLINE_CREDENT
 class Child:
     """One running program."""
 
-    def __init__(self, command: Sequence[str], environment: Mapping[str, str] | None = None) -> None:
-        """`environment` is added to this process's."""
-        inherited = {name: value for name, value in os.environ.items() if name not in _NOT_PASSED}
+    def __init__(self, command: Sequence[str]) -> None:
         self._popen = subprocess.Popen(
             [*leashed({}), *command],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            env={**inherited, **(environment or {})},
+            env={name: value for name, value in os.environ.items() if name not in _NOT_PASSED},
             bufsize=0,
         )
         assert self._popen.stdin is not None and self._popen.stdout is not None

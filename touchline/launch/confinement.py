@@ -13,7 +13,6 @@ from schemas.side import Side
 from touchline.launch.bubblewrap import NOBODY, bubblewrap, check_bubblewrap
 from touchline.launch.robot_environment import robot_environment
 from touchline.launch.team_code import are_rivals, interpreter_folders, share_a_folder, system_folders, team_code
-from touchline.launch.user_tasks import tasks_of_user
 
 _GRACE_S = 5
 """CPU time in s from the signal SIGXCPU to SIGKILL."""
@@ -123,7 +122,7 @@ def team_confinements(config: MatchConfig, beside_match: Path | None, runs: Path
     """
     is_isolated = config.isolate is Isolation.BUBBLEWRAP
     user = NOBODY if is_isolated and os.geteuid() == 0 else os.geteuid()
-    others = tasks_of_user(user) if user else 0  # the kernel does not limit root
+    others = _tasks_of_user(user) if user else 0  # the kernel does not limit root
     robots = sum(len(config.robots(side)) for side in config.local_sides)
     confinements = {}
     for side in config.local_sides:
@@ -183,3 +182,12 @@ def team_isolation_note(config: MatchConfig, side: Side, beside: Path | None) ->
     return (
         "robots run as your user: they can read your files and signal your processes; --isolate bubblewrap prevents it"
     )
+
+
+def _tasks_of_user(user: int) -> int:
+    """The number of processes and threads of a user, as the kernel counts them for RLIMIT_NPROC."""
+    found = 0
+    for task in Path("/proc").glob("[0-9]*/task/*"):
+        with suppress(OSError):  # it has ended
+            found += task.stat().st_uid == user
+    return found

@@ -4,7 +4,6 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +30,6 @@ def run_plan(
     progress: Progress | None = None,
     *,
     is_remote: bool = False,
-    at_once: int | None = None,
 ) -> dict[str, Outcome]:
     """Play due matches until none is left; returns all outcomes, including earlier ones.
 
@@ -45,7 +43,6 @@ def run_plan(
         sentence_of: is called with each match that has ended, and returns what is shown of it.
         progress: shows how far the run is.
         is_remote: the workers do not see the folder of the run.
-        at_once: most matches that the executor is given at a time; None for all that are due.
     """
     if store is not None:
         store.forget_lost()
@@ -59,9 +56,9 @@ def run_plan(
         if progress is not None:
             failed = sum(isinstance(one, Failed) for one in outcomes.values())
             progress.planned(len(outcomes), len(due), failed)
-        waiting = (one for one in due if one.identity not in begun)
-        for planned in islice(waiting, None if at_once is None else at_once - len(running)):
-            running[_submitted(planned, executor, folder if is_remote else None)] = planned
+        for planned in due:
+            if planned.identity not in begun:
+                running[_submitted(planned, executor, folder if is_remote else None)] = planned
         if not running:
             return outcomes
         done = wait(running, return_when=FIRST_COMPLETED).done

@@ -54,11 +54,11 @@ class MatchCheck:
     """The outcome as its recording shows it, or of the match that was played again; None without either."""
 
 
-def sampled(matches: list[PlannedMatch], number: int | None, seed: int = 1) -> list[PlannedMatch]:
+def sampled(matches: list[PlannedMatch], number: int | None) -> list[PlannedMatch]:
     """So many of the matches, drawn at random; all without a number."""
     if number is None or number >= len(matches):
         return matches
-    drawn = set(random.Random(seed).sample(range(len(matches)), number))
+    drawn = set(random.Random(1).sample(range(len(matches)), number))
     return [one for place, one in enumerate(matches) if place in drawn]
 
 

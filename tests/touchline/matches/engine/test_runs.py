@@ -71,7 +71,7 @@ def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_
     ]
     for number, (executor, is_remote) in enumerate(executors):
         with executor, RunStore(tmp_path / str(number)) as store:
-            results.append(bytes_of(run_plan(plan, executor, store, Log(), is_remote=is_remote, at_once=8)))
+            results.append(bytes_of(run_plan(plan, executor, store, Log(), is_remote=is_remote)))
     assert all(result == results[0] for result in results)
     assert len(results[0]) == 2
 
@@ -129,7 +129,7 @@ def test_a_match_whose_process_ends_costs_itself_alone(
 ) -> None:
     lost = PlannedMatch(match_of(magenta=brain), brain_folder=folder, label="lost")
     with FreshProcesses(2) as executor:
-        outcomes = run_plan(ListPlan((lost, *matches(match_of, folder, 2))), executor, None, Log(), at_once=2)
+        outcomes = run_plan(ListPlan((lost, *matches(match_of, folder, 2))), executor, None, Log())
     assert [isinstance(one, Played) for one in outcomes.values()].count(True) == 2
     failed = outcomes[lost.identity]
     assert isinstance(failed, Failed)
@@ -221,7 +221,7 @@ def test_two_processes_do_not_play_the_same_run(tmp_path: Path) -> None:
 def _play_in_child(plan: ListPlan, folder: Path) -> None:
     os.setpgrp()
     with ThreadPoolExecutor(1) as executor, RunStore(folder) as store:
-        run_plan(plan, executor, store, Log(), at_once=1)
+        run_plan(plan, executor, store, Log())
 
 
 def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
@@ -241,7 +241,7 @@ def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
             os.kill(child.pid, signal.SIGKILL)
         child.join()
     with ThreadPoolExecutor(1) as executor, RunStore(tmp_path / "killed") as store:
-        assert bytes_of(run_plan(plan, executor, store, Log(), at_once=1)) == wanted
+        assert bytes_of(run_plan(plan, executor, store, Log())) == wanted
 
 
 def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(
