@@ -186,23 +186,6 @@ def test_a_replay_with_a_page_is_sought_and_paused_from_it_and_leaves_nothing(
     assert not is_served(address)
 
 
-def test_a_port_that_is_taken_is_named_before_anything_is_launched(
-    start: Callable[..., Any], config: Path, tmp_path: Path
-) -> None:
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
-        port = taken.getsockname()[1]
-        words = ("--listen", with_free_port("tcp/127.0.0.1:0"), "--web", "--web-port", str(port))
-        match = start("touchline", "match", str(config), *words, folder=tmp_path)
-        assert match.status() == 2
-    assert match.err == (
-        f"touchline: the page cannot be served on 127.0.0.1 port {port} (Address already in use); "
-        "choose another port, or 0 for a free one\n"
-    )
-    assert not (tmp_path / "runs").exists()
-
-
 NO_WEB = """
 from importlib.machinery import PathFinder
 find = PathFinder.find_spec

@@ -14,7 +14,6 @@ pytestmark = pytest.mark.processes
 
 BRAIN = """
 import os, signal, sys, threading
-from touchline import Command as Imported
 
 class Striker:
     def __init__(self, briefing):
@@ -22,13 +21,6 @@ class Striker:
         assert os.environ["TOUCHLINE_SIDE"] == briefing.side.value
         print("ready")
 
-    def act(self, sight): ...
-
-def act(sight): ...
-Alias = Striker
-
-class Unbriefed:
-    def __init__(self): ...
     def act(self, sight): ...
 
 class Mapped(Striker):
@@ -55,8 +47,6 @@ class Hangs(Striker):
 def brains_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("my_team.py").write_text(BRAIN)
-    Path("broken_team.py").write_text("class Striker(:\n")
-    Path("loud_team.py").write_text("raise SystemExit('no licence')\nclass Striker: ...\n")
 
 
 def check(key: str, value: object, brain_folder: Path | None = None, **more: object) -> list[str]:
@@ -69,7 +59,7 @@ def check(key: str, value: object, brain_folder: Path | None = None, **more: obj
     return reported
 
 
-@pytest.mark.parametrize("name", ["Striker", "act", "Alias", "Threaded"])
+@pytest.mark.parametrize("name", ["Striker", "Threaded"])
 def test_a_brain_that_can_be_built_is_accepted_without_a_line(name: str) -> None:
     assert check("teams.cyan.brain", f"my_team:{name}") == []
 
@@ -84,13 +74,7 @@ def test_a_brain_is_not_loaded_into_this_process(monkeypatch: pytest.MonkeyPatch
     ("brain", "sentence"),
     [
         ("my_taem:Striker", r'there is no module my_taem in the current directory \(/.*\); did you mean "my_team"\?$'),
-        ("my_team:Strikr", r'my_team has no Strikr; did you mean "Striker"\?'),
-        ("my_team.deep:Striker", "there is no module my_team.deep; my_team has no modules"),
-        ("broken_team:Striker", r"broken_team\.py, line 1"),
-        ("loud_team:Striker", r"importing loud_team raised SystemExit: no licence \(loud_team\.py, line 1\)"),
-        ("my_team:Unbriefed", r"Unbriefed.__init__ \(my_team\.py, line 17\) .*; write def __init__\(self, briefing\)$"),
-        ("my_team:Mapped", r"Mapped\(briefing\) raised KeyError: 3 \(my_team\.py, line 22\) for magenta3$"),
-        ("my_team:Imported", r"Command .*has no method act\(self, sight\); write one$"),
+        ("my_team:Mapped", r"Mapped\(briefing\) raised KeyError: 3 \(my_team\.py, line 14\) for magenta3$"),
         ("my_team:Crashes", r"the process that builds it was ended by SIGSEGV: no graphics card$"),
     ],
 )
