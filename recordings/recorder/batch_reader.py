@@ -1,26 +1,102 @@
-"""Reads the batches of a host from the bus, in order.
+"""Reads the batches of a host from the bus, in order, and the messages in them.
 
 Missing batches are requested until they arrive, until the host no longer keeps them, or until `GIVE_UP_S` have passed
 without progress.
 """
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
 
-from recordings.recorder.batch_sequence import BatchSequence
-from schemas.bus.contract import Bus, NoReplyError, PendingReply
-from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
+from recordings.recorder.latched_messages import LoggedMessage
+from recordings.timing import QUIET_S, REPEAT_S, REPLY_S
+from schemas.bus.contract import Bus, NoReplyError, PendingReply, ReceivedMessage, Stamp
+from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.process.active_clock import ActiveClock
 from schemas.process.timing import GIVE_UP_S
-from schemas.topics import RECORD_BATCH, RECORD_BATCHES
+from schemas.topic import Party, Topic
+from schemas.topics import RECORD_BATCH, RECORD_BATCHES, SIGHT, TOPICS
 from schemas.wire.message import BadMessageError
 
-REPLY_S = 1.0
-"""Wall time after which a request without a reply is repeated."""
-REPEAT_S = 0.2
-"""Wall time between a reply without a missing batch and the next request."""
-QUIET_S = 0.5
-"""Wall time without a batch after which newer ones are requested: the last batch may have been lost."""
+_RECORDED = tuple(topic for topic in TOPICS.values() if topic.recorded or topic is SIGHT)
+
+
+@lru_cache(1024)
+def _topic_of(key: str) -> Topic | None:
+    """The topic of a key; None if it is not recorded."""
+    return next((topic for topic in _RECORDED if topic.match(key) is not None), None)
+
+
+class BatchSequence:
+    """The batches of one host, and of the host that follows it."""
+
+    def __init__(self, since_ns: int) -> None:
+        """Batches before the first received one are only missing if published after `since_ns` (wall time)."""
+        self.since_ns = since_ns
+        self.ready: deque[RecordBatch] = deque()
+        """Batches in order, to be removed from the left."""
+        self.lost = 0
+        """Batches that were given up."""
+        self.stream: int | None = None
+        """The stream of the host whose batches are read; None before the first batch."""
+        self.expected = 0
+        """Number of the next batch."""
+        self._first = 0
+        """Number of the first received batch of this host: missing ones before it may be older than `since_ns`."""
+        self._held: dict[int, RecordBatch | None] = {}
+        """Batches behind a gap; None for one that cannot be read."""
+
+    def add(self, batch: RecordBatch) -> None:
+        """Add a received batch."""
+        if batch.stream != self.stream:
+            self._follow(batch)
+        if batch.number >= self.expected:
+            self._held[batch.number] = batch
+            self._advance()
+
+    def missing(self) -> RecordBatchesRequest | None:
+        """The request for the first gap, or None."""
+        if not self._held:
+            return None
+        since_ns = self.since_ns if self.expected < self._first else 0
+        return RecordBatchesRequest(first=self.expected, last=min(self._held) - 1, since_ns=since_ns)
+
+    def add_requested(self, batches: Iterable[tuple[int, RecordBatch | None]], oldest: int) -> None:
+        """Add requested batches: number, and batch, or None if it is not valid.
+
+        The host keeps none with a number below `oldest`: missing ones there are given up.
+        """
+        for number, batch in batches:
+            if number >= self.expected:
+                self._held.setdefault(number, batch)
+        self._advance()
+        if self.expected < oldest and self._held:
+            self._skip_to(min(oldest, min(self._held)))
+
+    def skip_missing(self) -> None:
+        """Give up all missing batches."""
+        while self._held:
+            self._skip_to(min(self._held))
+
+    def _follow(self, batch: RecordBatch) -> None:
+        self.skip_missing()
+        self.stream, self._first = batch.stream, batch.number
+        self.expected = 0 if batch.sent_ns >= self.since_ns else batch.number
+
+    def _skip_to(self, number: int) -> None:
+        self.lost += max(0, number - max(self.expected, self._first))
+        self.expected = number
+        self._advance()
+
+    def _advance(self) -> None:
+        held = self._held
+        while self.expected in held:
+            batch = held.pop(self.expected)
+            self.expected += 1
+            if batch is None:
+                self.lost += 1
+            else:
+                self.ready.append(batch)
 
 
 class BatchReader:
@@ -83,14 +159,14 @@ class BatchReader:
         sequence = self._sequence
         missing = sequence.missing()
         if missing is not None:
-            request = RecordBatchesRequest(first=missing.first, last=missing.last, since_ns=missing.since_ns)
-            self._request(missing.stream, request, now)
+            self._request(missing, now)
         elif now - max(self._received_at, self._requested_at) >= QUIET_S and self._bus.connected():
             since_ns = sequence.since_ns if sequence.stream is None else 0
-            self._request(sequence.stream, RecordBatchesRequest(first=sequence.expected, since_ns=since_ns), now)
+            self._request(RecordBatchesRequest(first=sequence.expected, since_ns=since_ns), now)
 
-    def _request(self, stream: int | None, request: RecordBatchesRequest, now: float) -> None:
-        self._requested_stream, self._requested_first, self._requested_at = stream, request.first, now
+    def _request(self, request: RecordBatchesRequest, now: float) -> None:
+        self._requested_stream, self._requested_first = self._sequence.stream, request.first
+        self._requested_at = now
         self._pending = self._bus.query(RECORD_BATCHES, request, REPLY_S, droppable=True)
 
     def _process_reply(self, now: float) -> None:
@@ -128,3 +204,47 @@ class BatchReader:
         except BadMessageError:
             self.unreadable += 1
             return None
+
+
+class Unbatcher:
+    """Extracts the messages of batches, in order.
+
+    The log time of a message is the host's simulated time when it published or received the message; it never runs
+    backward.
+    """
+
+    def __init__(self, *, sights: bool = False, begins_ns: int = 0) -> None:
+        """Without `sights`, sights are skipped. Messages before the log time `begins_ns` are skipped, too."""
+        self._sights, self._begins_ns = sights, begins_ns
+        self._log_ns = 0
+
+    def messages_of(self, batch: RecordBatch) -> list[LoggedMessage]:
+        """The messages of a batch, in order; keys of no recorded topic are skipped.
+
+        Raises:
+            BadMessageError: an entry cannot be read.
+        """
+        found = []
+        log_ns, sights = self._log_ns, self._sights
+        for entry in batch.entries:
+            key, number = entry.key, entry.sequence
+            topic = _topic_of(key)
+            if topic is None or (topic is SIGHT and not sights):
+                continue
+            moment = entry.sim_ns if topic.writer is Party.HOST else entry.arrived_sim_ns
+            if moment > log_ns:
+                log_ns = moment
+            if log_ns < self._begins_ns:
+                continue
+            payload = bytes(entry.message) if entry.octets is None else _octets(entry)
+            stamp = Stamp(number, entry.sent_ns, entry.sim_ns) if number is not None else None
+            found.append((log_ns, ReceivedMessage(topic, key, payload, stamp, entry.arrived_ns)))
+        self._log_ns = log_ns
+        return found
+
+
+def _octets(entry: BatchEntry) -> bytes:
+    try:
+        return entry.payload
+    except ValueError as error:
+        raise BadMessageError(f"RecordBatch: octets of {entry.key}: {error}") from None

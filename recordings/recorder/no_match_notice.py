@@ -2,11 +2,9 @@
 
 from collections.abc import Callable
 
+from recordings.timing import NO_MATCH_S
 from schemas.bus.contract import Bus
 from schemas.bus.host_watch import HostWatch
-
-_AFTER_S = 3.0
-"""Wall time without the match after which that is reported."""
 
 
 class NoMatchNotice:
@@ -15,7 +13,7 @@ class NoMatchNotice:
     def __init__(self, bus: Bus, report: Callable[[str], None]) -> None:
         self._match, self._clock, self._report = bus.match, bus.clock, report
         self._host = HostWatch(bus)
-        self._due_at = self._clock.now() + _AFTER_S
+        self._due_at = self._clock.now() + NO_MATCH_S
         self._is_done = False
 
     def around(self, should_stop: Callable[[], bool]) -> Callable[[], bool]:

@@ -3,10 +3,8 @@
 Each poll loads the recorder's code into caches that host and robots have used since the last one.
 """
 
+from recordings.timing import POLL_S
 from schemas.recovery_window import REST_TICKS
-
-_MAX_S = 0.2
-"""Longest wall time between two polls: progress is reported and the file written at least this often."""
 
 
 class PollInterval:
@@ -19,4 +17,4 @@ class PollInterval:
         """Wall time of the next poll in s, after a poll at `now` that has read up to this tick."""
         came, since = tick - self._tick, now - self._polled_at
         self._tick, self._polled_at = tick, now
-        return now + (min(_MAX_S, REST_TICKS * since / came) if came > 0 else _MAX_S)
+        return now + (min(POLL_S, REST_TICKS * since / came) if came > 0 else POLL_S)

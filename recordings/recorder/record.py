@@ -11,6 +11,7 @@ from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
+from recordings.timing import HOST_ANSWER_S, HOST_PATIENCE_S
 from schemas.access.accounts import Account
 from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.zenoh.bus import ZenohBus, open_client
@@ -19,11 +20,6 @@ from schemas.messages.record_batch import RecordBatchesReply, RecordBatchesReque
 from schemas.process.clock import WallClock
 from schemas.topics import RECORD_BATCHES
 from schemas.wire.message import BadMessageError
-
-_ASK_S = 2.0
-"""Wall time in which a host answers which it is."""
-_IDENTITY_S = 10.0
-"""The same where there are parts already: without it a recorder does not know its own, and ends."""
 
 
 def record(
@@ -48,7 +44,7 @@ def record(
     if client is None:
         return None
     with client as bus:
-        host = _stream_of_host(bus, _IDENTITY_S if parts_of(settings.out) else _ASK_S)
+        host = _stream_of_host(bus, HOST_PATIENCE_S if parts_of(settings.out) else HOST_ANSWER_S)
         earlier = read_earlier_parts(settings.out, host)
         if earlier.result is not None and earlier.result.ended is EndReason.FULL_TIME:
             return RecordingSummary(earlier.files, sum(file.stat().st_size for file in earlier.files), earlier.result)
@@ -74,8 +70,10 @@ def _stream_of_host(bus: Bus, patience: float) -> int:
     limit = bus.clock.now() + patience
     while bus.clock.now() < limit:
         try:
-            payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), _ASK_S).payload(_ASK_S)
+            payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), HOST_ANSWER_S).payload(
+                HOST_ANSWER_S
+            )
             return RecordBatchesReply.decode(payload).stream
         except (NoReplyError, BadMessageError):
-            bus.clock.sleep_until(bus.clock.now() + _ASK_S / 10)
+            bus.clock.sleep_until(bus.clock.now() + HOST_ANSWER_S / 10)
     return 0

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
-from recordings.recorder.batch_reader import BatchReader
+from recordings.recorder.batch_reader import BatchReader, Unbatcher
 from recordings.recorder.earlier_parts import EarlierParts
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.part_sink import PartSink
@@ -16,7 +16,7 @@ from recordings.recorder.poll_interval import PollInterval
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
-from recordings.recorder.unbatch import Unbatcher
+from recordings.timing import DRAINED_S, HOST_PATIENCE_S, RECOVERY_POLL_S, REPORT_S
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.host_watch import HostWatch
 from schemas.config.match_config import MatchConfig
@@ -28,17 +28,6 @@ from schemas.process.timing import RECONNECT_S
 from schemas.recovery_window import REPORT_TICKS
 from schemas.topics import EVENT, RECORD_BATCH, RECORDER_PROGRESS, SETUP
 from schemas.wire.message import BadMessageError
-
-REPORT_S = 0.05
-"""Wall time after which progress is reported in any case."""
-_CHECK_S = 0.05
-"""Wall time between two checks for the end of the match, while the recorder sleeps."""
-_RECOVERY_POLL_S = 0.01
-"""Wall time between two polls while batches are missing."""
-_QUIET_S = 0.25
-"""Wall time without a message after which none is expected any more."""
-_DRAIN_S = 10.0
-"""Most wall time for reading the last messages after the host has left: a host that continues would never end it."""
 
 
 class Recorder:
@@ -101,7 +90,7 @@ class Recorder:
         run_in_idle_time(poll)
         self._host.update()
         stopped = stopped and self._host.is_reachable()
-        self.drain(_QUIET_S if stopped else _DRAIN_S)
+        self.drain(DRAINED_S if stopped else HOST_PATIENCE_S)
         return self.finish(stopped)
 
     def pump(self) -> int:
@@ -116,21 +105,21 @@ class Recorder:
         return count
 
     def drain(self, patience: float) -> None:
-        """Read messages until none has arrived for `_QUIET_S`, for at most `patience` s.
+        """Read messages until none has arrived for `DRAINED_S`, for at most `patience` s.
 
         Without a link, only messages that have already arrived are read.
         """
         if not self._begun:
             self._begin(None)
         limit = self._clock.now() + patience
-        quiet = self._clock.now() + _QUIET_S
+        quiet = self._clock.now() + DRAINED_S
         while self._clock.now() < min(quiet, limit):
             if self.pump():
-                quiet = self._clock.now() + _QUIET_S
+                quiet = self._clock.now() + DRAINED_S
             elif not self._bus.connected():
                 break
             else:
-                self._clock.sleep_until(self._clock.now() + _CHECK_S)
+                self._clock.sleep_until(self._clock.now() + REPORT_S)
         self._read(self._batches.skip_missing())
         self.pump()
 
@@ -139,9 +128,9 @@ class Recorder:
         now = self._clock.now()
         until = self._poll_interval.next_poll(now, self._tick)
         if not self._batches.is_complete:
-            until = min(until, now + _RECOVERY_POLL_S)
+            until = min(until, now + RECOVERY_POLL_S)
         while True:
-            self._clock.sleep_until(min(until, now + _CHECK_S))
+            self._clock.sleep_until(min(until, now + REPORT_S))
             now = self._clock.now()
             stopped = should_stop()
             if stopped or now >= until or not self._begun or self._is_over():

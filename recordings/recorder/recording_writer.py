@@ -20,6 +20,7 @@ from recordings.container.parts import NotWritableError, create_part
 from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
+from recordings.timing import FLUSH_S
 from recordings.viz.drawing import READS
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage
@@ -29,8 +30,6 @@ from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 
-FLUSH_S = 0.5
-"""Wall time in s after which messages are in the file."""
 _BACKLOG = 64
 """Batches that may wait for the thread; adding another one blocks."""
 

@@ -1,15 +1,11 @@
 """Queries the setup of a match from its host before a recording begins."""
 
+from recordings.timing import HOST_PATIENCE_S, SETUP_FIRST_S, SETUP_LONGEST_S
 from schemas.bus.contract import Bus, NoReplyError, PendingReply
 from schemas.bus.host_watch import HostWatch
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.topics import SETUP
 from schemas.wire.message import BadMessageError
-
-_REPEAT_S = (0.1, 1.6)
-"""Wall time until the query is repeated: at first, and at most; it doubles each time."""
-_PATIENCE_S = 10.0
-"""Wall time in which a host that is present may reply; after that the recording begins without the setup."""
 
 
 class SetupQuery:
@@ -19,7 +15,7 @@ class SetupQuery:
         self._bus, self._clock, self._host = bus, bus.clock, host
         self._pending: PendingReply | None = None
         self._sent_at = self._unanswered_since = self._clock.now()
-        self._pause = _REPEAT_S[0]
+        self._pause = SETUP_FIRST_S
         self.setup: Setup | None = None
         """The reply; None without a valid one."""
         self.is_unreadable = False
@@ -29,14 +25,14 @@ class SetupQuery:
         """Whether the host has replied, or has not replied in time; sends the query when it is due."""
         now = self._clock.now()
         if self._pending is None or now - self._sent_at >= self._pause:
-            self._pause = min(2 * self._pause, _REPEAT_S[1])
+            self._pause = min(2 * self._pause, SETUP_LONGEST_S)
             self._pending, self._sent_at = self._bus.query(SETUP, SetupRequest(), self._pause), now
         try:
             self.setup = self._pending.result(0.0)
         except NoReplyError:
             if not self._host.seen:
                 self._unanswered_since = now
-            return now - self._unanswered_since >= _PATIENCE_S
+            return now - self._unanswered_since >= HOST_PATIENCE_S
         except BadMessageError:
             self.is_unreadable = True
         return True

@@ -7,6 +7,7 @@ from typing import Any
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
+from recordings.timing import LATCHED_S, REPLAY_POLL_S, REPLAY_STEP_S
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
 from schemas.messages.game import ActionReply
@@ -19,11 +20,6 @@ from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 from schemas.wire.message import VERSION, BadMessageError, Message
 
-_REPEAT_S = 1.0
-"""Wall time in s after which a paused replay publishes the latched messages again, for new listeners."""
-_SLEEP_S = 0.02
-"""Maximum wall time in s between two checks for queries."""
-_MIN_SLEEP_S = 0.001
 _UNCHANGEABLE = "this is a replay: what is recorded cannot be changed"
 
 _REFUSALS: dict[Topic, Callable[[], Message]] = {
@@ -68,7 +64,7 @@ class ReplayHost:
             meanwhile(self.player)
             if not published:
                 now = self._clock.now()
-                self._clock.sleep_until(now + max(_MIN_SLEEP_S, min(_SLEEP_S, self.player.wait())))
+                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(REPLAY_POLL_S, self.player.wait())))
         self.wait_for_recorders()
 
     def pump(self) -> int:
@@ -80,7 +76,7 @@ class ReplayHost:
         now = self._clock.now()
         if published:
             self._published_at = now
-        elif self._may_repeat() and (has_newcomers or now - self._published_at > _REPEAT_S):
+        elif self._may_repeat() and (has_newcomers or now - self._published_at > LATCHED_S):
             self._published_at = now
             self.player.republish_latched()
         return published
@@ -95,7 +91,7 @@ class ReplayHost:
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
         while self._listeners.any_behind() and self._clock.now() < deadline:
-            self._clock.sleep_until(self._clock.now() + _SLEEP_S)
+            self._clock.sleep_until(self._clock.now() + REPLAY_POLL_S)
             self._answer()
             self._listeners.update()
 

@@ -1,14 +1,13 @@
 """The listeners of a replay: recorders, which limit its speed, and others, which need the latched messages."""
 
 from recordings.reading.recording import RecordedMessage
+from recordings.timing import RECORDER_PATIENCE_S
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import APPLIED, RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
 
 _HOSTS = (PresenceKind.HOST, PresenceKind.REPLAY)
-_PATIENCE_S = 1.0
-"""Wall time in s without progress of a recorder after which the replay no longer waits for it."""
 
 
 class _Recorder:
@@ -81,7 +80,7 @@ class Listeners:
             recorder.tick, recorder.confirmed_at, recorder.is_given_up = tick, self._clock.now(), False
 
     def _is_waited_for(self, recorder: _Recorder) -> bool:
-        if self._clock.now() - recorder.confirmed_at > _PATIENCE_S and not recorder.is_given_up:
+        if self._clock.now() - recorder.confirmed_at > RECORDER_PATIENCE_S and not recorder.is_given_up:
             recorder.is_given_up = True
             recorder.unconfirmed.clear()
         return not recorder.is_given_up

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
+from recordings.timing import GROWTH_S
 from schemas.errors import TouchlineError
 from schemas.messages.game import GameEvent
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
@@ -24,8 +25,6 @@ LATCHED_TOPICS = frozenset(
 """Topics whose newest message is the current state; all but events and reports of invalid messages."""
 _MAX_AT_ONCE = 500
 """Maximum number of messages between two checks of the controls."""
-_CHECK_S = 0.1
-"""Wall time in s between two checks for data that a recorder has added."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +136,7 @@ class Player:
         if self._steps or self.ended:
             return 0.0
         message = self._next()
-        return _CHECK_S if message is None else self._playback.wait(message.log_ns, self._clock.now())
+        return GROWTH_S if message is None else self._playback.wait(message.log_ns, self._clock.now())
 
     def republish_latched(self) -> None:
         """Publish the latched messages again, for listeners that arrived later."""
@@ -193,7 +192,7 @@ class Player:
         self._steps = 0
         now = self._clock.now()
         if self._follow and not self._cursor.finished and self._cursor.peek() is None:
-            if now - self._checked_at >= _CHECK_S:
+            if now - self._checked_at >= GROWTH_S:
                 self._checked_at = now
                 self._cursor.grow()
             self._playback = self._playback.moved(self._position_ns, now)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import pytest
 from msgspec import Raw
 
-from recordings.recorder.batch_reader import QUIET_S, REPLY_S, BatchReader
+from recordings.recorder.batch_reader import BatchReader
+from recordings.timing import QUIET_S, REPLY_S
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Query
 from schemas.bus.in_process_bus import InProcessBus, SharedState
