@@ -43,9 +43,6 @@ class Areas:
     penalty_area_stay: Annotated[
         float, Quantity("s", "longest time of one robot in a penalty area, alone or not; 0: no limit", 0, 600)
     ] = 0.0
-    recovery: Annotated[
-        float, Quantity("1", "s by which these times shrink for each s outside the area; 0: they end at once", 0, 10)
-    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +64,6 @@ class Contact:
     ] = 0.3
     charge_card_speed: Annotated[
         float, Quantity("m/s", "a robot that drives faster into the opponent is shown a yellow card; 0: none", 0, 20)
-    ] = 0.0
-    outside_recovery: Annotated[
-        float, Quantity("1", "s by which this time shrinks for each s inside the lines; 0: it ends at once", 0, 10)
     ] = 0.0
 
 

@@ -90,8 +90,8 @@ class Stall:
     still_speed: Annotated[float, Quantity("m/s", "a slower ball counts as still", 0, 2)]
     still_duration: Annotated[float, Quantity("s", "a ball still for this long is dropped", 1, 120)]
     progress_distance: Annotated[
-        float, Quantity("m", "a ball that leaves a circle of this radius makes progress; 0: none is required", 0, 20)
-    ] = 0.0
+        float, Quantity("m", "a ball that leaves a circle of this radius makes progress", 0.5, 20)
+    ] = 3.0
     progress_duration: Annotated[float, Quantity("s", "longest time of a ball in play without progress", 1, 120)] = 10.0
 
 

@@ -1,13 +1,12 @@
 """A rig for the referee: a world of points that does what the referee asks and nothing else."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import RuleBook, load_rule_book
+from schemas.config.rule_book import load_rule_book
 from schemas.frames import Pose
 from schemas.game import ActionName, EventKind, Phase, Point
 from schemas.messages.game import GameEvent, RefereeAction
@@ -223,21 +222,3 @@ def _impact(robots: RobotStates, first: int, second: int) -> Impact:
     away = max(1e-9, math.dist((one.x, one.y), (other.x, other.y)))
     direction = ((other.x - one.x) / away, (other.y - one.y) / away)
     return Impact(first, second, direction, (one.vx, one.vy), (other.vx, other.vy))
-
-
-def with_book(rig: RefereeRig, book: RuleBook) -> RefereeRig:
-    """The rig with a referee that applies another rule book, before the first tick."""
-    match = rig.constants
-    rig.book = book
-    rig.constants = dataclasses.replace(match, book=book)
-    rig.referee = Referee(
-        book,
-        match.pitch,
-        match.ball,
-        match.roster,
-        duration=None,
-        kick_off=match.kick_off,
-        automatic=match.automatic,
-        starts=match.starts,
-    )
-    return rig

@@ -1,7 +1,6 @@
 """Clocks of robots that have been wholly outside the lines.
 
-A clock runs while the robot is outside. Inside it runs down at the rate of the rule book; with a rate of 0 it ends at
-once.
+A clock runs while the robot is outside, and runs down while it is inside.
 """
 
 from sim_host.referee.evidence.zones import Zones
@@ -14,9 +13,6 @@ def outside_after(
     """Robots by index, each with its clock in s, after one more tick of `dt` in s; those outside come first."""
     contact, known = match.book.contact, dict(before)
     running = [(index, known.pop(index, 0.0) + dt) for index in zones.outside]
-    lost = contact.outside_recovery * dt
-    if not lost:
-        return tuple(running)
     limit = contact.outside_duration
-    rest = [(index, left) for index, lasted in known.items() if (left := min(lasted, limit) - lost) > 0.0]
+    rest = [(index, left) for index, lasted in known.items() if (left := min(lasted, limit) - dt) > 0.0]
     return (*running, *rest)

@@ -25,11 +25,9 @@ class Progress(NamedTuple):
 
 def progress_after(
     match: MatchConstants, before: Progress | None, dribble: Dribble | None, snapshot: Snapshot
-) -> Progress | None:
-    """The progress after one more tick in play; None where the rule book does not require any."""
+) -> Progress:
+    """The progress after one more tick in play."""
     radius = match.book.stall.progress_distance
-    if not radius:
-        return None
     place = (snapshot.ball.x, snapshot.ball.y)
     if before is None or math.dist(before.place, place) > radius:
         caught = dribble is not None

@@ -1,7 +1,7 @@
 """Clocks of robots in goal areas and penalty areas, and of too many robots of a side in a penalty area.
 
-A clock runs while its robots are inside. Outside it runs down at the rate of the rule book, so that a step out of the
-area for a moment gives no new time; with a rate of 0 it ends at once.
+A clock runs while its robots are inside. Outside it runs down, so that a step out of the area for a moment gives no new
+time.
 """
 
 from collections.abc import Iterable
@@ -68,33 +68,28 @@ def stays_after(match: MatchConstants, before: Stays, zones: Zones, snapshot: Sn
         crowds.setdefault((sides[index], end), []).append(index)
         if in_goal_area(pitch, end, x, y):
             in_goal.append((index, end))
-    lost = areas.recovery * dt
     after = Stays(
-        _clocks(before.robots, in_goal, areas.goal_area_duration, dt, lost),
-        _crowds(match, before.crowds, crowds, dt, lost),
-        _clocks(before.visits, in_penalty, areas.penalty_area_stay, dt, lost) if areas.penalty_area_stay else (),
+        _clocks(before.robots, in_goal, areas.goal_area_duration, dt),
+        _crowds(match, before.crowds, crowds, dt),
+        _clocks(before.visits, in_penalty, areas.penalty_area_stay, dt) if areas.penalty_area_stay else (),
     )
     return after if any(after) else NO_STAYS
 
 
-def _clocks(
-    before: Iterable[Stay], inside: list[tuple[int, int]], limit: float, dt: float, lost: float
-) -> tuple[Stay, ...]:
+def _clocks(before: Iterable[Stay], inside: list[tuple[int, int]], limit: float, dt: float) -> tuple[Stay, ...]:
     """The clocks of the robots and ends in `inside`, and those that still run down."""
     known = {(stay.robot, stay.end): stay.lasted for stay in before}
     running = [Stay(index, end, known.pop((index, end), 0.0) + dt) for index, end in inside]
-    if not lost:
-        return tuple(running)
     rest = [
         Stay(index, end, left, False)
         for (index, end), lasted in known.items()
-        if (left := min(lasted, limit) - lost) > 0.0
+        if (left := min(lasted, limit) - dt) > 0.0
     ]
     return (*running, *rest)
 
 
 def _crowds(
-    match: MatchConstants, before: Iterable[Crowd], now: dict[tuple[Side, int], list[int]], dt: float, lost: float
+    match: MatchConstants, before: Iterable[Crowd], now: dict[tuple[Side, int], list[int]], dt: float
 ) -> tuple[Crowd, ...]:
     """The clocks of sides with too many robots in a penalty area, and those that still run down."""
     areas, sides = match.book.areas, match.roster.sides
@@ -104,12 +99,10 @@ def _crowds(
         if len(robots) > areas.penalty_area_robots:
             old = known.pop((side, end), None)
             running.append(Crowd(tuple(robots), end, (old.lasted if old is not None else 0.0) + dt))
-    if not lost:
-        return tuple(running)
     limit = areas.penalty_area_duration
     rest = [
         crowd._replace(lasted=left, inside=False)
         for crowd in known.values()
-        if (left := min(crowd.lasted, limit) - lost) > 0.0
+        if (left := min(crowd.lasted, limit) - dt) > 0.0
     ]
     return (*running, *rest)

@@ -134,7 +134,7 @@ RULES: tuple[Rule, ...] = (
     Rule(
         "goal_area",
         goal_area.judge,
-        ("fouls.goal_area", "areas.goal_area_duration", "areas.recovery"),
+        ("fouls.goal_area", "areas.goal_area_duration"),
         occasion="stays",
     ),
     Rule(
@@ -145,14 +145,13 @@ RULES: tuple[Rule, ...] = (
             "areas.penalty_area_robots",
             "areas.penalty_area_duration",
             "areas.penalty_area_stay",
-            "areas.recovery",
         ),
         occasion="stays",
     ),
     Rule(
         "leaving_field",
         leaving_field.judge,
-        ("fouls.leaving_field", "contact.outside_duration", "contact.outside_recovery"),
+        ("fouls.leaving_field", "contact.outside_duration"),
         occasion="outside",
     ),
     Rule("stand_off", stand_off.judge, ("contact.stand_off_duration",), occasion="pushes"),

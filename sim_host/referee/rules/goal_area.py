@@ -6,7 +6,7 @@ illegal attack. The opponents of the offender get a free kick.
 
 Section: play, illegal defence and attack.
 Measures: the time for which the centre of a robot has been inside the outer edges of the area's lines, or in the goal
-behind it. Outside, the time runs down at the rate of the rule book, and does not begin anew.
+behind it. Outside, the time runs down, and does not begin anew.
 Not judged: whether it was pushed there; a hull that reaches over the line.
 """
 

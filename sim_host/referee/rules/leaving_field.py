@@ -2,7 +2,7 @@
 
 Section: play; a robot may leave only with the referee's permission, for repair, substitution or a card.
 Measures: the time for which the whole hull of a robot has been outside the lines, also in a goal. On the field the time
-runs down at the rate of the rule book, and does not begin anew.
+runs down, and does not begin anew.
 Not judged: why it left, and whether it was pushed out; robots that are off the field by decision of the referee.
 """
 

@@ -5,7 +5,7 @@ The opponents of the offenders get a free kick.
 
 Section: play, illegal defence and attack.
 Measures: the time for which more robots of one side than allowed have had their centres in the area, even if the robots
-changed, and the time of each robot. Outside, both run down at the rate of the rule book, and do not begin anew. Of too
+changed, and the time of each robot. Outside, both run down, and do not begin anew. Of too
 many robots, the one that came last is named first, of those that came together the one farthest from the ball.
 Not judged: whether a robot was pushed there.
 """

@@ -1,13 +1,11 @@
 """No progress: what does not end the time of a ball that stays within a circle, and what does."""
 
-import dataclasses
 import math
 
 import pytest
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
-from support.referee_rig import with_book
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
@@ -184,11 +182,3 @@ def test_the_simulation_league_shows_its_card_for_a_long_hold_before_the_ball_is
     rig = caught(new_rig, "china-sim-2020")
     carry(rig, 10.5, spin)
     assert stalls(rig) == [] and EventKind.CARD in rig.kinds()
-
-
-def test_a_book_of_before_demands_no_progress(new_rig):
-    rig = new_rig()
-    stall = dataclasses.replace(rig.book.stall, progress_distance=0.0)
-    rig = with_book(rig, dataclasses.replace(rig.book, stall=stall)).playing((-5.0, 0.0))
-    carry(rig, 40.0, spin)
-    assert EventKind.STALL not in rig.kinds() and rig.state.evidence.progress is None

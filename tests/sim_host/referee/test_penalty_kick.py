@@ -1,13 +1,10 @@
 """Robots that leave their places at a penalty before the kick, in play and in a shoot-out."""
 
-import dataclasses
-
 import pytest
 
 from schemas.game import Card, EventKind, GameStage, OfficiatingMode, Phase, Score
 from schemas.side import Side
 from sim_host.referee.placement.positions import position_faults
-from support.referee_rig import with_book
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 KEEPER_OUT = {"magenta1": (10.0, 0.0)}
@@ -200,16 +197,6 @@ def test_a_friendly_tolerates_it(new_rig):
     stray(rig, KEEPER_OUT | MATE_IN)
     kick(rig, scores=True)
     assert fouls(rig) == [] and rig.state.score == Score(cyan=1)
-
-
-def test_a_book_of_before_judges_no_places_after_start(new_rig):
-    rig = new_rig()
-    fouls_of_before = dataclasses.replace(rig.book.fouls, penalty_kick="off")
-    before = dataclasses.replace(rig.book, fouls=fouls_of_before)
-    rig = started(lambda *args, **options: with_book(new_rig(*args, **options), before))
-    stray(rig, KEEPER_OUT, ticks=50)
-    kick(rig, scores=False)
-    assert rig.events[-2].rule == "goal_line" and fouls(rig) == []
 
 
 @pytest.mark.parametrize(("ahead", "wrong"), [(-0.01, False), (0.01, True)])

@@ -1,22 +1,12 @@
 """Clocks of areas and of the field's outside: they run down outside, so that a step out gives no new time."""
 
-import dataclasses
-
 import pytest
 
 from schemas.game import EventKind, OfficiatingMode, Phase
 from schemas.side import Side
 from sim_host.referee.evidence.stays import NO_STAYS
-from support.referee_rig import with_book
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
-
-
-def without_recovery(rig):
-    """The same rig with the rule book of before clocks recovered."""
-    areas = dataclasses.replace(rig.book.areas, recovery=0.0)
-    contact = dataclasses.replace(rig.book.contact, outside_recovery=0.0)
-    return with_book(rig, dataclasses.replace(rig.book, areas=areas, contact=contact))
 
 
 def fouls(rig):
@@ -55,13 +45,6 @@ def test_a_robot_that_steps_out_for_a_tick_before_its_time_is_up_is_called(new_r
     limit = places(rig, rule)[2]
     event = next(event for event in rig.events if event.kind is EventKind.FOUL)
     assert limit < event.measured <= limit + 2 * rig.dt
-
-
-@pytest.mark.parametrize("rule", RULES)
-def test_a_book_without_recovery_forgives_a_robot_that_steps_out_for_a_tick(new_rig, rule):
-    rig = without_recovery(new_rig()).playing()
-    hop(rig, rule, 0.9, rig.dt, 3)
-    assert fouls(rig) == []
 
 
 @pytest.mark.parametrize("rule", RULES)
