@@ -191,17 +191,6 @@ def test_commanded_velocities_never_jump(model: RobotModel) -> None:
 
 
 @BOTH
-def test_a_robot_on_ice_hardly_moves(model: RobotModel) -> None:
-    """Grip 0.002 gives at most mu·g = 0.02 m/s², whatever the wheels do; without any grip there is no motion."""
-    ice, none = (model_with(model, wheels={"traction": mu}) for mu in (0.002, 0.0))
-    floor = Floor(ice, none)
-    slow = floor.run(2.0, (3, 1, 2), (3, 1, 2))
-    assert 0 < math.hypot(slow.vx, slow.vy) < 0.002 * GRAVITY * 2.0
-    assert (floor.robots[1].vx, floor.robots[1].vy, floor.robots[1].omega) == (0, 0, 0)
-    assert floor.drive.held_back.all()
-
-
-@BOTH
 def test_a_robot_that_stands_slides_only_when_pulled_beyond_its_grip(model: RobotModel) -> None:
     """Pulled sideways. Its wheels hold mu·m·g/√2 on four and mu·m·g/2 or more on three.
 
@@ -226,15 +215,6 @@ def test_a_robot_that_is_held_back_goes_on_pushing_and_knows_it(model: RobotMode
 
 
 @BOTH
-def test_a_robot_that_speeds_up_as_it_should_is_not_held_back(model: RobotModel) -> None:
-    floor = Floor(model)
-    for told in ((4.0, 0.0, 0.0), (-4.0, 0.0, 0.0), (0.0, 0.0, 8.0), (0.0, 0.0, -8.0), REST):
-        for _ in range(75):
-            floor.tick(told)
-            assert not floor.drive.held_back[0]
-
-
-@BOTH
 def test_a_robot_that_forgets_goes_on_as_it_moves(model: RobotModel) -> None:
     """Wheels roll without slip at the measured velocity: it neither jerks nor swerves."""
     floor = Floor(model)
@@ -244,14 +224,3 @@ def test_a_robot_that_forgets_goes_on_as_it_moves(model: RobotModel) -> None:
     assert (after.vx, after.vy, after.omega) == approx((before.vx, before.vy, before.omega), abs=1e-3)
     moving = Floor(model, speed=2 + 1j)
     assert moving.tick((2, 1, 0)).vx == approx(2, abs=1e-9)
-
-
-def test_equal_commands_give_equal_bits() -> None:
-    def ends() -> list[RobotState]:
-        floor, random = Floor(FOUR, THREE), np.random.default_rng(9)
-        for _ in range(200):
-            one, other = (tuple((random.normal(size=3) * 4).tolist()) for _ in range(2))
-            floor.tick(one, other)
-        return floor.robots
-
-    assert ends() == ends()

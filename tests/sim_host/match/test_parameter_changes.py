@@ -107,10 +107,3 @@ def test_a_refused_change_changes_nothing(simulation: Simulation) -> None:
     tick = simulation.step({})
     assert "parameters" not in tick.applied
     assert [event for event in tick.events if event.kind is EventKind.PARAMETERS] == []
-
-
-def test_a_late_client_receives_the_parameters_in_force(simulation: Simulation) -> None:
-    set_to(simulation, drive__max_speed=1.5)
-    setup = simulation.setup()
-    assert setup.drive.max_speed == 1.5
-    assert setup.parameters == {"drive.max_speed": 1.5}

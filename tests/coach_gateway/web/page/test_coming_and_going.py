@@ -59,30 +59,3 @@ def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, 
     tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
     tick = tab.ask("window.touchline.match.frames.newest?.tick ?? 0")
     tab.until(f"window.touchline.match.frames.newest?.tick > {tick + 20}")
-
-
-def test_a_page_waits_for_its_match_with_the_role_of_its_token(match, gateway_of, browser) -> None:
-    waiting_page = gateway_of(None)
-    page = browser.new_context().new_page()
-    page.goto(f"{waiting_page.origin}/")
-    page.wait_for_function("() => document.getElementById('notice').textContent.includes('No host plays this match')")
-    page.locator("#enter-token").click()
-    page.locator("#token").fill("nonsense")
-    page.keyboard.press("Enter")
-    page.wait_for_function(
-        "() => document.getElementById('token-says').textContent.startsWith('refused: unknown token')"
-    )
-    page.locator("#token").fill("the-referee")
-    page.keyboard.press("Enter")
-    page.wait_for_function("() => document.getElementById('role').textContent === 'referee'")
-    assert page.locator("#notice").is_visible()
-    waiting_page.close()
-    gateway_of(match.medium, waiting_page.port)
-    page.wait_for_function(
-        "() => window.touchline.match.role === 'referee' && !document.getElementById('stop').disabled"
-    )
-    assert page.locator("#notice").is_hidden()
-    assert page.evaluate("sessionStorage.getItem('touchline.token')") == "the-referee"
-    page.locator("#stop").click()
-    page.wait_for_function("() => document.getElementById('log').textContent.includes('Stop accepted')")
-    page.context.close()

@@ -296,16 +296,6 @@ def test_a_gamepad_drives_kicks_and_dribbles(match, visit) -> None:
     assert tab.page.locator("#dribble").get_attribute("aria-pressed") == "true"
 
 
-def test_leaving_the_page_gives_the_robot_back(match, visit) -> None:
-    tab = visit(match, "referee")
-    tab.open("drive")
-    tab.page.locator("#drive-robot").select_option("magenta1")
-    tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, "magenta1 is under manual control"))
-    tab.page.goto("about:blank")
-    match.until(lambda: said(match, "magenta1 is controlled by its brain again"))
-
-
 def standing(match, robot: str) -> DisciplinaryRecord:
     return match.state.robots.get(robot, DisciplinaryRecord())
 

@@ -45,16 +45,6 @@ def test_a_team_s_drawings_are_on_its_own_pages_and_the_operator_s(
     wait_for_shapes(tab, cyan, magenta)
 
 
-def test_spectators_are_sent_no_drawings(match_of, visit) -> None:
-    match = match_of(teams=TEAMS)
-    tab = visit(match)
-    begun = tab.ask("window.touchline.pitchCanvas.world.time")
-    tab.until(f"window.touchline.pitchCanvas.world.time > {begun} + 0.3")
-    assert tab.ask("window.touchline.match.debug") == {}
-    assert not any(shown(tab, 1) + shown(tab, -1))
-    assert not tab.page.locator("#layer-drawings").is_visible()
-
-
 def test_drawings_can_be_switched_off_and_limited_to_a_robot(match_of, visit) -> None:
     tab = visit(match_of(teams=TEAMS), "referee")
     tab.until("document.querySelectorAll('#layer-drawings option').length === 6")

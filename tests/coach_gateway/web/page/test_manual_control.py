@@ -116,20 +116,6 @@ def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> Non
     assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
-def test_a_robot_that_another_page_drives_cannot_be_taken(match, visit) -> None:
-    first, second = visit(match, "cyan"), visit(match, "referee")
-    take(match, first, "cyan2")
-    second.open("drive")
-    second.page.locator("#drive-robot").select_option("cyan2")
-    second.page.locator("#drive-take").click()
-    second.wait_for_log("Drive cyan2 refused: cyan2 is driven from another page")
-    assert second.page.locator("#drive-take").inner_text() == "Take over"
-    assert first.page.locator("#drive-take").inner_text() == "Give cyan2 back"
-    first.page.keyboard.press("Escape")
-    match.until(lambda: said(match, "cyan2 is controlled by its brain again"))
-    take(match, second, "cyan2")
-
-
 def test_what_a_coach_drags_stays_where_it_is(resting, visit) -> None:
     match = resting
     referee, tab = visit(match, "referee"), visit(match, "cyan")

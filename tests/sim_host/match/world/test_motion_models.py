@@ -3,18 +3,16 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
 from pytest import approx
 
-from schemas.config.match_config import load_match
 from schemas.config.profile import Profile, load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
-from sim_host.snapshot import RobotState, Roster
+from sim_host.snapshot import RobotState
 from support.world_rig import WorldRig, two_a_side
 
 VELOCITY, TRACTION, OMNI, THREE = (load_profile(name) for name in ("ideal", "msl", "omni", "omni3"))
@@ -101,23 +99,6 @@ def test_two_equal_robots_that_push_each_other_stay_where_they_are(profile: Prof
     field.world.close()
 
 
-@pytest.mark.parametrize(
-    "strong",
-    [like(OMNI, mass=55), like(OMNI, traction=1.0), like(VELOCITY)],
-    ids=["the heavier", "the better gripping", "the one of the velocity model"],
-)
-def test_the_stronger_robot_pushes_the_other_back(strong: RobotModel) -> None:
-    """By as much on either side; a robot whose velocity is set is as strong as it must be."""
-    weak = like(OMNI)
-    ways = []
-    for models in ((strong, weak, weak), (weak, weak, strong)):
-        field = field_of(*models)
-        ways.append(push_each_other(field, 1.5))
-        field.world.close()
-    assert ways[0] > 0.3
-    assert ways[1] == approx(-ways[0], rel=0.02)
-
-
 def test_the_duel_is_won_by_the_difference_of_grips() -> None:
     """Both wheels spin: acceleration (mu1 − mu2)·g / 2√2 of two equal masses, from 0.2 s on; within 5 %."""
     strong, weak = like(OMNI, traction=0.9), like(OMNI, traction=0.6)
@@ -126,18 +107,6 @@ def test_the_duel_is_won_by_the_difference_of_grips() -> None:
     before = field.at("magenta1").vx
     field.run(0.4, cyan1=drive(4), magenta1=drive(4))
     assert field.at("magenta1").vx - before == approx(0.3 * 9.81 / (2 * math.sqrt(2)) * 0.4, rel=0.05)
-    field.world.close()
-
-
-@pytest.mark.parametrize(("grip", "slides"), [(0.3, False), (1.2, True)])
-def test_a_robot_that_stands_is_pushed_sideways_only_by_more_than_its_grip(grip: float, slides: bool) -> None:
-    """A pusher of less grip spins its wheels before it; one of more shoves it along."""
-    field = field_of(like(OMNI, traction=grip))
-    r = RobotModel.standard(OMNI).body.radius
-    field.place(cyan1=(-2 * r, 0, 0), magenta1=(0, 0, math.pi / 2))
-    field.run(1.5, cyan1=drive(2))
-    assert (field.at("magenta1").x > 0.5) is slides
-    assert slides or field.at("magenta1").x < 0.06
     field.world.close()
 
 
@@ -220,14 +189,3 @@ def test_the_model_may_change_while_robots_drive() -> None:
     slowed = math.hypot(before.vx, before.vy) - math.hypot(field.at("cyan1").vx, field.at("cyan1").vy)
     assert slowed == approx(0.2 * OMNI.drive.deceleration, rel=0.1)
     field.world.close()
-
-
-def test_a_match_file_gives_single_robots_wheels(tmp_path: Path) -> None:
-    """A type of the match file that drives on wheels beside standard robots."""
-    path = tmp_path / "mixed.toml"
-    path.write_text(
-        '[teams.cyan]\ntypes = { cyan2 = "roller" }\n'
-        '[types.roller.drive]\nmodel = { value = "omni", origin = "ours: one robot on wheels" }\n'
-    )
-    models = Roster.of(load_match(path), VELOCITY).models
-    assert [model.drive.model for model in models[:3]] == ["velocity", "omni", "velocity"]

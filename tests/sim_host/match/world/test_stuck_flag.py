@@ -11,9 +11,6 @@ from schemas.messages.applied import AppliedInput
 from support.world_rig import REST, WorldRig
 from support.world_rig import tell as drive
 
-POST = 1.2625
-"""m; |y| of the centres of the posts."""
-
 
 @pytest.fixture(params=["msl", "ideal", "omni"])
 def rig(request: pytest.FixtureRequest) -> Iterator[WorldRig]:
@@ -64,12 +61,6 @@ def test_a_robot_that_drives_at_a_wall_is_stuck_within_a_second_and_until_it_tur
     assert not any(found[100:]), "on wheels, the controller brakes what it had commanded first"
 
 
-def test_a_robot_that_drives_at_a_post_is_stuck(rig):
-    goal_line = rig.profile.field.goal_line
-    rig.place(cyan1=(goal_line - rig.profile.robot.radius - 0.02, POST, 0))
-    assert all(flags(rig, 2.0, "cyan1", cyan1=always(drive(2)))[60:])
-
-
 def test_a_robot_that_slides_along_a_wall_is_not_stuck(rig):
     """At 45 degrees half of its demanded progress is left, less friction."""
     wall = rig.profile.field.touch_line + rig.profile.field.border - rig.profile.robot.radius
@@ -103,12 +94,6 @@ def facing(rig: WorldRig, robot: str, angle: float, demand: AppliedInput) -> App
     turn = angle - rig.at(robot).heading
     c, s, told = math.cos(turn), math.sin(turn), demand.drive
     return drive(c * told.vx - s * told.vy, s * told.vx + c * told.vy, told.omega)
-
-
-def test_a_wall_holds_a_robot_back_although_its_demands_flicker(rig):
-    wall = rig.profile.field.goal_line + rig.profile.field.border - rig.profile.robot.radius
-    rig.place(cyan1=(wall - 0.02, 3, 0))
-    assert share(flags(rig, 4.0, "cyan1", cyan1=flickering(1))[50:]) > 0.95
 
 
 @pytest.mark.parametrize("seed", range(3))
