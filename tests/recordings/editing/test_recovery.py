@@ -1,8 +1,6 @@
 """Files that were cut off, damaged, or left by a killed recorder: what is whole is there, nothing is made up."""
 
 import random
-import subprocess
-import sys
 from itertools import product
 from pathlib import Path
 
@@ -17,8 +15,7 @@ from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
 
-TIMES = 200
-KILLS = 100
+TIMES = 100
 
 
 @pytest.fixture(scope="module")
@@ -120,7 +117,7 @@ def test_all_whole_chunks_before_the_cut_are_there(several_chunks, tmp_path):
         chunks = make_reader(file).get_summary().chunk_indexes
     counts = [0, *(sum(entry[2] <= chunk.message_end_time for entry in whole) for chunk in chunks)]
     path = tmp_path / "cut.mcap"
-    for number, chunk in enumerate(chunks):
+    for number, chunk in [*enumerate(chunks)][::5]:
         end = chunk.chunk_start_offset + chunk.chunk_length
         for size, found in ((end - 1, counts[number]), (end, counts[number + 1]), (end + 20, counts[number + 1])):
             path.write_bytes(data[:size])
@@ -129,7 +126,7 @@ def test_all_whole_chunks_before_the_cut_are_there(several_chunks, tmp_path):
             check_with_the_stock_readers(path)
 
 
-@pytest.mark.parametrize("times", [pytest.param(60, marks=pytest.mark.slow), pytest.param(200, marks=pytest.mark.long)])
+@pytest.mark.parametrize("times", [pytest.param(30, marks=pytest.mark.slow), pytest.param(200, marks=pytest.mark.long)])
 def test_a_flipped_bit_is_reported_or_does_no_harm(several_chunks, tmp_path, rng, times):
     """Never a traceback, never data that is silently wrong: reading gives the truth, a part of it, or one sentence."""
     data, whole = several_chunks.read_bytes(), told(several_chunks)
@@ -323,86 +320,3 @@ def test_what_is_no_recording_cannot_be_recovered(tmp_path, content):
     with pytest.raises(TouchlineError, match=r"not a recording|nothing in it can be recovered"):
         recover(path)
     assert path.read_bytes() == content
-
-
-WRITES = """
-import os, sys
-from pathlib import Path
-sys.path.insert(0, sys.argv[1])
-from support.recorder_rig import make_world
-import recordings.recorder.recording_writer as module
-from recordings.container.manifest import make_manifest
-from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.process.clock import WallClock
-from schemas.topics import WORLD
-module.FLUSH_S = 0.02
-payloads = [make_world(tick).encode() for tick in range(500)]
-manifest = make_manifest("friendly", "test", WallClock(), None, None, sights=False)
-
-def write(path):
-    clock = WallClock()
-    writer = module.RecordingWriter(Path(path), clock)
-    flush, handed, written = writer._mcap.flush, [0], [0]
-    write_batch = writer._write_batch
-    def count(batch):
-        write_batch(batch)
-        handed[0] += len(batch)
-    def flushed():
-        flush()
-        os.write(1, b"%d\\n" % handed[0])
-    writer._write_batch, writer._mcap.flush = count, flushed
-    writer.begin(manifest, {})
-    number = 0
-    while True:
-        batch = []
-        for _ in range(20):
-            received = ReceivedMessage(WORLD, "world", payloads[number % 500], Stamp(number, number, number * 1000))
-            batch.append((number * 1000, received))
-            number += 1
-        writer.write(batch)
-        clock.sleep_until(clock.now() + 0.001)
-
-for line in sys.stdin:
-    child = os.fork()
-    if child == 0:
-        write(line.strip())
-    os.write(1, b"%d\\n" % -child)
-    os.waitpid(child, 0)
-    os.write(1, b"dead\\n")
-"""
-
-
-@pytest.mark.processes
-def test_a_recorder_that_is_killed_at_any_moment_leaves_all_that_it_had_flushed(tmp_path):
-    """A hundred writers, each killed at a random instant; what they say they flushed is what has to be there."""
-    import os
-    import signal
-    import time
-
-    rng = random.Random(11)
-    home = str(Path(__file__).parents[2])
-    nursery = subprocess.Popen(
-        [sys.executable, "-c", WRITES, home], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    )
-    assert nursery.stdin is not None and nursery.stdout is not None
-    recovered = 0
-    for number in range(KILLS):
-        part = tmp_path / f"{number}.mcap"
-        nursery.stdin.write(f"{part}\n")
-        nursery.stdin.flush()
-        child, flushed = 0, 0
-        while child == 0 or flushed == 0:
-            said = int(nursery.stdout.readline())
-            child, flushed = (-said, flushed) if said < 0 else (child, max(flushed, said))
-        time.sleep(rng.uniform(0.0, 0.08))
-        os.kill(child, signal.SIGKILL)
-        while (line := nursery.stdout.readline()) != "dead\n":
-            flushed = max(flushed, int(line))
-        done = recover(part)
-        messages = [(message.sequence, message.sent_ns) for message in open_recording(done.path).messages("world")]
-        assert len(messages) >= flushed > 0
-        assert messages == [(n, n) for n in range(len(messages))]
-        recovered += len(messages)
-        done.path.unlink()
-    nursery.communicate("")
-    assert recovered >= 20 * KILLS  # a batch each at least

@@ -1,19 +1,14 @@
 """The real thing: a recorder process at a real Zenoh host on loopback."""
 
-import resource
-import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from itertools import islice
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from recordings.container.manifest import EndReason
-from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
 from recordings.recorder.settings import RecorderSettings
 from schemas.bus.contract import Bus
@@ -23,31 +18,10 @@ from schemas.config.match_config import MatchConfig
 from schemas.game import Phase, Score
 from schemas.messages.world import World
 from schemas.process.clock import WallClock
-from schemas.topics import RECORDER_PROGRESS, STATE
+from schemas.topics import RECORDER_PROGRESS
 
 LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
-
-TICKS = 800
-"""As many as a host at full rate plays in a stall of 3 s, and a third of what it keeps."""
-
-DYING_HOST = """
-import os, sys
-sys.path.insert(0, sys.argv[2])
-from support.recorder_rig import FakeHost, make_setup
-from schemas.bus.zenoh.bus import open_client, open_host
-from schemas.process.clock import WallClock
-bus = open_host("friendly", WallClock(), sys.argv[1])
-robots = open_client("friendly", WallClock(), sys.argv[1])
-host = FakeHost(bus, robots, make_setup())
-watch = bus.watch_alive()
-while (presence := watch.receive(0.01)) is None or presence.kind != "recorder":
-    host.answer()
-for tick in range(100):
-    host.play(tick)
-sys.stdin.read(1)
-os.kill(os.getpid(), 9)
-"""
 
 
 @pytest.fixture
@@ -128,107 +102,6 @@ def test_a_recorder_process_loses_nothing_of_a_match_over_zenoh(make_fake_host, 
     assert recording.manifest.setup == host.setup
     times = [message.log_ns for message in recording.messages()]
     assert times == sorted(times)
-
-
-@pytest.mark.processes
-def test_a_recorder_process_finishes_its_file_on_sigterm(make_fake_host, start_recorder, endpoint, tmp_path):
-    recorder = start_recorder()
-    with (
-        open_host("friendly", WallClock(), endpoint) as bus,
-        open_client("friendly", WallClock(), endpoint, LIMIT) as robots,
-    ):
-        host = make_fake_host(bus, robots)
-        progress = bus.subscribe(RECORDER_PROGRESS)
-        wait_for_recorder(bus, host)
-        for tick in range(100):
-            host.play(tick)
-        while progress.receive(LIMIT).message().tick < 99:
-            pass
-        recorder.send_signal(signal.SIGTERM)
-        recorder.communicate(timeout=LIMIT)
-    assert recorder.returncode == 0
-    recording = open_recording(tmp_path / "match.mcap", whole=True)
-    assert recording.result.ended is EndReason.STOPPED
-    assert len(list(recording.messages("world"))) == 100
-
-
-@pytest.mark.processes
-def test_a_recorder_process_finishes_its_file_when_the_host_is_killed(start, start_recorder, endpoint, tmp_path):
-    host = start("-c", DYING_HOST, endpoint, str(Path(__file__).parents[2]))
-    recorder = start_recorder()
-    with open_client("friendly", WallClock(), endpoint, LIMIT) as watcher:
-        progress = watcher.subscribe(RECORDER_PROGRESS)
-        while progress.receive(LIMIT).message().messages < 600:
-            pass
-    host.communicate("x", timeout=LIMIT)
-    _, error = recorder.communicate(timeout=LIMIT)
-    assert (recorder.returncode, error) == (0, "")
-    recording = open_recording(tmp_path / "match.mcap", whole=True)
-    assert recording.result.ended is EndReason.HOST_GONE
-    assert recording.result.keys["world"].messages == 100
-
-
-@pytest.mark.processes
-def test_a_recorder_that_stood_still_for_three_seconds_at_full_rate_has_lost_nothing(
-    make_fake_host, start_recorder, endpoint, tmp_path
-):
-    """Its link breaks after 2 s; the host goes on meanwhile, and robots too, whose commands come only once."""
-    recorder = start_recorder()
-    with (
-        open_host("friendly", WallClock(), endpoint) as bus,
-        open_client("friendly", WallClock(), endpoint, LIMIT) as robots,
-    ):
-        host = make_fake_host(bus, robots)
-        host.is_prompt = False
-        progress = bus.subscribe(RECORDER_PROGRESS)
-        wait_for_recorder(bus, host)
-        ticks = iter(range(TICKS))
-        for phase, share, seconds in ((None, 0.1, 0.5), (signal.SIGSTOP, 0.8, 3.0), (signal.SIGCONT, 0.1, 0.5)):
-            if phase is not None:
-                recorder.send_signal(phase)
-            for tick in islice(ticks, round(share * TICKS)):
-                host.play(tick)
-                time.sleep(seconds / (share * TICKS))
-        host.referee(TICKS - 1, Phase.FULL_TIME, Score())
-        while progress.receive(LIMIT).message().messages < 6 * TICKS + 1:
-            host.relay(TICKS - 1)  # publishes, and gives missing batches again, as a host does that waits
-            host.answer()
-    recorder.communicate(timeout=LIMIT)
-    recording = open_recording(tmp_path / "match.mcap", whole=True)
-    assert (recording.result.lost, recording.result.ended) == (0, EndReason.FULL_TIME)
-    counts = {key: count.messages for key, count in recording.result.keys.items() if key != STATE.key}
-    assert counts == dict.fromkeys(counts, TICKS)
-    assert len(counts) == 6
-    times = [message.log_ns for message in recording.messages("world")]
-    assert times == [number * 20_000_000 for number in range(TICKS)]
-
-
-@pytest.mark.processes
-def test_a_full_disk_ends_only_the_recorder_with_an_error_of_one_line(
-    make_fake_host, start_recorder, endpoint, tmp_path
-):
-    recorder = start_recorder()
-    resource.prlimit(recorder.pid, resource.RLIMIT_FSIZE, (150_000, 150_000))  # what a full disk does, by size
-    with (
-        open_host("friendly", WallClock(), endpoint) as bus,
-        open_client("friendly", WallClock(), endpoint, LIMIT) as robots,
-    ):
-        host = make_fake_host(bus, robots)
-        wait_for_recorder(bus, host)
-        tick, deadline = 0, time.monotonic() + LIMIT
-        while recorder.poll() is None and time.monotonic() < deadline:
-            host.play(tick)
-            tick += 1
-        for more in range(tick, tick + 50):
-            host.play(more)
-    _, error = recorder.communicate(timeout=LIMIT)
-    assert recorder.returncode == 2
-    assert error.count("\n") == 1
-    assert "match.mcap: File too large; what was written before is readable" in error
-    done = recover(tmp_path / "match.mcap")
-    assert done.messages > 0
-    ticks = [world.tick for _, world in open_recording(done.path).decoded("world")]
-    assert ticks == list(range(len(ticks)))
 
 
 @pytest.mark.processes

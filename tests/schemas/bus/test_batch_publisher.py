@@ -145,9 +145,7 @@ def ask(batches, seat, **words):
     """Ask for batches: what the host's reply holds, and the numbers of the batches in it."""
     answer = seat.query(RECORD_BATCHES, RecordBatchesRequest(**words))
     batches.process()
-    payload = answer.payload(0.0)
-    RecordBatchesReply.decode(payload)
-    reply = RecordBatchesReply.decode(payload)
+    reply = RecordBatchesReply.decode(answer.payload(0.0))
     return reply, [RecordBatch.decode(bytes(batch)).number for batch in reply.batches]
 
 

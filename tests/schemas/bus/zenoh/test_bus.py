@@ -107,48 +107,6 @@ def test_a_client_goes_on_after_its_host_was_killed_and_came_back() -> None:
     assert heard is not None and heard.message().answers_tick == 1
 
 
-SAYS_MUCH = """
-import sys
-from schemas.bus.zenoh.bus import open_host
-from schemas.bus.zenoh.reader import ZenohReader
-from schemas.process.clock import WallClock
-from schemas.messages.health import Invalid
-from schemas.topics import EVENT
-with open_host("test", WallClock(), sys.argv[1]) as bus:
-    writer = bus.publisher(EVENT)
-    for tick in range(1500):
-        writer.put(Invalid(tick=tick, time=0.0, key="k" * 10_000, reason="", size=0))
-    print("said", flush=True)
-    sys.stdin.read()
-"""
-"""A host that published more than a socket buffers before any client joined, and keeps it for late ones."""
-LATE = """
-import sys
-from schemas.bus.zenoh.bus import open_client
-from schemas.bus.zenoh.reader import ZenohReader
-from schemas.process.clock import WallClock
-from schemas.topics import EVENT
-with open_client("test", WallClock(), sys.argv[1], patience=30.0) as bus:
-    reader = bus.subscribe(EVENT)
-    numbers = [reader.receive(30.0).stamp.sequence for _ in range(1500)]
-    print(numbers == list(range(1500)))
-"""
-
-
-@pytest.mark.processes
-def test_a_late_subscriber_receives_all_kept_messages_and_the_host_does_not_query_itself() -> None:
-    endpoint = with_free_port("tcp/127.0.0.1:0")
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    with subprocess.Popen([sys.executable, "-c", SAYS_MUCH, endpoint], **pipes) as host:
-        program = [sys.executable, "-c", LATE, endpoint]
-        try:
-            assert host.stdout is not None and host.stdout.readline() == b"said\n"
-            reader = subprocess.run(program, capture_output=True, text=True, timeout=60, check=True)
-        finally:
-            host.kill()
-    assert reader.stdout.split() == ["True"]
-
-
 def test_the_threads_of_one_process_are_not_handed_on_to_those_it_launches(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("ZENOH_RUNTIME", raising=False)
     endpoint = with_free_port("tcp/127.0.0.1:0")

@@ -86,41 +86,6 @@ def test_each_of_many_waits_is_ended_while_others_begin_and_end(timer: WaitTimer
     assert [ended.count(reader) for reader in readers] == [50] * 8
 
 
-def test_readers_that_begin_at_once_share_one_thread(clock: WallClock) -> None:
-    def timer_threads() -> int:
-        return sum(thread.name == "bus wait timer" for thread in threading.enumerate())
-
-    def begin(reader: Reader, gate: threading.Barrier) -> None:
-        gate.wait()
-        reader.begin(SOON)
-
-    before = timer_threads()
-    for _ in range(20):
-        timer = WaitTimer(clock)
-        readers = [Reader(timer, clock) for _ in range(4)]
-        gate = threading.Barrier(len(readers))
-        threads = [threading.Thread(target=begin, args=(reader, gate)) for reader in readers]
-        for reader, thread in zip(readers, threads, strict=True):
-            timer.add(reader)
-            thread.start()
-        for thread in threads:
-            thread.join()
-        started = timer_threads() - before
-        timer.stop()
-        assert started == 1
-
-
-def test_a_wait_that_ends_later_than_the_timer_looks_is_not_checked_at_once(timer: WaitTimer, clock: WallClock) -> None:
-    short, long = Reader(timer, clock), Reader(timer, clock)
-    timer.add(short)
-    timer.add(long)
-    short.begin(SOON)
-    while timer.next_check_at == math.inf:
-        clock.sleep_until(clock.now() + 0.001)
-    long.begin(2 * SOON)
-    assert (short.checks, long.checks) == (1, 0)
-
-
 def test_a_reader_that_does_not_wake_is_woken_again(timer: WaitTimer, clock: WallClock) -> None:
     reader = Reader(timer, clock, sleeps_through=2)
     timer.add(reader)
