@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from coach_gateway import run
+from coach_gateway import run, service
 from coach_gateway.bridges import Bridges, bridges_of
 from coach_gateway.ports import INHERITED, InheritedSockets, inheritance_of
 from coach_gateway.process import say as log
@@ -23,6 +23,7 @@ from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from schemas.bus.endpoint import with_free_port
+from schemas.bus.settings import ClientSettings
 from schemas.bus.zenoh.bus import open_host
 from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
@@ -150,6 +151,18 @@ def test_bridges_need_no_web_server() -> None:
         "import coach_gateway.bridges, coach_gateway.process"
     )
     assert subprocess.run([sys.executable, "-c", script], env=os.environ, check=False).returncode == 0
+
+
+def test_a_gateway_that_waits_for_a_host_ends_on_a_signal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(service, "HOST_SEARCH_S", 0.1)
+    endpoint, logged = with_free_port("tcp/127.0.0.1:0"), list[str]()
+
+    def end(line: str) -> None:
+        logged.append(line)
+        signal.raise_signal(signal.SIGTERM)
+
+    service.run(ClientSettings(connect=endpoint), lambda bus: [], end)
+    assert logged == [f"no host at {endpoint} yet; waiting for it"]
 
 
 @pytest.mark.processes

@@ -76,8 +76,3 @@ def test_a_served_page_waits_for_its_host_and_meets_it(
         assert page.ask("token")["accepted"]
         page.close()
         assert end(process) == (0, "")
-
-
-def test_a_gateway_that_waits_for_a_host_ends_on_a_signal(process: subprocess.Popen[str]) -> None:
-    first_lines(process)
-    assert end(process) == (0, "")

@@ -28,7 +28,7 @@ async def officiated(kicked_off: Callable[..., Any], until: Any, **words: Any) -
         await box.close()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_game_of_longer_halves_with_cards_for_no_robot_ends_with_the_score_of_the_box(
     kicked_off: Callable[..., Any], until: Any
 ) -> None:
