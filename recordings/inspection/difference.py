@@ -1,17 +1,57 @@
-"""Finds the first difference of two recordings: by key, message and field."""
+"""Finds the first difference of two recordings: a message that one of them lacks, or fields that differ."""
 
-from collections import deque
-from collections.abc import Iterator
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby, islice
+from typing import Any, NamedTuple
+
+from pydantic_core import from_json
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.inspection.message_difference import BEYOND_NS, Difference, EarliestDifference
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.natural_order import natural_order
 from schemas.topics import COMMAND, HEALTH, INVALID
 
 WALL_TIME_TOPICS = (HEALTH, INVALID)
 """Topics whose messages depend on the speed of the machine; left out by default."""
+_MAX_FIELDS = 12
+"""Maximum number of fields in a difference."""
+_BEYOND_NS = 1_000_000_000
+"""Simulated time, in ns, that is read after a difference; messages of one tick are closer together in a file."""
+_TICK = re.compile(rb'"(?:tick|answers_tick)":(-?\d+)')
+"""The tick of a message, in its payload."""
+
+
+class FieldDifference(NamedTuple):
+    """One field: its path, and its value in both recordings; `…` if it is missing."""
+
+    path: str
+    first: Any
+    second: Any
+
+    @property
+    def by(self) -> float | None:
+        """The absolute difference of two numbers; None for other values."""
+        if any(isinstance(value, bool) or not isinstance(value, int | float) for value in (self.first, self.second)):
+            return None
+        return float(abs(self.second - self.first))
+
+
+class Difference(NamedTuple):
+    """The first message that differs."""
+
+    key: str
+    number: int
+    """Number of the message on its key, from 0."""
+    time: float
+    """Simulated time in s."""
+    fields: list[FieldDifference]
+    """The fields that differ; empty if the message is missing in one recording."""
+    missing_in: str = ""
+    """`first` or `second`, if that recording does not have the message."""
 
 
 @dataclass(slots=True)
@@ -29,6 +69,9 @@ class Comparison:
     def identical(self) -> bool:
         """Whether no message differs."""
         return self.first is None
+
+
+Messages = list[RecordedMessage]
 
 
 def compare(
@@ -52,46 +95,100 @@ def compare(
     keys = {channel.key for recording in (one, other) for channel in recording.channels if channel.messages}
     wanted = {key for key in keys if selection.includes(key) and (everything or not _is_of_wall_time(key))}
     comparison = Comparison(left_out=sorted(keys - wanted, key=natural_order), keys=len(wanted))
-    earliest = EarliestDifference()
-    span = (start, end)
-    sides = (_messages(one, wanted, everything, span), _messages(other, wanted, everything, span))
-    waiting: tuple[dict[str, deque[RecordedMessage]], ...] = ({}, {})
-    times = [-1, -1]
-    open_sides = [0, 1]
-    while open_sides and not earliest.is_settled(min(times[side] for side in open_sides)):
-        for side in tuple(open_sides):
-            recorded = next(sides[side], None)
-            if recorded is None:
-                open_sides.remove(side)
-                continue
-            times[side] = recorded.log_ns
-            if earliest.add(recorded, side):
-                continue
-            partners = waiting[1 - side].get(recorded.key)
-            if not partners:
-                waiting[side].setdefault(recorded.key, deque()).append(recorded)
-                continue
-            partner = partners.popleft()
-            pair = (recorded, partner) if side == 0 else (partner, recorded)
-            if earliest.compare(*pair):
-                comparison.messages += 1
-            else:  # what waits behind the difference shows which message is missing
-                for behind in partners:
-                    earliest.add(behind, 1 - side)
-                partners.clear()
-        if all(sum(map(len, pending.values())) > _MAX_WAITING for pending in waiting):
+    numbers: Counter[str] = Counter()
+    moments = _moments(*(_messages(recording, wanted, everything, (start, end)) for recording in (one, other)))
+    for moment in moments:
+        ours, theirs = map(_by_key, moment)
+        different = _different(ours, theirs, numbers)
+        if different:
+            _add_following(different, moments, max(messages[0].log_ns for messages in moment if messages))
+            found = [_difference(key, numbers[key], *sides) for key, sides in different.items()]
+            comparison.first = min(found, key=lambda difference: difference.time)
             break
-    read_to_ns = min((times[side] for side in open_sides), default=None)
-    for side, pending in enumerate(waiting):
-        for left in pending.values():
-            if left and (read_to_ns is None or left[0].log_ns < read_to_ns - BEYOND_NS):
-                earliest.add_missing(left[0], missing_in="second" if side == 0 else "first")
-    comparison.first = earliest.first()
+    comparison.messages = numbers.total()
     return comparison
 
 
-_MAX_WAITING = 200_000
-"""Messages without a partner, in each recording, after which the recordings count as unrelated."""
+def _different(
+    ours: dict[str, Messages], theirs: dict[str, Messages], numbers: Counter[str]
+) -> dict[str, tuple[Messages, Messages]]:
+    """Key → its messages of one log time from the first that differs; those before it are counted in `numbers`."""
+    different = {}
+    for key in {**ours, **theirs}:
+        left, right = ours.get(key, []), theirs.get(key, [])
+        pairs = zip(left, right, strict=False)
+        equal = next((at for at, (a, b) in enumerate(pairs) if a.payload != b.payload), min(len(left), len(right)))
+        numbers[key] += equal
+        if max(len(left), len(right)) > equal:
+            different[key] = left[equal:], right[equal:]
+    return different
+
+
+def _moments(one: Iterator[RecordedMessage], other: Iterator[RecordedMessage]) -> Iterator[tuple[Messages, Messages]]:
+    """Yield the messages of each log time in both recordings; an empty list for a recording that has none then."""
+    sides = [(list(group) for _, group in groupby(side, key=lambda one: one.log_ns)) for side in (one, other)]
+    left, right = (next(side, []) for side in sides)
+    while left or right:
+        log_ns = min(messages[0].log_ns for messages in (left, right) if messages)
+        is_left, is_right = (bool(messages) and messages[0].log_ns == log_ns for messages in (left, right))
+        yield left if is_left else [], right if is_right else []
+        left = next(sides[0], []) if is_left else left
+        right = next(sides[1], []) if is_right else right
+
+
+def _by_key(messages: Messages) -> dict[str, Messages]:
+    found: dict[str, Messages] = {}
+    for message in messages:
+        found.setdefault(message.key, []).append(message)
+    return found
+
+
+def _add_following(
+    different: dict[str, tuple[Messages, Messages]], moments: Iterator[tuple[Messages, Messages]], log_ns: int
+) -> None:
+    """Add what follows a difference on its keys: it shows which message is missing."""
+    for moment in moments:
+        for side, messages in enumerate(moment):
+            for message in messages:
+                if message.key in different:
+                    different[message.key][side].append(message)
+        if any(messages and messages[0].log_ns > log_ns + _BEYOND_NS for messages in moment):
+            break
+
+
+def _difference(key: str, number: int, one: Messages, other: Messages) -> Difference:
+    """What differs: the message that one side lacks, or the fields."""
+    missing_in = _missing_in(one, other)
+    if missing_in:
+        lacking = one if missing_in == "second" else other
+        return Difference(key, number, lacking[0].time, [], missing_in)
+    first, second = one[0], other[0]
+    fields = list(islice(_fields("", _read(first.payload), _read(second.payload)), _MAX_FIELDS))
+    if first.payload == second.payload:
+        fields = [FieldDifference("log time", first.time, second.time)]
+    return Difference(key, number, min(first.time, second.time), fields)
+
+
+def _missing_in(one: Sequence[RecordedMessage], other: Sequence[RecordedMessage]) -> str:
+    """Which recording lacks the first message of the other; empty if the two messages are of one tick."""
+    if not one or not other:
+        return "second" if one else "first"
+    first, second = _tick_of(one[0]), _tick_of(other[0])
+    if first != second:
+        return "second" if first < second else "first"
+    theirs = [message.payload for message in other if _tick_of(message) == first]
+    ours = [message.payload for message in one if _tick_of(message) == first]
+    if ours[0] in theirs[1:] and theirs[0] not in ours:
+        return "first"
+    if theirs[0] in ours[1:] and ours[0] not in theirs:
+        return "second"
+    return ""
+
+
+def _tick_of(recorded: RecordedMessage) -> int:
+    """The tick that a message belongs to, or that it answers; where it names none, its log time in ns."""
+    found = _TICK.search(recorded.payload)
+    return int(found[1]) if found is not None else recorded.log_ns
 
 
 def _is_of_wall_time(key: str) -> bool:
@@ -112,3 +209,27 @@ def _messages(
                 continue
             last[recorded.key] = recorded.payload
         yield recorded
+
+
+def _read(payload: bytes) -> Any:
+    try:
+        return from_json(payload)
+    except ValueError:
+        return payload.decode(errors="backslashreplace")
+
+
+_MISSING = "…"
+
+
+def _fields(path: str, one: Any, other: Any) -> Iterator[FieldDifference]:
+    """Yield the fields that differ, in the order of the first value."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        for name in {**one, **other}:
+            below = f"{path}.{name}" if path else str(name)
+            yield from _fields(below, one.get(name, _MISSING), other.get(name, _MISSING))
+    elif isinstance(one, list) and isinstance(other, list):
+        for index in range(max(len(one), len(other))):
+            left, right = (side[index] if index < len(side) else _MISSING for side in (one, other))
+            yield from _fields(f"{path}[{index}]", left, right)
+    elif one != other or (isinstance(one, float) and math.copysign(1.0, one) != math.copysign(1.0, other)):
+        yield FieldDifference(path, one, other)

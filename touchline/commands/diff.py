@@ -11,8 +11,7 @@ from touchline.cli import options
 from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:
-    from recordings.inspection.difference import Comparison
-    from recordings.inspection.message_difference import FieldDifference
+    from recordings.inspection.difference import Comparison, FieldDifference
 
 
 def diff(
