@@ -36,13 +36,6 @@ def test_all_robots_of_a_team_play_again_after_a_cut(match: Match, seconds: int)
     assert match.log.robot("magenta1").answers - answers > (last - first) / 2, "the other team plays on"
 
 
-@pytest.mark.long
-def test_robots_play_again_after_their_interface_was_down(match: Match) -> None:
-    net = match.net
-    _, last = match.after_fault(lambda: net.interface_down("cyan"), 4 * SECOND, lambda: net.interface_up("cyan"))
-    assert match.until_playing(*CYAN, since=last) - last <= BACK
-
-
 def test_robots_play_again_after_their_cable_was_unplugged(match: Match) -> None:
     net = match.net
     _, last = match.after_fault(lambda: net.cut("cyan"), 4 * SECOND, lambda: net.restore("cyan"))

@@ -1,6 +1,5 @@
 """A match of six robots on machines of their own, for faults that end well."""
 
-import time
 from collections.abc import Callable
 
 from support.machines import Machines
@@ -45,14 +44,6 @@ class Match:
     def _state_of(self, robot: str) -> str:
         program = self.field.programs[robot]
         return f"{robot}: status {program.popen.poll()}, stderr: {program.err}"
-
-    def listen_again(self) -> None:
-        """Receive from the host that plays now."""
-        self.log = self.field.listen()
-
-    def pause(self, seconds: float) -> None:
-        """Let wall time pass, in which no tick does."""
-        time.sleep(seconds)
 
     def after_fault(self, begin: Callable[[], None], ticks: int, end: Callable[[], None]) -> tuple[int, int]:
         """Let a fault last; returns the newest ticks at its beginning and at its end."""
