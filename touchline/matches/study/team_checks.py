@@ -17,16 +17,18 @@ def check_study_teams(plan: StudyPlan) -> dict[str, str]:
         TouchlineError: a team cannot be loaded, or cannot be played in the way of the study; or a number is invalid.
     """
     engine: dict[str, str] = {}
+    world: Simulation | InProcessMatch
     for match in plan.matches(plan.study.first_seeds[:1]):
         for side in Side:
             _check_kind(match.planned.config, side, plan.study.way)
         if plan.study.way is Way.PROCESSES:
             check_teams(match.planned.config, plan.brain_folder)
+            world = Simulation(match.planned.config)
+            engine = world.setup().engine
         else:
-            InProcessMatch(match.planned.config, brain_folder=plan.brain_folder).close()
-        simulation = Simulation(match.planned.config)
-        engine = simulation.setup().engine
-        simulation.close()
+            world = InProcessMatch(match.planned.config, brain_folder=plan.brain_folder)
+            engine = world.simulation.setup().engine
+        world.close()
     return engine
 
 
