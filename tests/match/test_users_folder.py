@@ -49,13 +49,6 @@ def test_no_file_of_the_users_folder_hides_a_module_of_the_matchs_processes(star
     assert "the user has a file" not in logs + program.err + program.out
 
 
-def test_a_brain_is_found_beside_the_match_file_from_another_directory(start, cup, tmp_path):
-    match = str(cup / "match.toml")
-    program = start("touchline", "match", match, "--listen", "tcp/127.0.0.1:0", folder=tmp_path)
-    assert program.status() == 0, program.err + program.out
-    assert "not started again" not in program.out
-
-
 def _with_current_directory() -> str:
     """A PYTHONPATH with an empty entry, which means the current directory; `PYTHONPATH=$PYTHONPATH:/lib` makes one."""
     return ":".join(["", *(entry for entry in sys.path if entry)])

@@ -16,6 +16,8 @@ teams.magenta.size = 1
 [factors]
 radio.loss = [0, 0.4]
 """
+ONE_CELL = SHORT.replace("[factors]\nradio.loss = [0, 0.4]\n", "")
+"""Two of these matches."""
 
 
 class Run(Protocol):

@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from schemas.errors import TouchlineError
-from support.cups import CUP, mini_cup
+from support.cups import CUP, mini_cup, play
 from touchline.command_line import app
 from touchline.matches.cup.cup_config import load_cup
 from touchline.matches.cup.report import report_of
@@ -40,8 +40,8 @@ def test_ctrl_c_ends_a_cup_tidily_and_resume_finishes_it(undisturbed: Path, tmp_
     assert json.loads(out)["complete"] is False
     assert "interrupted; --resume goes on" in err and "Traceback" not in err
     assert "the cup is not complete" in (tmp_path / "out" / "index.html").read_text()
-    assert subprocess.run([*command, "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
-    assert report_in(tmp_path) == report_in(undisturbed)
+    with closing(mini_cup(tmp_path, resume=True)) as run:
+        assert report_of(play(run, 1)) == report_in(undisturbed)
 
 
 def test_pages_and_recordings_of_all_matches_are_in_the_folder(undisturbed: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from support.short_study import SHORT, Run
+from support.short_study import ONE_CELL, Run
 
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
@@ -66,10 +66,10 @@ def test_verification_names_the_match_whose_result_was_changed(played: Path, hom
 
 def test_a_study_is_verified_from_its_recordings_without_its_teams(run: Run, home: Path, tmp_path: Path) -> None:
     (tmp_path / "still_robot.py").write_text(STILL)
-    run(f"record = true\n{SHORT}".replace("[settings]", '[settings]\ncyan = "still_robot:Still"'))
+    run(f"record = true\n{ONE_CELL}".replace("[settings]", '[settings]\ncyan = "still_robot:Still"'))
     (tmp_path / "still_robot.py").unlink()
     verdict = verdict_of(home)
-    assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 4, True)
+    assert (verdict.faults, verdict.played_again, verdict.byte_identical) == ([], 2, True)
     first, second = sorted((home / "recordings").glob("*.mcap"))[:2]
     first.write_bytes(second.read_bytes())
     faults = check(home)
@@ -89,9 +89,9 @@ def test_a_study_that_is_older_than_a_figure_is_reproduced_without_it(played: Pa
 
 
 def test_recordings_of_inputs_alone_are_small_and_are_verified(run: Run, home: Path) -> None:
-    run(f'record = "inputs"\n{SHORT}')
+    run(f'record = "inputs"\n{ONE_CELL}')
     whole = verdict_of(home)
-    assert (whole.faults, whole.played_again, whole.byte_identical) == ([], 4, None)
+    assert (whole.faults, whole.played_again, whole.byte_identical) == ([], 2, None)
     again = verdict_of(home, from_recordings=False)
     assert (again.faults, again.byte_identical) == ([], True)
 
