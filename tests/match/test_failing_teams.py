@@ -49,7 +49,7 @@ def test_a_team_whose_robots_all_fail_at_once_ends_the_match_with_the_reason_and
     assert program.out.count("failed at its first sight; not started again") == 2
     line = program.err.splitlines()[-1]  # a busy machine reports the wait for the brains before it
     assert line.startswith("touchline: match ended ")
-    fault = "act raised at tick 0 (team.py, line 14): ValueError: no plan"
+    fault = "act raised at tick 0 (team.py, line 13): ValueError: no plan"
     assert f"no robot of Lions (cyan) is left; cyan1: {fault}; logs are in runs/" in line
     (recording,) = tmp_path.glob("runs/*/match.mcap")
     assert open_recording(recording).complete
