@@ -16,7 +16,6 @@ from matplotlib.patches import Rectangle
 sys.path.insert(0, str(Path(__file__).parent))
 
 import physics_runs as runs
-
 from schemas.config.profile import load_profile
 from schemas.messages.command import KickMode
 

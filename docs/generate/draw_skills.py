@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 sys.path.insert(0, str(Path(__file__).parent))
 
 import skill_runs
-
 from recordings.picture.bodies import draw_bodies
 from recordings.picture.pitch import draw_pitch
 

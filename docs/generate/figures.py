@@ -12,8 +12,8 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-import physics_runs as runs
 
+import physics_runs as runs
 from schemas.config.profile import load_profile
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.radio import BallBelief, Motion, Radio

@@ -13,7 +13,6 @@ from types import ModuleType
 from typing import Any
 
 from ruling_table import Row, not_judged, parts_of_module, parts_of_rule, rows
-
 from schemas.config.quantity import Quantity, meanings
 from schemas.config.rule_book import SECTIONS, SHIPPED, RuleBook, load_rule_book
 from sim_host.referee import authority, refbox

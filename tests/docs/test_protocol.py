@@ -7,15 +7,15 @@ from pathlib import Path
 
 import pytest
 
+from message_examples import examples
+from protocol import page
+from protocol_fields import is_part, parts_of, rows, type_text
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh import sample, session
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.messages.command import Command
 from schemas.process.timing import LEASE_S
-from schemas.protocol.examples import examples
-from schemas.protocol.fields import is_part, parts_of, rows, type_text
-from schemas.protocol.page import page
 from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server import agent_stats
@@ -33,7 +33,7 @@ def text(root: Path) -> str:
 
 
 def test_the_page_is_fresh(text: str) -> None:
-    assert text == page(), "run: .venv/bin/python -m schemas.protocol > docs/protocol.md"
+    assert text == page(), "run: .venv/bin/python docs/generate/protocol.py > docs/protocol.md"
 
 
 def test_every_topic_stands_in_its_table(text: str) -> None:

@@ -1,20 +1,16 @@
 """The page on the rules is generated from this code, and documents each rule completely."""
 
-import sys
 from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
+from rules import DECIDED_BY_PEOPLE, PROCEDURES, page
+from ruling_table import LABELS, clause, not_judged, parts_of_module, parts_of_rule, rows
 from schemas.config.rule_book import SECTIONS, SHIPPED, load_rule_book
 from sim_host.referee.rules import RULES, SHOOT_OUT
 
 TEXT_ROOT = Path(__file__).parents[2]
-sys.path.append(str(TEXT_ROOT / "docs" / "generate"))
-
-from rules import DECIDED_BY_PEOPLE, PROCEDURES, page  # noqa: E402
-from ruling_table import LABELS, clause, not_judged, parts_of_module, parts_of_rule, rows  # noqa: E402
-
 TEXT = (TEXT_ROOT / "docs" / "rules.md").read_text("utf-8")
 ALL = (*RULES, *SHOOT_OUT)
 

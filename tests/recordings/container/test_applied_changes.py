@@ -4,10 +4,10 @@ import json
 
 import pytest
 
+from message_examples import examples
 from recordings.container.applied_changes import changes_in
 from schemas.config.roster import RosterEntry
 from schemas.messages.applied import Applied
-from schemas.protocol.examples import examples
 from schemas.side import Side
 
 QUIET = examples()[Applied]

@@ -14,6 +14,7 @@ from google.protobuf.unknown_fields import UnknownFieldSet
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 
+from message_examples import examples
 from recordings.container.file_descriptors import file_descriptor_set
 from recordings.container.json_schema import whole_schema
 from recordings.exchange.protobuf.export import export
@@ -21,7 +22,6 @@ from recordings.exchange.protobuf.message_type import message_type
 from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
 from schemas.messages.record_batch import RecordBatch
-from schemas.protocol.examples import examples
 from schemas.topics import TOPICS, WORLD
 from schemas.wire.message import Message
 

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from message_examples import examples
 from schemas.messages.applied import Applied, AppliedInput, chained_part, chained_part_of
 from schemas.messages.command import Drive
-from schemas.protocol.examples import examples
 from schemas.wire.message import BadMessageError
 from schemas.wire.part import encode
 

@@ -7,6 +7,7 @@ from typing import Any, get_args, get_type_hints
 import pytest
 from pydantic import BaseModel
 
+from protocol_fields import rows
 from recordings.container.json_schema import flat_schema, whole_schema
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
@@ -16,7 +17,6 @@ from schemas.messages.manual import ManualDrive
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.messages.world import World
-from schemas.protocol.fields import rows
 from schemas.topics import TOPICS
 from schemas.wire.json_schema import json_schema
 from schemas.wire.part import Part

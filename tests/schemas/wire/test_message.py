@@ -11,6 +11,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from message_examples import examples
 from schemas.game import ActionName, Phase, Point, TeamPhase
 from schemas.messages.applied import Applied, AppliedInput, OperatorChange
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
@@ -23,7 +24,6 @@ from schemas.messages.record_batch import BatchEntry
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Obstacle, Sight
 from schemas.messages.world import BallTruth, World
-from schemas.protocol.examples import examples
 from schemas.side import Side
 from schemas.topics import TOPICS
 from schemas.wire.faults import FaultError

@@ -1,26 +1,30 @@
-"""The page on the protocol: how to join, the topic table, and every message with its fields and an example."""
+"""The page on the protocol: how to join, the topic table, and every message with its fields and an example.
+
+`python docs/generate/protocol.py > docs/protocol.md` writes it.
+"""
 
 import json
 import re
+import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from enum import Enum
-from importlib import resources
 from inspect import cleandoc
+from pathlib import Path
 from typing import Any
 
 from pydantic_core import from_json
 
+from message_examples import examples
+from protocol_fields import is_part, parts_of, rows
 from schemas.access.accounts import ACCOUNTS, Account
 from schemas.access.rights import Rights
-from schemas.protocol.examples import examples
-from schemas.protocol.fields import is_part, parts_of, rows
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 from schemas.wire.message import VERSION, Message
 
-_NOTE = "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; to change this page, change schemas/. -->"
+_NOTE = "<!-- Made by `python docs/generate/protocol.py > docs/protocol.md`; to change this page, change schemas/. -->"
 _WIDE = 110
 """Most characters in a line of an example, where the line can be broken."""
 _TOPIC_HEADINGS = ("key", "message", "from", "to", "rate", "delivery", "recorded", "description")
@@ -33,7 +37,7 @@ def page() -> str:
     messages = _messages(TOPICS.values())
     parts = _parts(messages)
     titles = _titles([*messages, *parts])
-    overview, joining = (_text(name) for name in ("overview.md", "joining.md"))
+    overview, joining = (_text(name) for name in ("protocol_overview.md", "protocol_joining.md"))
     sections = [
         f"# The protocol, version {VERSION}",
         _NOTE,
@@ -59,7 +63,7 @@ def page() -> str:
 
 
 def _text(name: str) -> str:
-    return (resources.files("schemas.protocol") / name).read_text("utf-8").strip()
+    return (Path(__file__).parent / name).read_text("utf-8").strip()
 
 
 def _messages(topics: Iterable[Topic]) -> list[type[Message]]:
@@ -168,3 +172,7 @@ def _packed(entries: Sequence[str], indent: str) -> str:
         else:
             lines.append(f"{indent}{entry}")
     return ",\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.stdout.write(page())

@@ -1,1 +1,0 @@
-"""The page `docs/protocol.md`, made from the topic table, the messages, their examples, and a text on joining."""
