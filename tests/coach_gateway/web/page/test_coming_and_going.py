@@ -1,19 +1,6 @@
 """Pages, gateways and hosts that come and go: a page shows it, and recovers by itself."""
 
 
-def test_a_page_that_is_loaded_again_knows_everything_again(match, visit) -> None:
-    tab = visit(match, "referee")
-    tab.button("goal", "cyan").click()
-    tab.until("document.querySelector('#events')?.textContent.includes('Goal')")
-    tab.page.reload()
-    tab.until("window.touchline?.match.role === 'referee' && window.touchline.pitchCanvas.world !== null")
-    tab.until("document.getElementById('score').textContent === '1 : 0'")
-    tab.until("document.querySelector('#events')?.textContent.includes('Goal')")
-    tab.page.locator("#all-events").click()
-    texts = tab.ask("window.touchline.match.events.map((event) => event.tick + event.text)")
-    assert len(texts) == len(set(texts))  # each once
-
-
 def test_a_gateway_that_is_killed_and_started_again_finds_its_pages(match, gateway_of, visit) -> None:
     gateway = gateway_of(match.medium)
     tab = visit(gateway.origin, "referee")

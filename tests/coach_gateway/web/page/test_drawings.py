@@ -33,18 +33,6 @@ def wait_for_shapes(tab, cyan: bool, magenta: bool) -> None:
         tab.page.wait_for_timeout(20)
 
 
-@pytest.mark.parametrize(
-    ("role", "cyan", "magenta"), [("cyan", True, False), ("magenta", False, True), ("referee", True, True)]
-)
-def test_a_team_s_drawings_are_on_its_own_pages_and_the_operator_s(
-    match_of, visit, role: str, cyan: bool, magenta: bool
-) -> None:
-    tab = visit(match_of(teams=TEAMS), role)
-    seen = [side for side, sees in (("cyan", cyan), ("magenta", magenta)) if sees]
-    tab.until(f"Object.keys(window.touchline.match.debug).sort().join() === '{','.join(f'{side}1' for side in seen)}'")
-    wait_for_shapes(tab, cyan, magenta)
-
-
 def test_drawings_can_be_switched_off_and_limited_to_a_robot(match_of, visit) -> None:
     tab = visit(match_of(teams=TEAMS), "referee")
     tab.until("document.querySelectorAll('#layer-drawings option').length === 6")

@@ -122,8 +122,6 @@ def test_everything_is_reached_and_used_by_keyboard(match, visit) -> None:
     tab.page.locator("#layer-roles").focus()
     tab.page.keyboard.press("Enter")
     assert not tab.page.locator("#layer-roles").is_checked()
-    tab.page.keyboard.press("]")
-    assert tab.ask("window.touchline.selection.robot") == "cyan1"
 
 
 def test_what_the_field_shows_is_kept_for_the_next_visit(match, visit) -> None:

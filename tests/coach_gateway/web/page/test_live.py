@@ -23,16 +23,6 @@ def shows(tab, robot: str, x: float, y: float) -> bool:
     return sum(all(abs(a - b) < 14 for a, b in zip(pixel, FILLS[side], strict=False)) for pixel in pixels) >= 2
 
 
-def test_drawing_goes_on_while_the_match_is_played(match_of, visit) -> None:
-    sides = {side: {"brain": "robot_agent.teams.simple:Simple", "size": 5} for side in ("cyan", "magenta")}
-    tab = visit(match_of(teams=sides))
-    drawn, time = tab.ask("[window.touchline.pitchCanvas.drawn, window.touchline.pitchCanvas.world.time]")
-    tab.until(
-        f"window.touchline.pitchCanvas.drawn > {drawn + 60} && window.touchline.pitchCanvas.world?.time > {time + 0.5}"
-    )
-    assert tab.ask("Object.keys(window.touchline.pitchCanvas.world.robots).length") == 10
-
-
 def test_robots_are_drawn_where_they_are(resting, visit) -> None:
     match = resting
     tab = visit(match, "referee")

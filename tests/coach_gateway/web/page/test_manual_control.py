@@ -127,7 +127,7 @@ def test_what_a_coach_drags_stays_where_it_is(resting, visit) -> None:
     assert tab.ask("window.touchline.selection.dragged") is None
 
 
-def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_shows_the_reason(resting, visit) -> None:
+def test_while_a_referee_box_commands_only_stop_is_left_and_the_page_shows_the_reason(resting, visit) -> None:
     match = resting
     tab, spectator = visit(match, "referee"), visit(match)
     ball = drop(match, tab)
@@ -138,10 +138,13 @@ def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_shows
         assert one.page.locator("#notice").is_visible()
     tab.drag(ball, (3.0, 2.0))
     tab.wait_for_log("refused: the referee box commands the match")
+    assert "the referee box commands the match" in (tab.button("corner", "cyan").get_attribute("title") or "")
+    assert tab.button("corner", "cyan").is_disabled()
+    stop(tab)
     box.declare_alive("refbox", "magenta")
     tab.until("document.getElementById('notice').textContent.includes('A referee box commands the match; ')")
     box.close()
-    tab.until("document.getElementById('notice').hidden")
+    tab.until("document.getElementById('notice').hidden && !document.querySelector('[data-action=corner]').disabled")
 
 
 def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(resting, visit) -> None:

@@ -13,7 +13,6 @@ from schemas.side import Side
 from schemas.topics import ACTION
 from support.page_gateway import SOON
 from support.page_match import Match
-from support.visitor import Visitor
 
 SEEN = "document.getElementById('cyan-question').checkVisibility()"
 
@@ -68,32 +67,3 @@ def test_others_see_the_question_without_buttons(
     tab.until(SEEN)
     assert "Yellow card for Blues: which robot?" in tab.page.locator("#cyan-question").inner_text()
     assert not any(button.is_visible() for button in tab.page.locator("#pending button").all())
-
-
-def test_only_the_coach_of_the_side_names_its_robot_while_a_box_locks_all_other_actions(
-    boxed: tuple[Match, Box], gateway_of: Callable[..., Any]
-) -> None:
-    match, box = boxed
-    origin = gateway_of(match.medium).origin
-    pages = {role: Visitor(origin) for role in ("spectator", "magenta", "cyan")}
-    for role, page in pages.items():
-        page.hear_what_is_played()
-        if role != "spectator":
-            page.enter(role)
-    box.request(ActionName.RED_CARD, Side.CYAN)
-    answers = [
-        pages[role].ask("action", action={"action": action, "robot": "cyan1"})
-        for role, action in (
-            ("spectator", "name_robot"),
-            ("magenta", "name_robot"),
-            ("cyan", "repair"),
-            ("cyan", "name_robot"),
-        )
-    ]
-    assert [answer["accepted"] for answer in answers] == [False, False, False, True]
-    assert answers[0]["reason"].endswith("this page has none")
-    assert answers[1]["reason"] == "cyan1 is not for magenta's coach"
-    assert "referee box" in answers[2]["reason"]
-    match.until(lambda: match.state.robots["cyan1"].red == 1)
-    for page in pages.values():
-        page.close()

@@ -25,7 +25,8 @@ def test_a_spectator_sees_no_command_and_no_dead_button(resting, visit, width: i
     for panel in tab.ask(OPENED):
         tab.open(panel)
         assert tab.ask(DEAD) == []
-    for command in ("[data-action]", "#confirm", "#order-give", "#drive-take", "#scene-load", "#stop", "#seat"):
+    hidden = ("[data-action]", "#confirm", "#order-give", "#drive-take", "#scene-load", "#stop", "#seat")
+    for command in (*hidden, "#layer-drawings"):
         assert not tab.page.locator(command).first.is_visible()
     tab.page.keyboard.press("Space")
     tab.drag(match.where("cyan1"), (0.0, 3.0))
