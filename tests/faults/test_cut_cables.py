@@ -83,3 +83,4 @@ def test_robots_play_over_a_link_with_delay_jitter_loss_and_reordering(match: Ma
         answers = after.robots[robot].answers - before.robots[robot].answers
         assert answers > (after.tick - before.tick) / 4
         assert not after.robots[robot].invalid
+        assert after.robots[robot].latency_ms > 30.0, "the link is as bad as it should be"

@@ -12,8 +12,7 @@ import pytest
 
 from coach_gateway.access.tokens import read_or_make
 from schemas.access.accounts import Account
-from schemas.access.credentials import account_file, credential_files, new_credentials, write_credentials
-from schemas.bus.announcement import Announcement, announced
+from schemas.access.credentials import account_file, credential_files
 from schemas.config.match_config import load_match
 from schemas.config.settings_file import write_settings
 from schemas.process.clock import WallClock
@@ -81,23 +80,3 @@ def test_another_user_reads_neither_credentials_nor_tokens_nor_settings(folder: 
         assert path.exists() and not can_be_read_by_others(path), path
     (plan.folder / "host.log").touch()
     assert can_be_read_by_others(plan.folder / "host.log")  # so the check can fail
-
-
-def test_credentials_that_replace_readable_ones_are_for_their_owner_alone(tmp_path: Path) -> None:
-    folder = tmp_path / "credentials"
-    folder.mkdir()
-    for path in credential_files(folder):
-        path.touch(0o644)
-    write_credentials(folder, new_credentials())
-    assert {mode(path) for path in credential_files(folder)} == {0o600}
-
-
-def test_a_new_folder_of_credentials_is_closed_to_others(folder: Path) -> None:
-    write_credentials(folder / "credentials", new_credentials())
-    assert mode(folder / "credentials") == 0o700
-
-
-def test_the_announcement_of_a_host_and_its_folder_are_for_their_owner_alone(folder: Path) -> None:
-    path = folder / "hosts" / "1.json"
-    with announced(Announcement.of("friendly", "tcp/127.0.0.1:7447"), path):
-        assert (mode(path), mode(path.parent)) == (0o600, 0o700)

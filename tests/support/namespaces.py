@@ -104,14 +104,6 @@ class Network:
         """Plug it in again."""
         self._ip(f"link set dev {_port(name)} up")
 
-    def interface_down(self, name: str) -> None:
-        """Switch a machine's interface off, as an operator does."""
-        _run(["ip", "-n", self.namespace(name), "link", "set", "dev", INTERFACE, "down"])
-
-    def interface_up(self, name: str) -> None:
-        """Switch it on again."""
-        _run(["ip", "-n", self.namespace(name), "link", "set", "dev", INTERFACE, "up"])
-
     def impair(self, name: str, conditions: LinkConditions) -> None:
         """Give the link of a machine these conditions, in both directions, until the next call for it.
 

@@ -43,16 +43,6 @@ FOREIGN_PUTS = (
     "host/record_batch",
     "record/recorder/progress",
 )
-FOREIGN_TOKENS = (
-    "alive/agent/magenta1",
-    "alive/session/magenta_0",
-    "alive/session/*",
-    "alive/recorder/x",
-    "alive/host/x",
-    "alive/referee/x",
-    "alive/**",
-    "alive/session/cyan_0/deeper",
-)
 FOREIGN_READS = (
     "**",
     "robot/magenta1/sight",
@@ -62,14 +52,6 @@ FOREIGN_READS = (
     "team/*/order",
     "world",
     "*/*/*",
-)
-FOREIGN_QUERIES = (
-    "host/scene",
-    "host/parameters",
-    "game/action",
-    "host/claim",
-    "robot/magenta1/claim",
-    "robot/*/claim",
 )
 
 
@@ -176,13 +158,6 @@ def test_of_all_that_a_team_publishes_only_its_own_commands_reach_the_host(
     assert caches.try_recv() is None
 
 
-def test_a_team_declares_only_its_own_tokens(host: ZenohBus, attacker: zenoh.Session) -> None:
-    tokens = host.session.liveliness().declare_subscriber(PREFIX + "**", zenoh.handlers.FifoChannel(1000))
-    declared = [attacker.liveliness().declare_token(PREFIX + key) for key in (*FOREIGN_TOKENS, "alive/session/cyan_1")]
-    assert keys_until(tokens, "alive/session/cyan_1") == ["alive/session/cyan_1"]
-    assert declared
-
-
 def test_a_team_receives_only_its_own_sights_and_public_news(host: ZenohBus, attacker: zenoh.Session) -> None:
     readers = [attacker.declare_subscriber(PREFIX + key, zenoh.handlers.FifoChannel(1000)) for key in FOREIGN_READS]
     own = attacker.declare_subscriber(PREFIX + "robot/cyan1/sight", zenoh.handlers.FifoChannel(1000))
@@ -195,42 +170,6 @@ def test_a_team_receives_only_its_own_sights_and_public_news(host: ZenohBus, att
     assert keys_until(own, "robot/cyan1/sight") == ["robot/cyan1/sight"]
     heard = [key_of(sample) for reader in readers for sample in iter(reader.try_recv, None)]
     assert set(heard) <= {"robot/cyan1/sight"}
-
-
-def test_a_team_s_queries_of_others_are_dropped(host: ZenohBus, attacker: zenoh.Session) -> None:
-    asked: list[str] = []
-    queryable = host.session.declare_queryable(
-        PREFIX + "**", zenoh.handlers.Callback(lambda query: asked.append(key_of(query)), indirect=False)
-    )
-    for key in FOREIGN_QUERIES:
-        assert not [reply for reply in attacker.get(PREFIX + key, timeout=0.5) if reply.ok is not None]
-    host.session.declare_queryable(
-        PREFIX + "host/setup", zenoh.handlers.Callback(lambda query: asked.append(key_of(query)), indirect=False)
-    )
-    while "host/setup" not in asked:
-        list(attacker.get(PREFIX + "host/setup", timeout=0.5))
-    assert set(asked) == {"host/setup"}
-    queryable.undeclare()
-
-
-def test_nobody_answers_in_the_place_of_the_host(host: ZenohBus, attacker: zenoh.Session, folder: Path) -> None:
-    """It is declared before that of the host, complete, on the key itself and on all keys."""
-    forged = [
-        attacker.declare_queryable(
-            PREFIX + key,
-            zenoh.handlers.Callback(lambda query: query.reply(PREFIX + "host/setup", b"forged"), indirect=False),
-            complete=True,
-        )
-        for key in ("host/setup", "host/*", "**")
-    ]
-    server = host.serve(SETUP)
-    with join(host, folder, Account.VIEWER) as viewer:
-        pending = viewer.query(SETUP, SetupRequest(), timeout=LIMIT)
-        query = server.receive(LIMIT)
-        assert query is not None
-        query.reply_payload(b"genuine")
-        assert pending.payload(LIMIT) == b"genuine"
-    assert forged
 
 
 def test_history_and_recovery_of_a_topic_work_under_the_rules(host: ZenohBus, folder: Path) -> None:

@@ -13,11 +13,9 @@ from schemas.bus.contract import BusError, PresenceKind
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_free_port
 from schemas.bus.zenoh import session
 from schemas.bus.zenoh.bus import open_client, open_host
-from schemas.bus.zenoh.reader import ZenohReader
 from schemas.messages.command import Command
 from schemas.process.clock import WallClock
-from schemas.topic import Topic
-from schemas.topics import COMMAND, SIGHT
+from schemas.topics import COMMAND
 
 
 def test_a_port_in_use_is_one_line_with_the_remedy() -> None:
@@ -170,25 +168,3 @@ def test_a_port_that_was_chosen_stays_free_for_the_host_however_long_that_takes_
         other.bind((host, port))
     with open_host("test", WallClock(), endpoint), open_client("test", WallClock(), endpoint) as client:
         assert client.connected()
-
-
-@pytest.mark.parametrize("topic", [COMMAND, SIGHT], ids=["every", "newest"])
-def test_a_wake_up_that_comes_too_late_does_not_end_the_next_wait(topic: Topic) -> None:
-    with open_host("test", WallClock(), with_free_port("tcp/127.0.0.1:0")) as host:
-        reader = host.subscribe(topic, robot="cyan1")
-        assert isinstance(reader, ZenohReader)
-        reader.wake()
-        began = time.monotonic()
-        assert reader.receive(0.2) is None
-        assert time.monotonic() - began >= 0.18
-
-
-def test_a_wake_up_pushes_no_message_out() -> None:
-    with open_host("test", WallClock(), with_free_port("tcp/127.0.0.1:0")) as host:
-        reader, writer = host.subscribe(SIGHT, robot="cyan1"), host.publisher(SIGHT, robot="cyan1")
-        assert isinstance(reader, ZenohReader)
-        for number in (b"1", b"2", b"3"):
-            writer.put_payload(number)
-        reader.wake()
-        assert reader.receive_payload() == b"3"
-        assert reader.receive_payload() is None

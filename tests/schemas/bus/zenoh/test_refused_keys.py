@@ -17,7 +17,7 @@ from schemas.messages.command import Command
 from schemas.messages.setup import SetupRequest
 from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, ORDER, RECORDER_PROGRESS, SETUP
-from support.attacker import open_session
+from support.attacker import BELIEF, PROGRESS, open_session
 
 PREFIX = "touchline/test/"
 LIMIT = 30.0
@@ -52,7 +52,8 @@ def test_a_message_on_a_key_with_wildcards_reaches_no_reader_and_is_counted(
 ) -> None:
     host, session = ends
     readers = [host.subscribe(topic) for topic in (COMMAND, ORDER, RECORDER_PROGRESS)]
-    session.put(key, Command(answers_tick=0).encode())
+    for payload in (b"", b"?", BELIEF, PROGRESS, Command(answers_tick=0).encode()):
+        session.put(key, payload)
     session.put(f"{PREFIX}robot/cyan1/command", b"last")
     received = readers[0].receive(LIMIT)
     assert received is not None
@@ -112,16 +113,19 @@ def test_a_reply_to_a_client_that_has_gone_is_no_error(ends: tuple[Bus, zenoh.Se
     assert list(answers) == []
 
 
-@pytest.mark.parametrize("name", ["No Name", "Ω", "UPPER", "9", "x" * 500, "{}"])
-def test_a_token_whose_name_is_no_name_is_ignored_and_counted(ends: tuple[Bus, zenoh.Session], name: str) -> None:
-    (host, session), kind = ends, PresenceKind.AGENT
+@pytest.mark.parametrize("kind", [PresenceKind.AGENT, PresenceKind.RECORDER, PresenceKind.REFEREE])
+def test_a_token_whose_name_is_no_name_is_ignored_and_counted(
+    ends: tuple[Bus, zenoh.Session], kind: PresenceKind
+) -> None:
+    host, session = ends
     watch = host.watch_alive()
-    strange = session.liveliness().declare_token(f"{PREFIX}alive/{kind}/{name}")
+    names = ["No Name", "Ω", "UPPER", "9", "x" * 500, "{}"]
+    strange = [session.liveliness().declare_token(f"{PREFIX}alive/{kind}/{name}") for name in names]
     real = session.liveliness().declare_token(f"{PREFIX}alive/{kind}/cyan1")
     presence = watch.receive(LIMIT)
     assert presence is not None
     assert presence.name == "cyan1"
-    assert host.refusals.pop() == [Refusal(f"alive/{kind}/*", NO_NAME, 1, 0)]
+    assert host.refusals.pop() == [Refusal(f"alive/{kind}/*", NO_NAME, len(names), 0)]
     del strange, real
 
 
