@@ -54,6 +54,12 @@ def pytest_unconfigure() -> None:
     shutil.rmtree(os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
 
 
+@pytest.fixture(scope="session")
+def anyio_backend() -> str:
+    """Each test that is a coroutine runs in an event loop of its own."""
+    return "asyncio"
+
+
 @pytest.fixture
 def open_folder() -> Iterator[Path]:
     """A folder that every user may enter, as those of pytest are not."""

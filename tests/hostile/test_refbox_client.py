@@ -1,6 +1,5 @@
 """A referee box that attacks the base station which is connected to it: garbage, floods, endless lines, silence."""
 
-import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
@@ -16,6 +15,8 @@ from schemas.side import Side
 from support.box_client import connected
 from support.gateway_bench import Bench, until
 from support.referee_box import Box
+
+pytestmark = pytest.mark.anyio
 
 
 @asynccontextmanager
@@ -46,71 +47,57 @@ GARBAGE = [
 
 
 @pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
-def test_garbage_of_a_box_is_counted_and_its_next_command_is_forwarded(protocol: BoxProtocol) -> None:
-    async def play() -> None:
-        async with stopped(protocol) as (bench, box, client):
-            for garbage in GARBAGE:
-                box.send(garbage)
-                forwarded = sum(action.action is ActionName.STOP for action in bench.stage.asked)
-                box.say("STOP")
-                await until(
-                    lambda before=forwarded: (
-                        sum(action.action is ActionName.STOP for action in bench.stage.asked) > before
-                    ),
-                    repr(garbage[:40]),
-                )
-            assert client.connected and client.counts["connections"] == 1 and client.counts["unreadable"] > 5
-            assert all(action.robot is None for action in bench.stage.asked)
-            assert all(line.isprintable() and len(line) < 300 for line in bench.logged if "referee box" in line)
-
-    asyncio.run(play())
+async def test_garbage_of_a_box_is_counted_and_its_next_command_is_forwarded(protocol: BoxProtocol) -> None:
+    async with stopped(protocol) as (bench, box, client):
+        for garbage in GARBAGE:
+            box.send(garbage)
+            forwarded = sum(action.action is ActionName.STOP for action in bench.stage.asked)
+            box.say("STOP")
+            await until(
+                lambda before=forwarded: sum(action.action is ActionName.STOP for action in bench.stage.asked) > before,
+                repr(garbage[:40]),
+            )
+        assert client.connected and client.counts["connections"] == 1 and client.counts["unreadable"] > 5
+        assert all(action.robot is None for action in bench.stage.asked)
+        assert all(line.isprintable() and len(line) < 300 for line in bench.logged if "referee box" in line)
 
 
-def test_a_box_that_floods_start_and_stop_is_forwarded_in_turn_and_neither_fills_memory_nor_the_log() -> None:
-    async def play() -> None:
-        async with stopped() as (bench, box, client):
-            bench.stage.answer = lambda _: ActionReply(accepted=False, reason="not now")
-            flood = b'{"command": "START"}\x00{"command": "STOP"}\x00' * 20_000
-            box.send(flood)
-            box.say("GOAL", "224.16.32.44")
-            await until(lambda: client.counts["received"] > 40_000)
-            await until(lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.GOAL)
-            assert client.counts["dropped"] > 30_000
-            assert len(bench.stage.asked) <= 40_000 - client.counts["dropped"] + signal_queue.MOST_WAITING
-            assert len([line for line in bench.logged if "not now" in line]) <= 40
-
-    asyncio.run(play())
+async def test_a_box_that_floods_start_and_stop_is_forwarded_in_turn_and_neither_fills_memory_nor_the_log() -> None:
+    async with stopped() as (bench, box, client):
+        bench.stage.answer = lambda _: ActionReply(accepted=False, reason="not now")
+        flood = b'{"command": "START"}\x00{"command": "STOP"}\x00' * 20_000
+        box.send(flood)
+        box.say("GOAL", "224.16.32.44")
+        await until(lambda: client.counts["received"] > 40_000)
+        await until(lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.GOAL)
+        assert client.counts["dropped"] > 30_000
+        assert len(bench.stage.asked) <= 40_000 - client.counts["dropped"] + signal_queue.MOST_WAITING
+        assert len([line for line in bench.logged if "not now" in line]) <= 40
 
 
 @pytest.mark.parametrize("flood", [b"S", b"sS" * 10, b"?" * 100, b"Kk1\x00\r\n "])
-def test_characters_in_a_flood_leave_the_last_one_in_force(flood: bytes) -> None:
-    async def play() -> None:
-        async with stopped(BoxProtocol.CHARACTERS) as (bench, box, client):
-            box.send(flood * 5000 + b"N")  # a drop ball
-            await until(
-                lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.DROP_BALL, "the last character"
-            )
-            assert client.connected
-
-    asyncio.run(play())
+async def test_characters_in_a_flood_leave_the_last_one_in_force(flood: bytes) -> None:
+    async with stopped(BoxProtocol.CHARACTERS) as (bench, box, client):
+        box.send(flood * 5000 + b"N")  # a drop ball
+        await until(
+            lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.DROP_BALL, "the last character"
+        )
+        assert client.connected
 
 
-def test_a_second_box_takes_nothing_from_the_first() -> None:
+async def test_a_second_box_takes_nothing_from_the_first() -> None:
     """Both claim the seat by name; the host refuses the second's actions, which is logged in few lines."""
 
-    async def play() -> None:
-        async with stopped() as (bench, first, client):
-            second_box = Box()
-            port = await second_box.open()
-            second = RefBoxClient(bench.live, BoxAddress(Side.MAGENTA, "127.0.0.1", port), bench.logged.append)
-            bench.start(second)
-            await until(lambda: second.connected)
-            for box in (first, second_box):
-                box.say("STOP")
-            await until(lambda: len(bench.stage.asked) >= 1)
-            names: set[Any] = {action.referee for action in bench.stage.asked}
-            assert all(name and name.startswith("box_127_0_0_1_") for name in names)
-            assert client.connected
-            await second_box.close()
-
-    asyncio.run(play())
+    async with stopped() as (bench, first, client):
+        second_box = Box()
+        port = await second_box.open()
+        second = RefBoxClient(bench.live, BoxAddress(Side.MAGENTA, "127.0.0.1", port), bench.logged.append)
+        bench.start(second)
+        await until(lambda: second.connected)
+        for box in (first, second_box):
+            box.say("STOP")
+        await until(lambda: len(bench.stage.asked) >= 1)
+        names: set[Any] = {action.referee for action in bench.stage.asked}
+        assert all(name and name.startswith("box_127_0_0_1_") for name in names)
+        assert client.connected
+        await second_box.close()

@@ -4,6 +4,8 @@ import asyncio
 import threading
 from typing import Any
 
+import pytest
+
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox.call_generator import CallGenerator
 from schemas.bus.in_process_bus import SharedState
@@ -14,159 +16,132 @@ from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
+from support.gateway_bench import kicked_off, opened, until
 from support.messages import make_setup
 
-
-def test_without_a_host_the_reply_is_a_refusal_with_the_reason(opened: Any, until: Any) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            bench.stage.bus.close()
-            await until(lambda: not bench.live.host_present)
-            reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
-            assert not reply.accepted and "no process answers game/action" in reply.reason
-
-    asyncio.run(play())
+pytestmark = pytest.mark.anyio
 
 
-def test_after_an_action_the_state_is_what_it_has_led_to(kicked_off: Any, until: Any) -> None:
+async def test_without_a_host_the_reply_is_a_refusal_with_the_reason() -> None:
+    async with opened() as bench:
+        bench.stage.bus.close()
+        await until(lambda: not bench.live.host_present)
+        reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
+        assert not reply.accepted and "no process answers game/action" in reply.reason
+
+
+async def test_after_an_action_the_state_is_what_it_has_led_to() -> None:
     """Who decides by the state, as base stations do, would decide by one from before his own last action."""
 
-    async def play() -> None:
-        async with kicked_off(**{"referee.mode": "manual", "duration": 3600.0}) as bench:
-            for action, score in [(ActionName.GOAL, 1), (ActionName.CANCEL_GOAL, 0)] * 3:
-                reply = await bench.live.act(RefereeAction(action=action, side=Side.CYAN))
-                assert reply.accepted and bench.live.state.score.cyan == score
-                refused = await bench.live.act(RefereeAction(action=ActionName.ENTER, robot="cyan1"))
-                assert not refused.accepted and bench.live.state.tick >= refused.tick > reply.tick
-
-    asyncio.run(play())
+    async with kicked_off(**{"referee.mode": "manual", "duration": 3600.0}) as bench:
+        for action, score in [(ActionName.GOAL, 1), (ActionName.CANCEL_GOAL, 0)] * 3:
+            reply = await bench.live.act(RefereeAction(action=action, side=Side.CYAN))
+            assert reply.accepted and bench.live.state.score.cyan == score
+            refused = await bench.live.act(RefereeAction(action=ActionName.ENTER, robot="cyan1"))
+            assert not refused.accepted and bench.live.state.tick >= refused.tick > reply.tick
 
 
-def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_match_counts(
-    opened: Any, until: Any
-) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            told: list[str] = []
-            call_generator = CallGenerator()
-            bench.live.on_state(
-                lambda state: told.extend(
-                    call.signal.name for call in call_generator.next_calls(state, bench.live.sides)
-                )
-            )
-            for _ in range(100):
-                bench.stage.say(phase=Phase.STOPPED, score=Score(cyan=2))
-            bench.stage.tell("of the old match")
-            await until(lambda: bench.live.events and bench.live.state.score.cyan == 2)
-            assert len(bench.live.sides) == 6
-            bench.stage.bus.close()
-            await until(lambda: not bench.live.host_present)
-            another = type(bench.stage)(
-                bench.stage.medium, load_match(None, {f"teams.{side}.size": 1 for side in Side})
-            )
-            bench.start(another)
-            await until(lambda: len(bench.live.sides) == 2)
-            told.clear()
-            another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
-            await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
-            assert bench.live.events == []
-            assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
-
-    asyncio.run(play())
+async def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_match_counts() -> None:
+    async with opened() as bench:
+        told: list[str] = []
+        call_generator = CallGenerator()
+        bench.live.on_state(
+            lambda state: told.extend(call.signal.name for call in call_generator.next_calls(state, bench.live.sides))
+        )
+        for _ in range(100):
+            bench.stage.say(phase=Phase.STOPPED, score=Score(cyan=2))
+        bench.stage.tell("of the old match")
+        await until(lambda: bench.live.events and bench.live.state.score.cyan == 2)
+        assert len(bench.live.sides) == 6
+        bench.stage.bus.close()
+        await until(lambda: not bench.live.host_present)
+        another = type(bench.stage)(bench.stage.medium, load_match(None, {f"teams.{side}.size": 1 for side in Side}))
+        bench.start(another)
+        await until(lambda: len(bench.live.sides) == 2)
+        told.clear()
+        another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
+        await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
+        assert bench.live.events == []
+        assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
 
 
-def test_a_reply_of_a_host_that_has_left_does_not_pass_for_that_of_the_new_one(opened: Any, until: Any) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            ask, answers = bench.live._client.setup, threading.Event()
+async def test_a_reply_of_a_host_that_has_left_does_not_pass_for_that_of_the_new_one() -> None:
+    async with opened() as bench:
+        ask, answers = bench.live._client.setup, threading.Event()
 
-            def slow() -> Setup:
-                answer = ask()
-                answers.wait(30.0)
-                return answer
+        def slow() -> Setup:
+            answer = ask()
+            answers.wait(30.0)
+            return answer
 
-            bench.live._client.setup = slow
-            bench.stage.say(episode=2)  # other robots may take part: the setup is queried again
-            await until(lambda: bench.live._asking is not None and not bench.live._asking.done())
-            bench.stage.setup = bench.stage.setup.replace(rules="another book")
-            bench.stage.say(episode=3)
-            await until(lambda: bench.live.state.episode == 3)
-            answers.set()
-            await until(lambda: bench.live.setup.rules == "another book")
-
-    asyncio.run(play())
+        bench.live._client.setup = slow
+        bench.stage.say(episode=2)  # other robots may take part: the setup is queried again
+        await until(lambda: bench.live._asking is not None and not bench.live._asking.done())
+        bench.stage.setup = bench.stage.setup.replace(rules="another book")
+        bench.stage.say(episode=3)
+        await until(lambda: bench.live.state.episode == 3)
+        answers.set()
+        await until(lambda: bench.live.setup.rules == "another book")
 
 
-def test_a_stop_waits_for_no_other_request(opened: Any, until: Any) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            held = threading.Event()
-            act = bench.live._client.act
-            bench.live._client.act = lambda action: (
-                held.wait(30.0) and act(action) if action.action is ActionName.GOAL else act(action)
-            )
-            goals = [asyncio.create_task(bench.live.act(RefereeAction(action=ActionName.GOAL))) for _ in range(50)]
-            await asyncio.sleep(0)
-            assert (await bench.live.act(RefereeAction(action=ActionName.STOP))).accepted
-            assert (await bench.live.act(RefereeAction(action=ActionName.START, source=REFBOX))).accepted
-            assert not any(goal.done() for goal in goals)
-            held.set()
-            await asyncio.gather(*goals)
-
-    asyncio.run(play())
+async def test_a_stop_waits_for_no_other_request() -> None:
+    async with opened() as bench:
+        held = threading.Event()
+        act = bench.live._client.act
+        bench.live._client.act = lambda action: (
+            held.wait(30.0) and act(action) if action.action is ActionName.GOAL else act(action)
+        )
+        goals = [asyncio.create_task(bench.live.act(RefereeAction(action=ActionName.GOAL))) for _ in range(50)]
+        await asyncio.sleep(0)
+        assert (await bench.live.act(RefereeAction(action=ActionName.STOP))).accepted
+        assert (await bench.live.act(RefereeAction(action=ActionName.START, source=REFBOX))).accepted
+        assert not any(goal.done() for goal in goals)
+        held.set()
+        await asyncio.gather(*goals)
 
 
-def test_an_order_of_one_side_does_not_wait_for_the_other_side(opened: Any, until: Any) -> None:
-    async def play() -> None:
-        async with opened() as bench:
-            held = threading.Event()
-            bench.live._order_clients[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
-            slow = [asyncio.create_task(bench.live.order(Side.CYAN, mode="hold")) for _ in range(50)]
-            await asyncio.sleep(0)
-            assert (await bench.live.order(Side.MAGENTA, mode="hold")).mode == "hold"
-            assert not any(one.done() for one in slow)
-            held.set()
-            await asyncio.gather(*slow)
-
-    asyncio.run(play())
+async def test_an_order_of_one_side_does_not_wait_for_the_other_side() -> None:
+    async with opened() as bench:
+        held = threading.Event()
+        bench.live._order_clients[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
+        slow = [asyncio.create_task(bench.live.order(Side.CYAN, mode="hold")) for _ in range(50)]
+        await asyncio.sleep(0)
+        assert (await bench.live.order(Side.MAGENTA, mode="hold")).mode == "hold"
+        assert not any(one.done() for one in slow)
+        held.set()
+        await asyncio.gather(*slow)
 
 
-def test_a_setup_that_changes_while_the_host_replies_is_queried_again(until: Any) -> None:
-    async def play() -> None:
-        medium, clock = SharedState(), SteppedClock()
-        host, live = medium.open_bus("friendly", WallClock()), LiveMatch(medium.open_bus("friendly", clock))
-        server, states = host.serve(SETUP), host.publisher(STATE)
-        asked: list[Any] = []
+async def test_a_setup_that_changes_while_the_host_replies_is_queried_again() -> None:
+    medium, clock = SharedState(), SteppedClock()
+    host, live = medium.open_bus("friendly", WallClock()), LiveMatch(medium.open_bus("friendly", clock))
+    server, states = host.serve(SETUP), host.publisher(STATE)
+    asked: list[Any] = []
 
-        def look() -> int:
-            live.update()
-            asked.extend(iter(server.receive, None))
-            return len(asked)
+    def look() -> int:
+        live.update()
+        asked.extend(iter(server.receive, None))
+        return len(asked)
 
-        states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
-        await until(look, "the question")
-        states.put(GameState(tick=2, time=0.04, phase=Phase.PLAY, episode=2))
-        look()
-        asked[0].reply(make_setup(size=1))  # as it was before the scene that came meanwhile
-        await until(lambda: len(live.sides) == 2)
-        clock.sleep_until(10.0)
-        await until(lambda: look() == 2, "another question")
-        asked[1].reply(make_setup(size=3))
-        await until(lambda: len(live.sides) == 6)
-        stop = asyncio.Event()
-        stop.set()
-        await live.serve(stop)
-
-    asyncio.run(play())
+    states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
+    await until(look, "the question")
+    states.put(GameState(tick=2, time=0.04, phase=Phase.PLAY, episode=2))
+    look()
+    asked[0].reply(make_setup(size=1))  # as it was before the scene that came meanwhile
+    await until(lambda: len(live.sides) == 2)
+    clock.sleep_until(10.0)
+    await until(lambda: look() == 2, "another question")
+    asked[1].reply(make_setup(size=3))
+    await until(lambda: len(live.sides) == 6)
+    stop = asyncio.Event()
+    stop.set()
+    await live.serve(stop)
 
 
-def test_a_gateway_that_ends_sends_no_more_requests() -> None:
-    async def play() -> None:
-        live = LiveMatch(SharedState().open_bus("friendly", WallClock()))
-        stop = asyncio.Event()
-        stop.set()
-        await live.serve(stop)
-        reply = await live.act(RefereeAction(action=ActionName.STOP))
-        assert (reply.accepted, reply.reason) == (False, "the gateway is shutting down")
-
-    asyncio.run(play())
+async def test_a_gateway_that_ends_sends_no_more_requests() -> None:
+    live = LiveMatch(SharedState().open_bus("friendly", WallClock()))
+    stop = asyncio.Event()
+    stop.set()
+    await live.serve(stop)
+    reply = await live.act(RefereeAction(action=ActionName.STOP))
+    assert (reply.accepted, reply.reason) == (False, "the gateway is shutting down")
