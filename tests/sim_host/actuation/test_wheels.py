@@ -134,7 +134,7 @@ MODELS = st.builds(
 TWIST = st.tuples(st.floats(-6, 6), st.floats(-6, 6), st.floats(-20, 20))
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(MODELS, TWIST, TWIST, st.lists(st.floats(-3, 3), min_size=4, max_size=4))
 def test_no_wheels_of_any_robot_put_in_more_energy_than_their_motors_gave(
     model: RobotModel, twist: tuple[float, float, float], told: tuple[float, float, float], slip: list[float]

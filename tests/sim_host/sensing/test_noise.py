@@ -100,11 +100,11 @@ def test_the_papers_noise_is_a_preset(errors):
 
 
 def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
-    """A rate of 0.01 is 1 in 100 (1 in 11 in simatch), within 4 standard errors of 20,000.
+    """A rate of 0.01 is 1 in 100 (1 in 11 in simatch), within 4 standard errors of 10,000.
 
     Sigma of the noisy readings is 0.10; x, y, vx and vy of one reading are noisy together, the heading never.
     """
-    n = 20_000
+    n = 10_000
     of = errors(n, sensing=sensing_of("simatch", PERFECT))(0)
     for kind, columns in {"own": (0, 1, 3, 4), "ball": (0, 1, 3, 4), "obstacle": (0, 1)}.items():
         error = np.stack([of[kind, i] - TRUE[kind][i] for i in columns])
@@ -123,16 +123,18 @@ def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
 DRIFT = {"drift_position": 0.05, "drift_heading": 0.01, "drift_time": 1.0}
 
 
-def test_drift_has_its_configured_size_at_any_time_and_is_slow(errors):
+def test_drift_has_its_configured_size_at_any_time_and_is_slow_and_each_robots_own(errors):
     """20,000 ticks are 400 drift times; 4 standard errors of about as many independent values.
 
     Per tick it changes by at most |d/dt (k₀ cos + k₁ sin)| = π/2 · |k| / drift time, |k| below 5 sigma.
     """
     n = 20_000
-    of = errors(n, **DRIFT)(0)
+    drifted = errors(n, **DRIFT)
+    of, other = drifted(0), drifted(1)
     independent = n * 0.02 / DRIFT["drift_time"]
     for key, sigma in ((("own", 0), 0.05), (("own", 1), 0.05), (("own", 2), 0.01)):
         drift = of[key] - TRUE["own"][key[1]]
+        assert np.corrcoef(of[key], other[key])[0, 1] == approx(0, abs=4 / math.sqrt(independent))
         assert drift.std() == approx(sigma, rel=4 / math.sqrt(2 * independent))
         assert drift.mean() == approx(0, abs=4 * sigma / math.sqrt(independent))
         assert np.abs(np.diff(drift)).max() < math.pi / 2 * 5 * sigma * math.sqrt(2) * 0.02 / DRIFT["drift_time"]
@@ -151,12 +153,6 @@ def test_drift_moves_everything_a_robot_sees_as_it_moves_itself(scenery):
         assert math.remainder(bearing - (math.atan2(4.0, 3.0) - 0.7), math.tau) == approx(0, abs=2e-4)
         assert math.hypot(one.ball[3], one.ball[4]) == approx(math.hypot(1.0, 2.0), abs=2e-4)
         assert math.dist(one.obstacles[0][:2], (x, y)) == approx(3.0, abs=2e-4)
-
-
-def test_two_robots_drift_apart(errors):
-    of = errors(20_000, **DRIFT)
-    for i in range(3):
-        assert np.corrcoef(of(0)["own", i], of(1)["own", i])[0, 1] == approx(0, abs=4 / math.sqrt(400))
 
 
 def test_drift_is_drawn_for_its_time_alone(scenery):

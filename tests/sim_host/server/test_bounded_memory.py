@@ -12,10 +12,10 @@ from schemas.bus import batch_publisher
 from schemas.config.match_config import load_match
 from support.host_rig import HostRig
 
-WARM_UP = 3000
+WARM_UP = 2000
 """Ticks after which all caches are full: the longest keep 1500 messages."""
-PLAYED = 3000
-"""Ticks after them, a minute of simulated time."""
+PLAYED = 1500
+"""Ticks after them, half a minute of simulated time."""
 ROUND = 50
 """Ticks between two rounds of reading, in which clients get what they have subscribed to."""
 

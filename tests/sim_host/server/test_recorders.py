@@ -3,10 +3,12 @@
 import pytest
 
 from schemas.config.match_config import MatchConfig
+from schemas.game import ActionName
+from schemas.messages.game import RefereeAction
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderProgress
 from schemas.recovery_window import RUN_AHEAD_TICKS
-from schemas.topics import RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
+from schemas.topics import ACTION, RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
 from sim_host.server.admission import MOST_UNNAMED
 from support.host_rig import TEAMS, HostRig
 
@@ -108,11 +110,17 @@ def test_a_recorder_that_talks_without_end_and_does_not_move_is_left_behind(rig,
     assert rig.clock.now() < 2 * PATIENCE_S
 
 
+def ending(rig):
+    """The same rig with a match that ends in its first tick."""
+    rig.join_all()
+    rig.outside.query(ACTION, RefereeAction(action=ActionName.END_GAME))
+    return rig
+
+
 def test_at_the_end_the_recorders_get_time_for_the_last_tick(rig_of, monkeypatch):
-    rig = rig_of(duration=1)
+    rig = ending(rig_of())
     recorder = rig.record()
     recorder.stands = True
-    rig.join_all()
     update, looks = rig.host.presence.update, []
 
     def look(timeout=0.0):
@@ -130,9 +138,8 @@ def test_at_the_end_the_recorders_get_time_for_the_last_tick(rig_of, monkeypatch
 
 
 def test_at_the_end_a_recorder_that_stands_still_is_not_waited_for_without_end(rig_of, monkeypatch):
-    rig = rig_of(duration=1)
+    rig = ending(rig_of())
     rig.record().stands = True
-    rig.join_all()
     update = rig.host.presence.update
 
     def look(timeout=0.0):
@@ -163,9 +170,8 @@ def test_a_host_that_waits_for_a_recorder_gives_it_the_batches_that_it_missed(ri
 
 
 def test_at_the_end_missing_batches_are_given_still(rig_of, monkeypatch):
-    rig = rig_of(duration=1)
+    rig = ending(rig_of())
     rig.record().stands = True
-    rig.join_all()
     update, answers = rig.host.presence.update, []
 
     def look(timeout=0.0):

@@ -19,6 +19,15 @@ def ask(rig, action, side=None) -> ActionReply:
     return answer.result(0.0)
 
 
+def played(rig):
+    """The same rig with a match that has begun and is over."""
+    rig.join_all()
+    rig.begin()
+    assert ask(rig, ActionName.END_GAME).accepted
+    assert rig.host.simulation.over
+    return rig
+
+
 @pytest.mark.parametrize("rig_name", ["rig", "realtime_rig"])
 def test_an_action_is_answered_in_the_next_tick(rig_name, request):
     rig = request.getfixturevalue(rig_name)
@@ -128,27 +137,15 @@ def test_the_action_start_begins_the_match_without_any_agent(rig_of):
 
 
 def test_an_action_after_the_match_is_refused(rig_of):
-    rig = rig_of(duration=1)
-    rig.join_all()
-    rig.begin()
-    while not rig.host.simulation.over:
-        rig.ticks(1)
+    rig = played(rig_of())
     answer = rig.outside.query(ACTION, RefereeAction(action=ActionName.START))
     rig.host.wait_for_recorders()
     assert answer.result(0.0) == ActionReply(accepted=False, reason="the match is over")
 
 
-def played(rig):
-    rig.join_all()
-    rig.begin()
-    while not rig.host.simulation.over:
-        rig.ticks(1)
-    return rig
-
-
 def test_after_full_time_the_host_stays_until_its_watchers_can_have_received_the_end(rig_of):
     """A message that was lost shows half a second later, with the bus's heartbeat, and is fetched from the host."""
-    rig = played(rig_of(duration=1))
+    rig = played(rig_of())
     rig.seat().declare_alive("coach", "page")
     began = rig.clock.now()
     rig.host.wait_for_recorders()
@@ -157,7 +154,7 @@ def test_after_full_time_the_host_stays_until_its_watchers_can_have_received_the
 
 @pytest.mark.parametrize("watched", [False, True])
 def test_a_host_without_watchers_or_with_a_stop_request_does_not_stay(rig_of, watched):
-    rig = played(rig_of(duration=1))
+    rig = played(rig_of())
     if watched:
         rig.seat().declare_alive("coach", "page")
         rig.host.stop()
@@ -180,11 +177,7 @@ def test_a_parameter_is_changed_between_two_ticks_recorded_and_part_of_the_setup
 
 
 def test_parameters_are_read_after_the_match_and_not_changed(rig_of):
-    rig = rig_of(duration=1)
-    rig.join_all()
-    rig.begin()
-    while not rig.host.simulation.over:
-        rig.ticks(1)
+    rig = played(rig_of())
     asked = [
         ParametersRequest(operation=operation, names=["ball"])
         for operation in (ParameterOperation.GET, ParameterOperation.RESET)
