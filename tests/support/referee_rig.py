@@ -213,6 +213,16 @@ class RefereeRig:
         )
         return self.tick(actions=[action])
 
+    def unmirrored(self, event: GameEvent) -> tuple[object, ...]:
+        """What the event would be if this match were not mirrored."""
+        sign = -1 if self.mirrored else 1
+        robot = event.robot and self.robot(event.robot)
+        robots = sorted(self.robot(name) for name in event.robots)
+        side = event.side and self.side(event.side)
+        place = event.place and (sign * event.place.x + 0.0, sign * event.place.y + 0.0)
+        score = event.score and tuple(event.score.of(self.side(one)) for one in Side)
+        return event.tick, event.kind, event.rule, side, robot, robots, place, score, event.measured, event.card
+
     def kinds(self) -> list[EventKind]:
         return [event.kind for event in self.events]
 

@@ -120,12 +120,6 @@ def test_a_robot_that_plays_the_ball_does_not_charge(new_rig, air, called):
     assert fouls(rig) == (CALLED if called else [])
 
 
-def test_a_robot_with_the_ball_before_it_may_run_into_an_opponent(new_rig):
-    rig = placed(new_rig(), gap=1.0)
-    hit(rig, ball=touching_ball(rig, 0.0), possession="cyan3", cyan3=3.0)
-    assert fouls(rig) == []
-
-
 def test_a_robot_with_the_ball_behind_it_charges_as_any_other(new_rig):
     rig = placed(new_rig(), gap=0.5)
     hit(rig, ball=touching_ball(rig, 0.0, behind=True), possession="cyan3", cyan3=2.0)
@@ -210,13 +204,3 @@ def test_charging_is_called_as_the_rule_book_says(new_rig):
     china = placed(new_rig(rules="china-sim-2020"))
     hit(china, cyan3=1.6)
     assert [event.card for event in china.events if event.kind is EventKind.FOUL] == [Card.YELLOW]
-
-
-def test_nothing_is_kept_of_impacts_in_quiet_ticks(new_rig):
-    rig = placed(new_rig())
-    hit(rig, cyan3=1.0)
-    assert {shove.robot for shove in rig.state.evidence.shoves} == {2, 6}
-    rig.run(1.1)
-    before = rig.state.evidence
-    rig.tick()
-    assert rig.state.evidence is before and before.shoves == ()

@@ -119,19 +119,6 @@ def test_eleven_robots_come_back_in_one_stoppage_apart_on_the_field_and_clear_of
     assert_apart(rig)
 
 
-def test_every_robot_of_eleven_can_be_sent_to_repair_substituted_and_sent_off():
-    rig = RefereeRig("msl", "eleven", size=11)
-    rig.playing()
-    for name in ("cyan10", "cyan11", "magenta7"):
-        (reply,) = rig.ask("red_card", robot=name).replies
-        assert reply.accepted, reply.reason
-    assert set(rig.state.participation.absences) == {"cyan10", "cyan11", "magenta7"}
-    (reply,) = rig.ask("repair", robot="magenta11").replies
-    assert reply.accepted or "stoppage" in reply.reason
-    published = rig.state.game_state(rig.at, 1.0, 1).robots
-    assert list(published)[:2] == ["cyan10", "cyan11"]
-
-
 def test_more_robots_than_the_rule_book_allows_in_a_penalty_area_are_named_with_the_number_allowed():
     rig = RefereeRig("msl", "eleven", size=11)
     rig.playing()

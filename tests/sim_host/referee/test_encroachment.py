@@ -63,29 +63,6 @@ def test_a_teammate_that_comes_too_near_gives_the_restart_away(new_rig, distance
         assert (rig.state.pending.phase, rig.state.pending.side) == (Phase.FREE_KICK, MAGENTA)
 
 
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_0_6_m_from_the_ball_is_called_without_a_touch(new_rig, mirrored):
-    rig = new_rig(mirrored=mirrored)
-    rig.playing()
-    rig.ask("free_kick", CYAN, SPOT)
-    rig.until(lambda state: state.running)
-    rig.robots["cyan2"] = (SPOT[0] - 0.4, SPOT[1])
-    rig.tick()
-    rig.events.clear()
-    rig.robots["magenta3"] = (SPOT[0] + 0.6 + rig.hull, SPOT[1])
-    rig.tick()
-    assert fouls(rig) == [("encroachment", rig.robot("magenta3"))]
-
-
-def test_a_robot_that_enters_for_one_tick_is_called(new_rig):
-    rig = started(new_rig())
-    stand(rig, "magenta3", 2.5)
-    rig.tick()
-    stand(rig, "magenta3", 3.5)
-    rig.tick()
-    assert fouls(rig) == [("encroachment", "magenta3")]
-
-
 def test_the_taker_and_one_robot_alone_beside_the_ball_may_be_there(new_rig):
     rig = started(new_rig())
     rig.run(1.0)

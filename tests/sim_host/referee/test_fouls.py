@@ -8,8 +8,6 @@ import pytest
 from schemas.config.rule_book import SHIPPED
 from schemas.game import Card, EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.rules import OCCASIONS, RULES, rules_to_ask
-from sim_host.referee.situation import Situation
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 NOT_AT_ALL = (0.0, 1e-9)
@@ -463,12 +461,3 @@ def test_a_robot_that_the_referee_has_off_the_field_has_not_left_it(new_rig):
     rig.until(lambda state: state.phase is Phase.PLAY or state.running)
     stay_outside(rig, 15.0)
     assert not [event for event in rig.events if event.rule == "leaving_field"]
-
-
-def test_a_quiet_tick_asks_few_rules(new_rig):
-    """Every rule's occasion is one that ticks have; in a quiet one, only lost balls and the clock are looked at."""
-    rig = new_rig().playing()
-    ruling = rig.tick((1.2, 0.0))
-    quiet = Situation(rig.constants, ruling.state, rig.snapshot(), None)
-    assert {rule.occasion for rule in RULES} == {"always", *OCCASIONS}
-    assert [rule.name for rule in rules_to_ask(quiet)] == ["lost_ball", "half_end"]

@@ -62,14 +62,6 @@ def test_extra_time_is_played_to_its_end_also_after_a_goal(new_rig):
     assert over(rig.state) and "magenta" in rig.events[-1].text
 
 
-@pytest.fixture
-def penalties(new_rig):
-    """The first penalty of a shoot-out is signalled."""
-    rig = ended(new_rig(winner=True), 4)
-    assert rig.state.stage is GameStage.SHOOT_OUT
-    return rig
-
-
 def started(rig):
     return rig.until(lambda state: state.running, 120.0)
 
@@ -221,6 +213,8 @@ def test_stop_before_start_of_an_attempt_only_delays_it(penalties):
 
 def test_people_count_and_end_attempts_by_word(penalties):
     side = started(penalties).state.side
+    (refused,) = penalties.ask("goal", side.opponent).replies
+    assert "is not taking a penalty" in refused.reason
     penalties.ask("goal", side)
     assert penalties.state.shoot_out.goals.of(side) == 1
     started(penalties)

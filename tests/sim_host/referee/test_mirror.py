@@ -51,7 +51,7 @@ def test_a_mirrored_set_piece_has_mirrored_decisions(new_rig, name, story):
         rig.ask("yellow_card", robot=rig.robot("cyan3"))
         rig.ask("red_card", robot=rig.robot("magenta5"))
         rig.run(20.0)
-        told.append(([unmirrored(rig, event) for event in rig.events], rig.robots))
+        told.append(([rig.unmirrored(event) for event in rig.events], rig.robots))
     assert told[0][0] == told[1][0] and any(event[1] is EventKind.FOUL for event in told[0][0])
     for robot, place in told[0][1].items():
         assert told[1][1][robot] == pytest.approx(place)
@@ -64,13 +64,4 @@ def tell(rig, story):
         rig.tick((share_x * rig.pitch.goal_line, share_y * rig.pitch.touch_line, *height), touches)
     for _ in range(1500):
         rig.tick()
-    return [unmirrored(rig, event) for event in rig.events]
-
-
-def unmirrored(rig, event):
-    sign = -1 if rig.mirrored else 1
-    robot = event.robot and rig.robot(event.robot)
-    side = event.side and rig.side(event.side)
-    place = event.place and (sign * event.place.x + 0.0, sign * event.place.y + 0.0)
-    score = event.score and tuple(getattr(event.score, rig.side(side)) for side in Side)
-    return event.tick, event.kind, event.rule, side, robot, place, score
+    return [rig.unmirrored(event) for event in rig.events]

@@ -20,22 +20,6 @@ from sim_host.snapshot import ObstacleState
 NAMES = tuple(f"{side}{number}" for side in Side for number in range(1, 6))
 
 
-def counterpart(name: str) -> str:
-    """The robot of the other colour that has the same number."""
-    side, number = name.rstrip("12345"), name[-1]
-    return f"{Side(side).opponent}{number}"
-
-
-def _event(event: GameEvent, sign: int) -> tuple[object, ...]:
-    name = str if sign > 0 else counterpart
-    side = event.side if sign > 0 or event.side is None else event.side.opponent
-    place = None if event.place is None else (sign * event.place.x + 0.0, sign * event.place.y + 0.0)
-    robots = sorted(name(robot) for robot in event.robots)
-    score = None if event.score is None else [event.score.cyan, event.score.magenta][::sign]
-    robot = None if event.robot is None else name(event.robot)
-    return event.kind, event.rule, side, robot, robots, place, score, event.measured, event.card
-
-
 POSES = st.tuples(st.sampled_from([9.5, 10.6, 12.0, -9.5, -10.6, -12.0]), st.sampled_from([-7.6, -1.0, 0.0, 1.0, 7.6]))
 
 
@@ -62,8 +46,7 @@ def test_of_several_offences_in_one_tick_the_mirrored_one_is_decided_in_the_mirr
                 break
             rig.tick(ball, **seen)
         rig.run(5.0)
-        sign = -1 if is_mirrored else 1
-        told.append([(event.tick, *_event(event, sign)) for event in rig.events])
+        told.append([rig.unmirrored(event) for event in rig.events])
     assert told[0] == told[1]
 
 

@@ -61,21 +61,6 @@ def test_a_robot_that_turns_on_its_spot_or_in_its_circle_with_the_ball_is_stoppe
     assert stalls(rig)[0].robot == rig.robot("cyan3")
 
 
-def test_nothing_is_called_until_its_time_is_up(new_rig):
-    rig = caught(new_rig)
-    carry(rig, 10.0, spin)
-    assert rig.state.phase is Phase.PLAY and stalls(rig) == []
-
-
-def test_a_tick_without_the_ball_gives_no_new_time(new_rig):
-    rig = caught(new_rig)
-    began = rig.at * rig.dt
-    while not stalls(rig):
-        carry(rig, 0.5, spin)
-        rig.tick(rig.ball)
-    assert_dropped_after_10_s(rig, began)
-
-
 def test_a_visible_release_and_another_catch_at_the_same_place_give_no_new_time(new_rig):
     """Every second the ball is 11 cm in front of the hull, released by the rule on dribbling, and caught again."""
     rig = caught(new_rig)

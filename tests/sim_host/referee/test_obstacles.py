@@ -108,7 +108,8 @@ def test_an_obstacle_that_is_put_on_the_spot_after_the_signal_has_the_restart_si
     assert [event.kind for event in rig.events].count(EventKind.RESTART) == 2
 
 
-def test_a_pitch_without_free_ground_leaves_the_ball_where_the_rules_have_it(rig):
+def test_a_pitch_without_free_ground_leaves_the_ball_where_the_rules_have_it(new_rig):
+    rig = new_rig(dt=0.2)
     rig.obstacles = (pillar(0.0, 0.0, 30.0),)
     rig.tick((3.0, 3.0))
     assert rig.state.spot == (0.0, 0.0)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from schemas.game import Card, EventKind, GameStage, OfficiatingMode, Phase, Score
+from schemas.game import Card, EventKind, OfficiatingMode, Phase, Score
 from schemas.side import Side
 from sim_host.referee.placement.positions import position_faults
 
@@ -210,13 +210,11 @@ def test_before_start_robots_wait_behind_the_ball(new_rig, ahead, wrong):
 
 
 @pytest.fixture
-def shoot_out(new_rig):
+def shoot_out(penalties):
     """START of the first penalty of a shoot-out."""
-    rig = new_rig(winner=True, duration=8.0)
-    rig.until(lambda state: state.stage is GameStage.SHOOT_OUT, 600.0)
-    wait(rig)
-    rig.events = []
-    return rig
+    wait(penalties)
+    penalties.events = []
+    return penalties
 
 
 def wait(rig):
@@ -250,27 +248,6 @@ def sides(rig):
         {f"{side.opponent}3": (end * 0.5, 3.0)},
         {f"{side}3": (end * 0.5, -3.0)},
     )
-
-
-@pytest.mark.parametrize("first", [True, False])
-def test_at_a_penalty_of_the_shoot_out_nobody_else_waits_beyond_the_halfway_line_at_either_end(shoot_out, first):
-    if not first:
-        attempt(shoot_out, scores=True)
-        wait(shoot_out)
-    side, state = shoot_out.state.side, shoot_out.state
-    end, restart = state.attack(side), state.restart
-    assert not position_faults(shoot_out.constants, state, restart, shoot_out.snapshot())
-    shoot_out.robots[f"{side}4"] = (0.5 * end, 4.0)
-    faults = position_faults(shoot_out.constants, state, restart, shoot_out.snapshot())
-    assert [fault.robot for fault in faults] == [f"{side}4"]
-
-
-def test_people_may_count_a_penalty_of_the_shoot_out_for_the_side_that_takes_it_and_no_other(shoot_out):
-    side = shoot_out.state.side
-    (refused,) = shoot_out.ask("goal", side=side.opponent).replies
-    assert not refused.accepted and "is not taking a penalty" in refused.reason
-    (accepted,) = shoot_out.ask("goal", side=side).replies
-    assert accepted.accepted and shoot_out.state.shoot_out.goals.of(side) == 1
 
 
 @pytest.mark.parametrize("who", [0, 1])

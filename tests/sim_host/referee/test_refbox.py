@@ -19,7 +19,7 @@ def box() -> RefereeRig:
 
 
 def new_box(**options: Any) -> RefereeRig:
-    rig = RefereeRig("msl", **{"mode": OfficiatingMode.MANUAL, "duration": 20.0, **options})
+    rig = RefereeRig("msl", **{"mode": OfficiatingMode.MANUAL, "duration": 20.0, "dt": 0.1, **options})
     rig.refbox = True
     return rig
 

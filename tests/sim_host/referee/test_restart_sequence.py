@@ -136,16 +136,6 @@ def test_start_waits_for_no_robot_beyond_the_limit_which_counts_from_the_signal(
     assert "cyan4 stands" in rig.events[-1].text
 
 
-@pytest.mark.parametrize(("rules", "moved", "card"), [("msl", True, True), ("friendly", False, False)])
-def test_at_the_limit_an_offender_is_moved_and_shown_a_card_where_the_rule_book_demands_it(new_rig, rules, moved, card):
-    rig = thrown_in(new_rig("msl", rules))
-    place = rig.robots["cyan4"] = (1.0, rig.pitch.touch_line - 1.0)
-    rig.until(lambda state: state.running)
-    assert (rig.robots["cyan4"] != place) is moved and (EventKind.CARD in rig.kinds()) is card
-    spot, required = rig.state.spot, rig.book.restarts.opponent_distance
-    assert (math.dist(rig.robots["cyan4"], spot) - rig.hull >= required) is moved
-
-
 @pytest.mark.parametrize("deed", ["free_kick", "throw_in", "corner", "goal_kick", "drop_ball", "penalty", "kick_off"])
 def test_every_restart_has_the_same_latest_start(new_rig, deed):
     rig = new_rig().playing()
