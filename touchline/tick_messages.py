@@ -1,4 +1,4 @@
-"""The messages and the ticks of a match in one process, as a recording of it has them."""
+"""The ticks of a match in one process, as a recording of it has them."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -7,7 +7,7 @@ from recordings.stats.match_tick import MatchTick, match_ticks
 from schemas.messages.applied import Applied
 from schemas.messages.world import World
 from schemas.wire.part_faults import validated
-from sim_host.match.simulation import Simulation, TickResult
+from sim_host.match.simulation import TickResult
 from sim_host.match.state_schedule import StateSchedule
 from touchline.play import InProcessMatch
 
@@ -21,27 +21,18 @@ def played_ticks(match: InProcessMatch, after: Callable[[TickResult], None] = la
 
 
 def _messages(match: InProcessMatch, after: Callable[[TickResult], None]) -> Iterator[tuple[int, Any]]:
-    messages = TickMessages(match.simulation)
-    yield from messages.of(match.simulation.now)
-    while not match.simulation.over:
-        tick = match.step()
-        after(tick)
-        yield from messages.of(tick)
-
-
-class TickMessages:
-    """Makes the messages that statistics read: `recordings.stats.match_tick.KEYS`."""
-
-    def __init__(self, simulation: Simulation) -> None:
-        self._simulation = simulation
-        self._schedule = StateSchedule(simulation.profile.time.tick)
-
-    def of(self, tick: TickResult) -> Iterator[tuple[int, Any]]:
-        """The messages of the newest tick of the simulation, each with its log time in ns."""
-        state, episode, log_ns = self._simulation.state, tick.world["episode"], round(tick.time * 1e9)
+    """The messages that statistics read, `recordings.stats.match_tick.KEYS`, each with its log time in ns."""
+    simulation, schedule = match.simulation, StateSchedule(match.simulation.profile.time.tick)
+    tick = simulation.now
+    while True:
+        state, episode, log_ns = simulation.state, tick.world["episode"], round(tick.time * 1e9)
         for event in tick.events:
             yield log_ns, event
-        if self._schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
+        if schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
             yield log_ns, state.game_state(tick.tick, tick.time, episode)
         yield log_ns, validated(World, tick.world)
         yield log_ns, Applied.decode(tick.applied_encoded)
+        if simulation.over:
+            return
+        tick = match.step()
+        after(tick)
