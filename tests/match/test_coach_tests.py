@@ -238,23 +238,6 @@ def test_who_has_shot_does_not_go_after_the_ball(practice: Practice) -> None:
     assert practice.away("cyan3", robot["x"], robot["y"]) < 0.5
 
 
-def test_another_order_begins_anew(practice: Practice) -> None:
-    for _ in range(2):
-        practice.order("pass", robot_a="cyan2", robot_b="cyan3")
-        assert practice.run(lambda: practice.has_ball("cyan3"))
-        practice.order("pass", robot_a="cyan3", robot_b="cyan2")
-        assert practice.run(lambda: practice.has_ball("cyan2"))
-
-
-def test_no_robot_exceeds_the_ordered_top_speed(practice: Practice) -> None:
-    practice.order("move", robot_a="cyan2", point_a=(-5.0, -4.0), avoid=True, max_speed=0.6)
-    practice.play(4.0)
-    speeds = [
-        math.hypot(tick.world["robots"]["cyan2"]["vx"], tick.world["robots"]["cyan2"]["vy"]) for tick in practice.ticks
-    ]
-    assert 0.5 < max(speeds) < 0.65
-
-
 @pytest.mark.parametrize("team", BRAINS)
 def test_where_the_rules_bind_a_robot_brings_the_ball_without_a_foul(team: str) -> None:
     practice = Practice(team, "paper", **{"rules": "paper", "referee.mode": "automatic"})

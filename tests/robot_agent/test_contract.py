@@ -10,7 +10,6 @@ from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
-from schemas.wire.part_faults import validated
 from touchline.play import InProcessMatch
 
 
@@ -42,13 +41,6 @@ def test_a_briefing_has_the_parameters_of_its_own_team() -> None:
     assert parameters == {"press": 0.5, "plan": "wide", "risk": True, "depth": 3}
     assert [type(value) for value in parameters.values()] == [float, str, bool, int]
     assert Briefing.of("magenta2", decoded).parameters == {}
-
-
-def test_a_setup_of_version_2_0_without_parameters_can_be_read(setup: Setup) -> None:
-    plain = setup.plain()
-    for team in plain["teams"].values():
-        del team["parameters"]
-    assert validated(Setup, plain).teams[Side.CYAN].parameters == {}
 
 
 @pytest.mark.parametrize("value", [[1], float("nan"), {"deep": 1}])

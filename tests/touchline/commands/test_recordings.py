@@ -73,12 +73,6 @@ def test_the_first_difference_is_a_failure_with_place_field_and_amount(tmp_path:
     assert (said["identical"], said["first"]["number"]) == (False, 20)
 
 
-def test_what_one_of_the_two_lacks_is_a_difference(tmp_path: Path) -> None:
-    result = touchline("diff", write(tmp_path / "a.mcap"), write(tmp_path / "b.mcap", count=30))
-    assert result.exit_code == 1
-    assert f"message 30 at 0.600 s is missing in {tmp_path / 'b.mcap'}" in result.stdout
-
-
 def test_seconds_of_a_recording_are_copied(tmp_path: Path) -> None:
     whole = write(tmp_path / "a.mcap")
     assert touchline("filter", whole, "--out", tmp_path / "b.mcap", "--to", "0.5").stdout.endswith("25 messages\n")

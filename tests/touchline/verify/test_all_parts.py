@@ -40,12 +40,6 @@ def test_stats_measure_all_parts(parted: Path) -> None:
     assert json.loads(run("stats", parted, "--json"))["coverage"]["worlds"] == 101
 
 
-@pytest.mark.parametrize("jobs", ["1", "2"])
-def test_verify_compares_the_ticks_of_all_parts(parted: Path, jobs: str) -> None:
-    verdict = json.loads(run("verify", parted, "--jobs", jobs, "--json"))
-    assert (verdict["identical"], verdict["ticks"]) == (True, 101)
-
-
 def test_export_writes_the_messages_of_all_parts(parted: Path, tmp_path: Path) -> None:
     exported = json.loads(run("export", parted, "--to", "csv", "--out", tmp_path / "tables", "--json"))
     assert exported["written"]["ball.csv"] == 101
