@@ -164,8 +164,8 @@ def test_without_occlusion_robots_see_through_each_other(scenery):
 
 
 def test_bodies_in_view_are_missed_in_the_configured_share_of_pictures(scenery):
-    """8,000 pictures, each robot and thing on its own: within 4 standard errors, and white."""
-    n = 8000
+    """4,000 pictures, each robot and thing on its own: within 4 standard errors, and white."""
+    n = 4000
     made = scenery([(0, 0), (3, 0)], (0.0, 3.0), ball_dropout=0.1, obstacle_dropout=0.3, obstacle_range=10.0)
     looks = [made.look()[:2] for _ in range(n)]
     rates = {"ball": 0.1, "obstacle": 0.3}

@@ -11,7 +11,7 @@ from schemas.topics import APPLIED, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from touchline.play import play_match
 
 SHIPPED = {
-    "duration": 2,
+    "duration": 1,
     "teams": {
         "cyan": {"brain": "robot_agent.teams.simple:Simple", "size": 3},
         "magenta": {"brain": "robot_agent.teams.nubot:NuBot", "size": 2},

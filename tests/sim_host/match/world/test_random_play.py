@@ -43,7 +43,7 @@ DEEP = 0.02
 TOUCHING = 0.001
 """m of air between two robots that count as touching."""
 ERRAND_TICKS = 40
-PLAYS = 20
+PLAYS = 12
 FASTEST_KICK = 40.0
 """m/s that a command may ask for."""
 LEFT = 0.9
