@@ -47,7 +47,8 @@ def tests() -> dict[str, dict[Path, list[str]]]:
     """Name of a test file → each file of that name below tests/, and its test functions."""
     found: dict[str, dict[Path, list[str]]] = {}
     for file in sorted((ROOT / "tests").rglob("test_*.py")):
-        functions = [node.name for node in ast.parse(file.read_text("utf-8")).body if isinstance(node, ast.FunctionDef)]
+        body = ast.parse(file.read_text("utf-8")).body
+        functions = [node.name for node in body if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
         found.setdefault(file.name, {})[file] = [name for name in functions if name.startswith("test_")]
     return found
 
