@@ -95,13 +95,6 @@ def test_teammates_that_stay_in_the_roster_keep_the_radio_messages_they_received
     assert "budget" in str(send(heir, 4, "cyan9", word)), "the team has said what it has said"
 
 
-def test_the_newest_word_of_a_teammate_replaces_the_one_before() -> None:
-    air = radio()
-    for tick, role in enumerate(("keeper", "striker")):
-        send(air, tick, "cyan1", Radio(role=role))
-    assert heard(air, 1)["cyan2"]["cyan1"]["role"] == "striker"
-
-
 def test_the_share_of_lost_radio_messages_is_the_profiles_on_each_link() -> None:
     """2,000 words at a loss of 0.3: within 4 standard errors of 0.3 for each listener, and not the same words."""
     air = radio(replace(CLEAR, loss=0.3))
@@ -136,7 +129,3 @@ def test_the_budget_is_counted_to_the_byte() -> None:
         assert (send(air, 2, "cyan3", word) is None) == last
     assert send(enough, 49, "cyan1", word) is not None, "within the same second"
     assert send(enough, 50, "cyan1", word) is None, "a second after the first"
-
-
-def test_the_league_s_budget_is_the_default() -> None:
-    assert load_profile("msl").radio.budget == 2.2e6

@@ -9,10 +9,9 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.errors import TouchlineError
-from schemas.game import ActionName, EventKind, Phase, TeamPhase
+from schemas.game import EventKind, TeamPhase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
-from schemas.messages.game import RefereeAction
 from schemas.messages.radio import Belief, Motion, Radio
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import ReceivedRadio, Sight
@@ -51,18 +50,6 @@ def command(simulation: Simulation, **said: Any) -> Command:
 
 def sight(tick: TickResult, robot: str) -> Sight:
     return Sight.decode(tick.sights[robot])
-
-
-def play(simulation: Simulation, ticks: int) -> list[str]:
-    """All robots drive and send radio messages; the hash chain of every tick."""
-    chains = []
-    for _ in range(ticks):
-        said = {
-            name: command(simulation, drive=Drive(vx=place - 4, omega=0.5), dribble=True, radio=Radio(role=name))
-            for place, name in enumerate(simulation.roster.names)
-        }
-        chains.append(simulation.step(said).applied["chain"])
-    return chains
 
 
 def test_the_world_has_the_robots_that_touched_the_ball_and_the_one_that_kicked(simulation: Simulation) -> None:
@@ -133,39 +120,12 @@ def test_the_coachs_order_stands_in_the_sights_of_its_side_alone(simulation: Sim
     assert sight(tick, "cyan3").order is None
 
 
-def test_an_action_is_answered_in_the_tick_it_is_put(simulation: Simulation) -> None:
-    simulation.step({})
-    tick = simulation.step({}, [RefereeAction(action=ActionName.STOP), RefereeAction(action=ActionName.CORNER)])
-    assert [reply.accepted for reply in tick.replies] == [True, False]
-    assert tick.replies[1].reason
-    assert simulation.state.phase is Phase.STOPPED
-
-
-def test_a_silent_match_goes_from_kick_off_to_full_time(simulation: Simulation) -> None:
-    kinds = []
-    while not simulation.over:
-        kinds += [event.kind for event in simulation.step({}).events]
-    assert kinds[0] is EventKind.RESTART and kinds[-1] is EventKind.FULL_TIME
-    assert kinds.count(EventKind.HALF_TIME) == 1
-    assert simulation.state.clock == approx(8.0, abs=0.05)
-
-
 def test_after_half_time_cyan_attacks_the_other_way_and_still_believes_it_is_plus_x(simulation: Simulation) -> None:
     while simulation.state.half == 1:
         simulation.step({})
     tick = simulation.step({})
     assert simulation.state.cyan_attacks == -1
     assert sight(tick, "cyan1").self.x < 0 < tick.world["robots"]["cyan1"]["x"]
-
-
-def test_noise_is_on_what_robots_perceive_and_never_on_the_physics() -> None:
-    """The NuBot simulation's plugin decides holds and kicks from noisy data."""
-    worlds = []
-    for preset in ("perfect", "paper"):
-        one = simulate(noise__preset=preset)
-        worlds.append(play(one, 80))
-        one.close()
-    assert worlds[0] == worlds[1]
 
 
 def test_the_order_in_which_answers_arrive_changes_nothing() -> None:

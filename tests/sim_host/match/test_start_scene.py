@@ -8,18 +8,12 @@ import pytest
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.robot_model import RobotModel
-from schemas.config.roster import Placement
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.game import Phase
-from schemas.messages.applied import AppliedInput
-from schemas.messages.command import Drive
 from schemas.side import Side
 from sim_host.match.start_poses import start_poses
 from sim_host.match.start_scene import start_scene
-from sim_host.match.world import World
-from sim_host.referee.core import Referee
 from sim_host.referee.game.referee_state import RefereeState, Restart
 from sim_host.referee.game.timing import Timing
 from sim_host.referee.match_constants import MatchConstants
@@ -109,31 +103,3 @@ def test_a_match_on_a_pitch_without_room_for_its_robots_is_refused_in_one_line()
         "a half of 3 × 5 m has no legal place at the kick-off for cyan3, one of 11 robots of cyan; "
         "have fewer robots, a larger pitch, or a scene"
     )
-
-
-@pytest.mark.parametrize("count", [2, 6, 10, 20, 100])
-def test_start_world_and_referee_take_any_number_of_robots(count):
-    """simatch cannot name a sixth robot. A match file has eleven a side at most."""
-    profile, book = load_profile("msl"), load_rule_book("msl")
-    pairs = [(f"{side}{number}", side) for side in Side for number in range(1, count // 2 + 1)]
-    roster = Roster(
-        names=tuple(name for name, _ in pairs),
-        sides=tuple(side for _, side in pairs),
-        keepers={side: f"{side}1" for side in Side},
-        models=(RobotModel.standard(profile),) * count,
-    )
-    starts, misplaced = start_poses(roster, profile.field, book.restarts)
-    assert not misplaced
-    for (_, one), (_, other) in itertools.combinations(starts.items(), 2):
-        assert math.hypot(one.x - other.x, one.y - other.y) > 2 * profile.robot.radius
-    world = World(profile, roster)
-    world.place([Placement(body=name, x=at.x, y=at.y, heading=at.heading) for name, at in starts.items()])
-    told = dict.fromkeys(roster.names, AppliedInput(Drive(omega=1.0), dribble=False))
-    for _ in range(20):
-        snapshot = world.advance(told).snapshot
-    world.close()
-    assert len(snapshot.robots) == count
-    assert all(robot.omega == pytest.approx(1.0) for robot in snapshot.robots)
-    settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": starts}
-    referee = Referee(book, profile.field, profile.ball, roster, **settings)
-    assert referee.step(referee.begin(), snapshot, (), 0.02).state.phase is not Phase.PRE_GAME

@@ -79,12 +79,3 @@ def test_a_running_match_grows_from_one_a_side_to_eleven_and_shrinks_again(play)
     assert twelfth.reason == "cyan has 12 robots; a side has at most 11"
     assert ask(simulation, "remove", remove=[f"{side}{number}" for side in Side for number in range(2, 12)]).accepted
     assert list(simulation.step({}).sights) == ["cyan1", "magenta1"]
-
-
-@pytest.mark.parametrize("sizes", [(11, 1), (1, 11), (1, 1), (7, 4)])
-def test_sides_of_unequal_size_begin_a_match(play, sizes):
-    """By the league's rules a side needs two robots, and forfeits with one."""
-    simulation = play(rules="eleven", teams__cyan__size=sizes[0], teams__magenta__size=sizes[1])
-    events = [event for _ in range(3) for event in simulation.step({}).events]
-    assert len(simulation.roster.names) == sum(sizes)
-    assert any(event.kind == ("full_time" if 1 in sizes else "restart") for event in events)

@@ -50,24 +50,6 @@ def test_a_lob_crosses_the_goal_plane_within_a_balls_radius_of_the_papers_point(
     assert h - r < height_at_the_goal(rig) < h + 0.005
 
 
-@pytest.mark.parametrize("drag", [0.0, 0.2, 0.43, 0.9])
-def test_a_lob_is_solved_for_the_air_there_is(build, tell, drag):
-    """The same kick in four kinds of air: within 2 cm of each other at the goal plane, 7 m away."""
-    rig = build(ball={"drag_coefficient": drag})
-    rig.give("cyan1", rig.profile.field.goal_line - 7)
-    rig.tick(cyan1=tell(kick=("lob", 8.0)))
-    assert height_at_the_goal(rig) == approx(0.85, abs=0.02 + 0.03 * drag)
-
-
-@pytest.mark.parametrize("speed", [4.0, 9.0])
-def test_a_loft_kick_rises_at_its_angle(rig, tell, speed):
-    """36.87°, 0.8 of the speed along the ground and 0.6 upward, less what gravity and drag take in a tick."""
-    rig.give("cyan1", 0, 0, math.pi / 2)
-    ball = rig.tick(cyan1=tell(kick=("loft", speed))).ball
-    assert ball.vy == approx(0.8 * speed, rel=0.02)
-    assert ball.vz == approx(0.6 * speed - 9.81 * rig.profile.time.tick, rel=0.02, abs=0.02)
-
-
 def test_a_kick_before_cooldown_or_charge_is_refused_with_the_remaining_time(build, tell):
     """The profile's 0.2 s and 0.8 s, to the tick."""
     rig = build()

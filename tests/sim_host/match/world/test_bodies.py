@@ -12,10 +12,9 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import load_profile
-from schemas.messages.applied import AppliedInput
-from schemas.messages.command import Drive
 from sim_host.snapshot import Roster
 from support.world_rig import WorldRig
+from support.world_rig import tell as drive
 
 DEEP = 0.02
 """m; no body is ever deeper in another."""
@@ -32,10 +31,6 @@ def new_pitch(profile: str = "msl", size: int = 5, **types: str) -> WorldRig:
     pitch = WorldRig(numbers, Roster.of(load_match(None, {"profile": profile, "teams": teams}), numbers))
     pitch.place(ball=(0, -numbers.field.touch_line + 1, 0))
     return pitch
-
-
-def drive(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, dribble: bool = False) -> AppliedInput:
-    return AppliedInput(Drive(vx=vx, vy=vy, omega=omega), dribble=dribble)
 
 
 @pytest.fixture
@@ -195,26 +190,6 @@ def test_an_obstacle_can_be_put_moved_and_taken_away_while_the_world_runs(pitch:
     assert pitch.at("cyan1").x > at + 3.0
     with pytest.raises(KeyError):
         pitch.world.remove_obstacle("crate")
-
-
-def test_a_checkpoint_keeps_what_stands_on_the_pitch() -> None:
-    """Two worlds with another past and the same poses and obstacles have the same future, to the last bit."""
-    one, other = new_pitch(), new_pitch()
-    told = {"cyan1": drive(3), "magenta1": drive(3, omega=1.0)}
-    one.world.put_obstacle(POLE)
-    one.world.put_obstacle(CRATE)
-    one.place(cyan1=(-1, 2, 0), magenta1=(3, 2, math.pi))
-    other.place(cyan1=(-2, 0, 0))
-    other.world.put_obstacle(POLE)
-    other.world.put_obstacle(CRATE)
-    snapshot = one.run(0.4, **told)
-    other.run(0.2, cyan1=drive(2, 1))
-    one.copy_to(other)
-    assert one.world.snapshot().obstacles == other.world.snapshot().obstacles == snapshot.obstacles
-    for _ in range(60):
-        one.tick(**told)
-        other.tick(**told)
-        assert one.engine.packed() == other.engine.packed()
 
 
 def test_the_last_touch_is_a_contact_and_a_near_ball_is_not_touched(pitch: WorldRig) -> None:

@@ -10,17 +10,11 @@ from pytest import approx
 
 from schemas.config.profile import Profile, load_profile
 from schemas.config.robot_model import RobotModel
-from schemas.messages.applied import AppliedInput
-from schemas.messages.command import Drive
-from sim_host.snapshot import RobotState
 from support.world_rig import WorldRig, two_a_side
+from support.world_rig import tell as drive
 
 VELOCITY, TRACTION, OMNI, THREE = (load_profile(name) for name in ("ideal", "msl", "omni", "omni3"))
 NAMES = ("cyan1", "cyan2", "magenta1", "magenta2")
-
-
-def drive(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0) -> AppliedInput:
-    return AppliedInput(Drive(vx=vx, vy=vy, omega=omega), dribble=False)
 
 
 def like(profile: Profile, mass: float | None = None, **wheels: Any) -> RobotModel:
@@ -64,29 +58,6 @@ def test_robots_of_each_model_reach_the_demanded_velocity_in_their_own_frame(fie
     at = field.at("cyan1")
     assert (at.vx, at.vy, at.omega) == approx((0, 0, 0), abs=1e-6)
     assert at.z == approx(0.399, abs=1e-6)
-
-
-@pytest.mark.parametrize("degrees", [0, 30, 45, 90, 200])
-def test_speed_does_not_depend_on_the_compass(field: WorldRig, degrees: int) -> None:
-    """The time and way to 3 m/s are the same at every heading, to 1 mm and 1 mm/s."""
-    speeds, ways = [], []
-    for heading in (0.0, math.radians(degrees)):
-        field.place(cyan1=(0, 0, heading))
-        field.run(1.4, cyan1=drive(3))
-        at = field.at("cyan1")
-        speeds.append(math.hypot(at.vx, at.vy))
-        ways.append(math.hypot(at.x, at.y))
-    assert speeds[0] == approx(3, abs=0.03) and ways[0] == approx(3 * 1.4 - 3**2 / 2.5 / 2, abs=0.1)
-    assert (speeds[1], ways[1]) == approx((speeds[0], ways[0]), abs=1e-3)
-
-
-def test_only_the_robot_that_is_held_back_is_stuck(field: WorldRig) -> None:
-    """Each robot has its own flag, up within half a second of the wall, down when free again."""
-    field.place(cyan1=(11.7, 3, 0), cyan2=(-3, 0, 0))
-    field.run(0.6, cyan1=drive(2), cyan2=drive(2))
-    assert field.stuck == [True, False, False, False]
-    field.run(1.0, cyan1=drive(-2), cyan2=drive(-2))
-    assert field.stuck == [False] * 4
 
 
 @pytest.mark.parametrize("profile", [TRACTION, OMNI, THREE], ids=["traction", "four wheels", "three wheels"])
@@ -135,27 +106,6 @@ def test_a_robot_that_no_torque_could_turn_in_the_engine_turns_on_its_wheels() -
     field.run(1.5, cyan1=drive(omega=2))
     assert field.at("cyan1").omega == approx(2, abs=0.01)
     field.world.close()
-
-
-STORY = [(drive(3, 0.2, 0.4), drive(3, 0, -0.2)), (drive(1, 2, -3), drive(-1, 0.5, 4)), (drive(-2), drive(3, -1))]
-
-
-def played(profile: Profile) -> tuple[list[RobotState], str]:
-    """Two robots that meet, and what came of it."""
-    field = field_of(profile=profile)
-    field.place(cyan1=(-1.5, 0.1, 0.0), magenta1=(1.5, -0.05, math.pi))
-    for one, other in STORY:
-        field.run(0.8, cyan1=one, magenta1=other)
-    states, chain = [field.at(name) for name in ("cyan1", "magenta1")], field.world.chain()
-    field.world.close()
-    return states, chain
-
-
-@pytest.mark.parametrize(
-    "profile", [VELOCITY, TRACTION, OMNI, THREE], ids=["velocity", "traction", "four wheels", "three wheels"]
-)
-def test_the_same_twice_is_the_same_to_the_last_bit(profile: Profile) -> None:
-    assert played(profile) == played(profile)
 
 
 @pytest.mark.parametrize("profile", [TRACTION, OMNI, THREE], ids=["traction", "four wheels", "three wheels"])
