@@ -5,13 +5,13 @@ conformance suite tests for both.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any, NamedTuple, Self
 from uuid import uuid4
 
 from schemas.access.accounts import Account
+from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.refusals import Refusals
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
@@ -150,9 +150,9 @@ class Query(ABC):
         assert self.topic.message is not None
         return self.topic.message.decode(self.payload)
 
-    @abstractmethod
     def reply(self, reply: Message) -> None:
         """Send the reply; once."""
+        self.reply_payload(reply.encode())
 
     @abstractmethod
     def reply_payload(self, payload: bytes) -> None:
@@ -163,19 +163,23 @@ class Query(ABC):
         """Report that there is no reply, and why; once."""
 
 
-class Server(ABC):
-    """Serves the queries of one topic."""
+class Server:
+    """Serves the queries of one topic, which wait in a mailbox."""
 
-    @abstractmethod
+    def __init__(self) -> None:
+        self.mailbox: FifoMailbox[Query] = FifoMailbox()
+
     def receive(self, timeout: float | None = 0.0) -> Query | None:
         """The next query; as `Subscription.receive`."""
+        return self.mailbox.get(timeout)
 
 
-class PendingReply(ABC):
-    """A reply that is on its way."""
+class PendingReply:
+    """A reply that is on its way to a mailbox."""
 
-    def __init__(self, topic: Topic) -> None:
-        self._topic = topic
+    def __init__(self, topic: Topic, key: str) -> None:
+        self._topic, self._key = topic, key
+        self.mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
 
     def result(self, timeout: float) -> Any:
         """The reply, waiting up to `timeout` s.
@@ -188,24 +192,31 @@ class PendingReply(ABC):
         assert self._topic.reply is not None
         return self._topic.reply.decode(self.payload(timeout))
 
-    @abstractmethod
     def payload(self, timeout: float) -> bytes:
         """The bytes of the reply, waiting up to `timeout` s.
 
         Raises:
             NoReplyError: as `result`.
         """
+        reply = self.mailbox.get(timeout)
+        if reply is None:
+            raise NoReplyError(f"no process answers {self._key} within {timeout:g} s")
+        if isinstance(reply, NoReplyError):
+            raise reply
+        return reply
 
 
-class PresenceWatch(ABC):
+class PresenceWatch:
     """Watches liveliness tokens; begins with those that exist."""
 
-    is_empty: Callable[[], bool]
-    """Whether no change is waiting: cheap, for callers that poll."""
+    def __init__(self) -> None:
+        self.mailbox: FifoMailbox[Presence] = FifoMailbox()
+        self.is_empty = self.mailbox.is_empty
+        """Whether no change is waiting: cheap, for callers that poll."""
 
-    @abstractmethod
     def receive(self, timeout: float | None = 0.0) -> Presence | None:
         """The next change; as `Subscription.receive`."""
+        return self.mailbox.get(timeout)
 
 
 @dataclass

@@ -35,7 +35,7 @@ class SharedState:
 
     lock: threading.Lock = field(default_factory=threading.Lock)
     subscriptions: dict[str, list["_Subscription"]] = field(default_factory=dict)
-    servers: dict[str, "_Server"] = field(default_factory=dict)
+    servers: dict[str, Server] = field(default_factory=dict)
     alive: dict[tuple[str, str], int] = field(default_factory=dict)
     watches: list["_Watch"] = field(default_factory=list)
     caches: dict[str, dict[str, deque[ReceivedMessage]]] = field(default_factory=dict)
@@ -121,12 +121,9 @@ class _Subscription(Subscription):
 
 
 class _Query(Query):
-    def __init__(self, topic: Topic, key: str, payload: bytes, answer: "_PendingReply") -> None:
+    def __init__(self, topic: Topic, key: str, payload: bytes, answer: PendingReply) -> None:
         super().__init__(topic, key, payload)
         self._answer = answer
-
-    def reply(self, reply: Message) -> None:
-        self.reply_payload(reply.encode())
 
     def reply_payload(self, payload: bytes) -> None:
         self._answer.mailbox.put("", payload)
@@ -135,36 +132,10 @@ class _Query(Query):
         self._answer.mailbox.put("", RefusedQueryError(reason))
 
 
-class _Server(Server):
-    def __init__(self) -> None:
-        self.mailbox: FifoMailbox[Query] = FifoMailbox()
-
-    def receive(self, timeout: float | None = 0.0) -> Query | None:
-        return self.mailbox.get(timeout)
-
-
-class _PendingReply(PendingReply):
-    def __init__(self, topic: Topic) -> None:
-        super().__init__(topic)
-        self.mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
-
-    def payload(self, timeout: float) -> bytes:
-        reply = self.mailbox.get(timeout)
-        if reply is None:
-            raise NoReplyError(f"no process answers {self._topic.key}")
-        if isinstance(reply, NoReplyError):
-            raise reply
-        return reply
-
-
 class _Watch(PresenceWatch):
     def __init__(self, match: str) -> None:
+        super().__init__()
         self.match = match
-        self.mailbox: FifoMailbox[Presence] = FifoMailbox()
-        self.is_empty = self.mailbox.is_empty
-
-    def receive(self, timeout: float | None = 0.0) -> Presence | None:
-        return self.mailbox.get(timeout)
 
 
 class InProcessBus(Bus):
@@ -213,7 +184,7 @@ class InProcessBus(Bus):
 
     def serve(self, topic: Topic, **chunks: str) -> Server:
         self.check_open()
-        server = _Server()
+        server = Server()
         key = self.prefix + topic.fill(**chunks)
         with self.shared_state.lock:
             self.shared_state.servers[key] = server
@@ -226,8 +197,8 @@ class InProcessBus(Bus):
     ) -> PendingReply:
         self.check_open()
         del timeout, droppable  # a request waits with its server or is refused at once
-        answer = _PendingReply(topic)
         key = full_key(topic, chunks)
+        answer = PendingReply(topic, key)
         servers = self.shared_state.servers
         server = servers.get(self.prefix + key) or servers.get(self.prefix + topic.fill())
         if server is None:

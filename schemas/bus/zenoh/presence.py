@@ -7,7 +7,6 @@ from schemas.bus.contract import (
     PresenceKind,
     PresenceWatch,
 )
-from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topics import TOPICS
 from schemas.wire.message import is_name
@@ -19,8 +18,7 @@ _KINDS = frozenset(kind.value for kind in PresenceKind)
 
 class ZenohPresenceWatch(PresenceWatch):
     def __init__(self, context: SessionContext) -> None:
-        self.mailbox: FifoMailbox[Presence] = FifoMailbox()
-        self.is_empty = self.mailbox.is_empty
+        super().__init__()
         start = len(context.prefix)
         row = TOPICS["alive"]
 
@@ -38,6 +36,3 @@ class ZenohPresenceWatch(PresenceWatch):
         self._watch = context.session.liveliness().declare_subscriber(
             context.prefix + row.fill(), zenoh.handlers.Callback(receive, indirect=False), history=True
         )
-
-    def receive(self, timeout: float | None = 0.0) -> Presence | None:
-        return self.mailbox.get(timeout)

@@ -11,7 +11,6 @@ from schemas.bus.contract import (
     RefusedQueryError,
     Server,
 )
-from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.sample import NO_KEY
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
@@ -30,9 +29,6 @@ class ZenohQuery(Query):
         super().__init__(topic, key, query.payload.to_bytes() if query.payload is not None else b"")
         self._query = query
 
-    def reply(self, reply: Message) -> None:
-        self.reply_payload(reply.encode())
-
     def reply_payload(self, payload: bytes) -> None:
         with self._query as query, suppress(zenoh.ZError):  # its client has gone
             query.reply(query.key_expr, payload, encoding=zenoh.Encoding.APPLICATION_JSON)
@@ -44,7 +40,7 @@ class ZenohQuery(Query):
 
 class ZenohServer(Server):
     def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
-        self.mailbox: FifoMailbox[Query] = FifoMailbox()
+        super().__init__()
         start = len(context.prefix)
 
         def receive(query: zenoh.Query) -> None:
@@ -63,18 +59,13 @@ class ZenohServer(Server):
             context.prefix + key, zenoh.handlers.Callback(receive, indirect=False)
         )
 
-    def receive(self, timeout: float | None = 0.0) -> Query | None:
-        return self.mailbox.get(timeout)
-
 
 class ZenohPendingReply(PendingReply):
     def __init__(
         self, topic: Topic, key: str, request: Message, timeout: float, droppable: bool, context: SessionContext
     ) -> None:
-        super().__init__(topic)
-        self._key = key
-        mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
-        self._mailbox = mailbox
+        super().__init__(topic, key)
+        mailbox = self.mailbox
 
         def receive(reply: zenoh.Reply) -> None:
             if reply.ok is not None:
@@ -93,11 +84,3 @@ class ZenohPendingReply(PendingReply):
             timeout=timeout,
             congestion_control=zenoh.CongestionControl.DROP if droppable else zenoh.CongestionControl.BLOCK,
         )
-
-    def payload(self, timeout: float) -> bytes:
-        reply = self._mailbox.get(timeout)
-        if reply is None:
-            raise NoReplyError(f"no process answers {self._key} within {timeout:g} s")
-        if isinstance(reply, NoReplyError):
-            raise reply
-        return reply
