@@ -37,6 +37,11 @@ class Lineup:
         before = {name: robot.model_copy(update={"keeper": False}) for name, robot in self.robots.items()}
         return Lineup(before | {robot.name: robot for robot in roster})
 
+    @property
+    def sides(self) -> dict[str, Side]:
+        """Robot → its side."""
+        return {name: robot.side for name, robot in self.robots.items()}
+
     def side(self, robot: str) -> Side | None:
         """The side that a robot plays for; None for a robot that never took part."""
         entry = self.robots.get(robot)

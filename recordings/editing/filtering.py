@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from recordings.container.applied_changes import changes_in
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import Manifest
 from recordings.editing.compose import composition
@@ -11,7 +10,6 @@ from recordings.reading.recording import RecordedMessage, Recording
 from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from schemas.errors import TouchlineError
-from schemas.topics import APPLIED
 
 
 def filter_recording(
@@ -35,7 +33,7 @@ def filter_recording(
     if not any(selection.includes(channel.key) for channel in recording.channels):
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
     manifest = _manifest_of_copy(recording.manifest, selection, _ns(start))
-    roster = _roster_of(recording)
+    roster = RosterMetadata(recording.manifest.setup, recording.lineup())
     with composition(out, manifest, recording.attachments, roster, viz=bool(recording.drawn)) as copy:
         for log_ns, received in _latched_at(recording, selection, start) if start is not None else ():
             copy.add(log_ns, received)
@@ -61,15 +59,6 @@ def _selected(
 ) -> Iterator[RecordedMessage]:
     keys = [channel.key for channel in recording.channels if selection.includes(channel.key)]
     return recording.messages(*keys, start=start, end=end)
-
-
-def _roster_of(recording: Recording) -> RosterMetadata:
-    """All robots that took part at any time."""
-    roster = RosterMetadata(recording.manifest.setup)
-    for recorded in recording.messages(APPLIED.key):
-        if changes_in(recorded.payload).robots is not None:
-            roster.update(recorded.message().robots or [])
-    return roster
 
 
 def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start_ns: int | None) -> Manifest:

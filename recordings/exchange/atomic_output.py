@@ -1,12 +1,17 @@
 """Output of an export: it appears under its name when it is complete, and not at all if the export fails."""
 
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
+from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
 from schemas.process.whole_file import written_whole
+from schemas.topic import Topic
+from schemas.topics import TOPICS
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,10 +21,20 @@ class ExportSummary:
     out: Path
     written: dict[str, int]
     """File or topic → rows or messages."""
-    unreadable: dict[str, int] = field(default_factory=dict)
+    unreadable: dict[str, int]
     """Key → payloads of the recording that were skipped because they are not valid messages."""
-    omitted: dict[str, int] = field(default_factory=dict)
-    """Key expression → messages of the recording for which the format has no place."""
+    omitted: dict[str, int]
+    """Key expression, `robot/*/sight` → messages of the recording for which the format has no place, sorted."""
+
+    @classmethod
+    def of(cls, recording: Recording, out: Path, written: dict[str, int], *exported: Topic) -> Self:
+        """The summary of an export of these topics."""
+        omitted: Counter[str] = Counter()
+        for channel in recording.channels:
+            topic = TOPICS.get(channel.topic)
+            if topic not in exported and channel.messages:
+                omitted[topic.fill() if topic is not None else channel.key] += channel.messages
+        return cls(out, written, dict(recording.unreadable), dict(sorted(omitted.items())))
 
 
 @contextmanager

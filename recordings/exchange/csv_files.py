@@ -12,8 +12,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
-from recordings.exchange.omissions import omitted_messages
-from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
@@ -41,7 +39,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
     Raises:
         TouchlineError: the folder already exists or cannot be written, or the recording is damaged inside.
     """
-    sides = sides_of(recording)
+    sides = recording.lineup().sides
     written = dict.fromkeys(TABLES, 0)
     with atomic_output(out) as folder, ExitStack() as files:
         folder.mkdir()
@@ -56,7 +54,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
                 for row in table.rows(recorded, message, sides):
                     writer.writerow([_plain(value) for value in row])
                     written[name] += 1
-    return ExportSummary(out, written, dict(recording.unreadable), omitted_messages(recording, *_TOPICS))
+    return ExportSummary.of(recording, out, written, *_TOPICS)
 
 
 def _plain(value: Any) -> Any:

@@ -13,8 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
-from recordings.exchange.omissions import omitted_messages
-from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
 from schemas.frames import Pose, to_body
@@ -71,7 +69,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
         writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
         writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         with writer:
-            bag = _Bag(writer, sides_of(recording))
+            bag = _Bag(writer, recording.lineup().sides)
             for recorded, message in recording.decoded(*(topic.fill() for topic in _TOPICS)):
                 match message:
                     case World():
@@ -84,7 +82,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
                         bag.state(recorded.log_ns, message, recorded.payload)
                     case GameEvent():
                         bag.text("/game/event", recorded.log_ns, recorded.payload)
-    return ExportSummary(out, bag.written, dict(recording.unreadable), omitted_messages(recording, *_TOPICS))
+    return ExportSummary.of(recording, out, bag.written, *_TOPICS)
 
 
 class _Bag:

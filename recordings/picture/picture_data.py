@@ -10,7 +10,6 @@ from recordings.reading.recording import RecordedMessage, open_recording
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
-from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD
@@ -68,11 +67,8 @@ class PictureData:
             TouchlineError: not a recording, or a recording without the host's setup or without a world.
         """
         self._recording = recording = open_recording(path)
-        extent = next((channel for channel in recording.channels if channel.key == WORLD.key), None)
-        if recording.manifest.setup is None or extent is None:
-            raise TouchlineError(f"{path}: has no setup or no world; record a match that is played")
-        self.setup: Setup = recording.manifest.setup
-        self.start, self.end = extent.start, extent.end
+        self.setup = recording.setup
+        self.start, self.end = recording.extent_of_worlds()
         messages = [message for _, message in recording.decoded(STATE.key, EVENT.key)]
         self._states: list[GameState] = [message for message in messages if isinstance(message, GameState)]
         self._state_times = [state.time for state in self._states]

@@ -6,15 +6,18 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from recordings.container.applied_changes import changes_in
+from recordings.container.lineup import Lineup
 from recordings.container.manifest import DAMAGED_RECORDS, MANIFEST, RECOVERED, RESULT, Manifest, Result
 from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived
 from recordings.container.parted_file import open_parts
 from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
+from schemas.messages.setup import Setup
 from schemas.natural_order import natural_order
 from schemas.topic import Topic
-from schemas.topics import TOPICS
+from schemas.topics import APPLIED, TOPICS, WORLD
 from schemas.wire.message import VERSION, BadMessageError
 
 
@@ -96,6 +99,43 @@ class Recording:
         self.unreadable: Counter[str] = Counter()
         """Key → payloads that `decoded` skipped because they are not valid messages."""
         self._topics = {channel.key: _topic(channel) for channel in mcap_file.channels.values()}
+
+    @property
+    def setup(self) -> Setup:
+        """The setup of the match.
+
+        Raises:
+            TouchlineError: the recording has none.
+        """
+        if self.manifest.setup is None:
+            raise TouchlineError(
+                f"{self.path}: its manifest has no setup, so pitch and teams are unknown; "
+                "start the recorder while the host is running"
+            )
+        return self.manifest.setup
+
+    def extent_of_worlds(self) -> tuple[float, float]:
+        """Simulated times of the first and the last world, in s.
+
+        Raises:
+            TouchlineError: the recording has no world.
+        """
+        for channel in self.channels:
+            if channel.key == WORLD.key and channel.messages:
+                return channel.start, channel.end
+        raise TouchlineError(f"{self.path}: has no world, so there is nothing to measure; record the key world")
+
+    def lineup(self) -> Lineup:
+        """The robots that took part at any time.
+
+        Raises:
+            TouchlineError: the file is damaged inside.
+        """
+        lineup = Lineup.of(self.manifest.setup)
+        for recorded in self.messages(APPLIED.key):
+            if changes_in(recorded.payload).robots is not None:
+                lineup = lineup.changed(recorded.message().robots or [])
+        return lineup
 
     @property
     def damaged_records(self) -> int:

@@ -8,8 +8,9 @@ from schemas.messages.setup import Setup
 class RosterMetadata:
     """Follows the roster of a match."""
 
-    def __init__(self, setup: Setup | None = None) -> None:
-        self._lineup = Lineup.of(setup)
+    def __init__(self, setup: Setup | None = None, lineup: Lineup | None = None) -> None:
+        """The robots are those that the match begins with, unless a `lineup` is given."""
+        self._lineup = lineup or Lineup.of(setup)
         self._teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
 
     @property

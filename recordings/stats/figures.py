@@ -8,10 +8,10 @@ from typing import Any
 from recordings.container.lineup import Lineup
 from recordings.stats.ball_control import BallControl
 from recordings.stats.crowding import Crowding
-from recordings.stats.dribbles import DribbleStats, DribbleTracker
+from recordings.stats.dribbles import DribbleStats
 from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickRecord
 from recordings.stats.momentum import Momentum
-from recordings.stats.motion import MotionStats, MotionTracker
+from recordings.stats.motion import MotionStats
 from recordings.stats.referee_calls import Goal, RefereeCalls
 from schemas.game import Card
 from schemas.messages.game import GameEvent
@@ -157,59 +157,47 @@ class MatchFigures:
         return plain | {"events": events}
 
 
-def figures_of(
-    *,
-    setup: Setup,
-    lineup: Lineup,
-    first: float,
-    last: float,
-    coverage: Coverage,
-    control: BallControl,
-    crowding: Crowding,
-    motions: MotionTracker,
-    dribbles: DribbleTracker,
-    kicks: list[KickRecord],
-    calls: RefereeCalls,
-    momentum: Momentum,
-) -> MatchFigures:
-    """Arrange all that was counted by side and robot; `first` and `last` are times of worlds, in s."""
-    builder = _FigureBuilder(lineup, coverage, control, motions.robots, dribbles.robots, kicks, calls)
-    duration, in_play = last - first, control.in_play if coverage.states else None
-    controlled = sum(control.seconds.values())
-    return MatchFigures(
-        match=setup.match,
-        start=first,
-        duration=duration,
-        in_play_s=in_play,
-        in_play=in_play / duration if in_play is not None and duration > 0 else None,
-        free_s=max(0.0, in_play - controlled) if in_play is not None and builder.knows_ball else None,
-        crowded_s=crowding.seconds if coverage.states else None,
-        longest_crowd_s=crowding.longest if coverage.states else None,
-        drop_balls=sum(count for (side, _), count in calls.restarts.items() if side is None),
-        sides={
-            side: builder.side(side, setup.teams[side].name if side in setup.teams else side.value) for side in Side
-        },
-        robots=[builder.robot(name) for name in motions.robots],
-        goals=calls.goals,
-        kicks=kicks,
-        momentum_width=momentum.width,
-        momentum=momentum.values(),
-        coverage=coverage,
-        events=calls.events,
-    )
-
-
 @dataclass(frozen=True, slots=True)
-class _FigureBuilder:
-    """Arranges all that was counted for a side or a robot."""
+class FigureBuilder:
+    """Arranges all that was counted, by side and robot."""
 
+    setup: Setup
     lineup: Lineup
+    extent: tuple[float, float]
+    """Times of the first and the last world, in s."""
     coverage: Coverage
     control: BallControl
+    crowding: Crowding
     motions: dict[str, MotionStats]
     dribbles: dict[str, DribbleStats]
     kicks: list[KickRecord]
     calls: RefereeCalls
+    momentum: Momentum
+
+    def figures(self) -> MatchFigures:
+        """The figures of the match."""
+        teams, (first, last), states = self.setup.teams, self.extent, self.coverage.states
+        duration, in_play = last - first, self.control.in_play if states else None
+        controlled = sum(self.control.seconds.values())
+        return MatchFigures(
+            match=self.setup.match,
+            start=first,
+            duration=duration,
+            in_play_s=in_play,
+            in_play=in_play / duration if in_play is not None and duration > 0 else None,
+            free_s=max(0.0, in_play - controlled) if in_play is not None and self.knows_ball else None,
+            crowded_s=self.crowding.seconds if states else None,
+            longest_crowd_s=self.crowding.longest if states else None,
+            drop_balls=sum(count for (side, _), count in self.calls.restarts.items() if side is None),
+            sides={side: self.side(side, teams[side].name if side in teams else side.value) for side in Side},
+            robots=[self.robot(name) for name in self.motions],
+            goals=self.calls.goals,
+            kicks=self.kicks,
+            momentum_width=self.momentum.width,
+            momentum=self.momentum.values(),
+            coverage=self.coverage,
+            events=self.calls.events,
+        )
 
     @property
     def knows_ball(self) -> bool:
@@ -222,6 +210,7 @@ class _FigureBuilder:
         return bool(self.coverage.states and self.coverage.touched)
 
     def side(self, side: Side, team: str) -> SideFigures:
+        """The figures of one side, with the name of its team."""
         names = [name for name in self.motions if self.lineup.side(name) is side]
         motions = [self.motions[name] for name in names]
         dribbles = [self.dribbles[name] for name in names if name in self.dribbles]
@@ -249,6 +238,7 @@ class _FigureBuilder:
         )
 
     def robot(self, name: str) -> RobotFigures:
+        """The figures of one robot."""
         motion, dribbles, side = (
             self.motions[name],
             self.dribbles.get(name, DribbleStats()),

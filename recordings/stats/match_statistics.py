@@ -7,7 +7,7 @@ from recordings.reading.recording import Recording
 from recordings.stats.ball_control import BallControl
 from recordings.stats.crowding import Crowding
 from recordings.stats.dribbles import DribbleTracker
-from recordings.stats.figures import Coverage, MatchFigures, figures_of
+from recordings.stats.figures import Coverage, FigureBuilder, MatchFigures
 from recordings.stats.kicks import KickTracker
 from recordings.stats.match_tick import GAP, KEYS, MatchTick, match_ticks
 from recordings.stats.momentum import Momentum
@@ -16,35 +16,6 @@ from recordings.stats.referee_calls import RefereeCalls
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
-from schemas.topics import WORLD
-
-
-def setup_of(recording: Recording) -> Setup:
-    """The setup of the match.
-
-    Raises:
-        TouchlineError: the recording has none.
-    """
-    setup = recording.manifest.setup
-    if setup is None:
-        raise TouchlineError(
-            f"{recording.path}: its manifest has no setup, so pitch and teams are unknown; "
-            "start the recorder while the host is running"
-        )
-    return setup
-
-
-def extent(recording: Recording) -> tuple[float, float]:
-    """Simulated times of the first and the last world, in s.
-
-    Raises:
-        TouchlineError: the recording has no world.
-    """
-    for channel in recording.channels:
-        if channel.key == WORLD.key and channel.messages:
-            return channel.start, channel.end
-    raise TouchlineError(f"{recording.path}: has no world, so there is nothing to measure; record the key world")
-
 
 MAX_TIME_DIFFERENCE_S = 1.0
 """s between the time in a world and its log time; with a larger difference the world is invalid. Chosen here."""
@@ -56,7 +27,7 @@ def match_ticks_of(recording: Recording) -> Iterator[MatchTick]:
     Raises:
         TouchlineError: the file is damaged inside, or has no setup.
     """
-    return match_ticks(setup_of(recording), _messages(recording))
+    return match_ticks(recording.setup, _messages(recording))
 
 
 def _messages(recording: Recording) -> Iterator[tuple[int, Any]]:
@@ -135,20 +106,19 @@ class MatchStatistics:
             missing=self._missing,
             unreadable=unreadable,
         )
-        return figures_of(
+        return FigureBuilder(
             setup=self._setup,
             lineup=self._last.lineup,
-            first=self._first.world.time,
-            last=self._last.world.time,
+            extent=(self._first.world.time, self._last.world.time),
             coverage=coverage,
             control=self._control,
             crowding=self._crowding,
-            motions=self._motions,
-            dribbles=self._dribbles,
+            motions=self._motions.robots,
+            dribbles=self._dribbles.robots,
             kicks=self._kicks.kicks,
             calls=self._calls,
             momentum=self._momentum,
-        )
+        ).figures()
 
 
 def figures_of_recording(recording: Recording, *observers: TickObserver) -> MatchFigures:
@@ -157,7 +127,7 @@ def figures_of_recording(recording: Recording, *observers: TickObserver) -> Matc
     Raises:
         TouchlineError: the recording is damaged inside, or has no setup or no world.
     """
-    setup, (start, end) = setup_of(recording), extent(recording)
+    setup, (start, end) = recording.setup, recording.extent_of_worlds()
     statistics, before = MatchStatistics(setup, start, end), recording.unreadable.total()
     for match_tick in match_ticks_of(recording):
         statistics.update(match_tick)

@@ -93,9 +93,7 @@ class LiveMatch:
         Raises:
             TouchlineError: the recording lacks its match file, or robot or brain do not exist.
         """
-        config, setup = playable_config(recording), recording.manifest.setup
-        if setup is None:
-            raise TouchlineError(f"{recording.path}: the recording lacks the setup of its match")
+        config, setup = playable_config(recording), recording.setup
         self.notes: list[str] = []
         """What does not go on as in the recorded match, for the user."""
         self._robot = robot

@@ -64,10 +64,7 @@ def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
         word, _, file = ghost.partition("=")
         if word not in list(Side) or not file:
             raise TouchlineError(f'--ghost is "{ghost}"; write it as magenta=RECORDING.mcap')
-        setup = open_recording(Path(file)).manifest.setup
-        if setup is None:
-            raise TouchlineError(f"--ghost {ghost}: the recording lacks the setup of its match")
-        team = setup.teams[Side(word)]
+        team = open_recording(Path(file)).setup.teams[Side(word)]
         teams[word] = {
             "name": f"{team.name}, recorded",
             "stdio": [sys.executable, "-P", "-m", "touchline.replay.ghost", str(Path(file).resolve())],

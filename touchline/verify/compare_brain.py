@@ -128,9 +128,7 @@ def compare_brain(
         TouchlineError: the robot or brain does not exist, or the recording cannot provide sights.
         MatchFailedError: the brain raised.
     """
-    setup = recording.manifest.setup
-    if setup is None:
-        raise TouchlineError(f"{recording.path}: the recording lacks the setup of its match")
+    setup = recording.setup
     settings = settings or ComparisonSettings()
     brain = load_brain(spec, Briefing.of(robot, setup), settings.brain_folder)
     commands = commands_of(recording)

@@ -11,10 +11,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.exchange.msl.game_log import GameLog
-from recordings.exchange.omissions import omitted_messages
-from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import Recording
-from schemas.errors import TouchlineError
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
 from schemas.messages.game import GameState
@@ -35,9 +32,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
     Raises:
         TouchlineError: `out` already exists or cannot be written, or the recording has no setup or is damaged inside.
     """
-    setup = recording.manifest.setup
-    if setup is None:
-        raise TouchlineError(f"{recording.path}: its manifest has no setup, so the teams are unknown; record it again")
+    setup = recording.setup
     with atomic_output(out) as file:
         # a zip is written one file after the other, and both teams' files grow at the same time
         unzipped = {side: file.with_name(f"{letter}.msl") for side, letter in FILES.items()}
@@ -55,7 +50,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
                 archive.write(unzipped[side], f"{started}.{letter}.msl")
     written = {f"{started}.{letter}.msl": log.written[side] for side, letter in FILES.items()}
     written[f"{started}.msl"] = len(log.game.lines)
-    return ExportSummary(out, written, dict(recording.unreadable), omitted_messages(recording, *_TOPICS))
+    return ExportSummary.of(recording, out, written, *_TOPICS)
 
 
 class _Log:
@@ -64,7 +59,7 @@ class _Log:
     def __init__(self, recording: Recording, setup: Setup, files: Mapping[Side, IO[bytes]]) -> None:
         """The world states of a side are written to its file."""
         self._setup, self._files = setup, files
-        self._sides = sides_of(recording)
+        self._sides = recording.lineup().sides
         self._numbers = numbers_of(self._sides)
         self._intentions: dict[str, str] = {}
         self._next_time = -math.inf

@@ -10,7 +10,6 @@ from recordings.container.environment import library
 from recordings.container.file_descriptors import file_descriptor_set
 from recordings.container.mcap_writer import mcap_writer
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
-from recordings.exchange.omissions import omitted_messages
 from recordings.exchange.protobuf.message_type import message_type
 from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
@@ -58,4 +57,4 @@ def export(recording: Recording, out: Path) -> ExportSummary:
             writer.add_message(channels[recorded.key], recorded.log_ns, payload, *numbers)
             written[recorded.key] = written.get(recorded.key, 0) + 1
         writer.finish()  # type: ignore[no-untyped-call]
-    return ExportSummary(out, written, dict(recording.unreadable), omitted_messages(recording, *TOPICS.values()))
+    return ExportSummary.of(recording, out, written, *TOPICS.values())

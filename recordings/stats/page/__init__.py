@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from recordings.reading.recording import Recording
 from recordings.stats.figures import MatchFigures
-from recordings.stats.match_statistics import extent, figures_of_recording, setup_of
+from recordings.stats.match_statistics import figures_of_recording
 from recordings.stats.page.content import content_of
 from recordings.stats.page.game_history import GameHistory
 from recordings.stats.tracks import Tracks
@@ -48,8 +48,8 @@ def page_of(recording: Recording, navigation: str = "") -> tuple[MatchFigures, s
     Raises:
         TouchlineError: the recording is damaged inside, or has no setup or no world.
     """
-    setup = setup_of(recording)
-    tracks, history = Tracks(setup, *extent(recording)), GameHistory()
+    setup = recording.setup
+    tracks, history = Tracks(setup, *recording.extent_of_worlds()), GameHistory()
     figures = figures_of_recording(recording, tracks, history)
     return figures, page(content_of(recording.manifest, setup, figures, tracks, history), navigation)
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from recordings.reading.recording import open_recording
-from recordings.stats.match_statistics import MatchStatistics, match_ticks_of, setup_of
+from recordings.stats.match_statistics import MatchStatistics, match_ticks_of
 from recordings.stats.match_tick import MatchTick
 from schemas.errors import TouchlineError
 from schemas.messages.game import GameState
@@ -51,7 +51,7 @@ def measured(recording: Path, identity: str) -> Played:
         TouchlineError: no recording, or one that lacks what figures need.
     """
     opened = open_recording(recording)
-    measurement = Measurement(setup_of(opened))
+    measurement = Measurement(opened.setup)
     for tick in match_ticks_of(opened):
         measurement.update(tick)
     return measurement.played(identity, recording)
