@@ -104,12 +104,6 @@ def test_code_that_is_edited_while_it_is_imported_is_imported_again(code, setup,
     assert reload.before(in_episode(1), setup).act(in_episode(1)).drive.vx == 2.0
 
 
-def test_unchanged_code_keeps_its_brain(reload, setup, in_episode, capsys):
-    reload.build(setup)
-    assert [reload.before(in_episode(episode), setup) for episode in (1, 2, 3)] == [None, None, None]
-    assert capsys.readouterr().err == ""
-
-
 @pytest.mark.parametrize(
     ("text", "fault"),
     [

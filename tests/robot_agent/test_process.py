@@ -106,9 +106,7 @@ def test_an_agent_has_a_brain_or_a_program(words):
 
 
 @pytest.mark.processes
-@pytest.mark.parametrize(
-    ("told", "polite"), [(by_settings, signal.SIGTERM), (by_environment, signal.SIGTERM), (by_settings, signal.SIGINT)]
-)
+@pytest.mark.parametrize(("told", "polite"), [(by_environment, signal.SIGTERM), (by_settings, signal.SIGINT)])
 def test_a_robot_answers_a_host_and_ends_politely(setup, sight_of, tmp_path, told, polite):
     endpoint = with_free_port("tcp/127.0.0.1:0")
     words, environment = told(endpoint, tmp_path)

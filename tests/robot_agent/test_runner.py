@@ -99,16 +99,6 @@ def test_a_payload_that_is_no_sight_is_counted_and_skipped(played, sight_of, cap
     assert runner.answer_next(0.0)
 
 
-@pytest.mark.parametrize("brain", [Raising(), type("Silent", (), {"act": lambda self, sight: None})()])
-def test_a_brain_that_raises_or_returns_none_is_a_brain_error(seats, sight_of, brain):
-    host, robot = seats
-    sights = host.publisher(SIGHT, robot="cyan2")
-    runner = Runner(robot, brain, "cyan2")
-    sights.put(sight_of(4))
-    with pytest.raises(BrainError, match="tick 4"):
-        runner.answer_next(0.0)
-
-
 def test_after_forgetting_an_equal_tick_is_a_new_sight(played, sight_of):
     sights, _, runner = played
     sights.put(sight_of(0))

@@ -131,11 +131,6 @@ def test_teammates_are_moved_on_by_the_age_of_their_word_and_forgotten_when_it_i
     assert mates["cyan3"].role == "striker"
 
 
-def test_a_teammates_message_counts_for_1_2_seconds(world, sight_of):
-    radio = {"cyan3": word(1.0, 0.0, 1.2), "cyan4": word(0.0, 0.0, 1.22)}
-    assert list(world.update(sight_of(radio=radio)).mates) == ["cyan3"]
-
-
 def test_opponents_are_the_obstacles_that_no_teammate_accounts_for(world, sight_of):
     radio = {"cyan3": word(1.0, 0.0, 0.1, vx=2.0), "cyan4": word(-3.0, 0.0)}
     obstacles = ((1.25, 0.1), (-3.0, 0.6), (4.0, 4.0))

@@ -10,11 +10,11 @@ from robot_agent.contract import Briefing
 from robot_agent.skills.keep_hold import keep_hold
 from robot_agent.skills.kick_on_the_run import kick_on_the_run
 from robot_agent.world_model import WorldModel
-from schemas.config.match_config import MatchConfig
 from schemas.frames import wrap
 from schemas.messages.command import Command, Drive
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
+from support.lone_robot import briefing_of, one_robot_and_a_ball
 from touchline.play import InProcessMatch
 
 TICK = 0.02
@@ -49,18 +49,8 @@ class Turner:
 
 def turn(speed: float, heading: float, *, gently: bool) -> Turner:
     """A turn with the ball from a speed; ends with the turn, or when the ball is lost."""
-    scene = {
-        "description": "A robot meets a ball at rest.",
-        "game": {"phase": "play"},
-        "ball": {"x": -2.0, "y": 0.0},
-        "robots": [{"name": "cyan2", "side": "cyan", "x": -6.0, "y": 0.0, "heading": 0.0}],
-    }
-    team = {"name": "Turner", "brain": "robot_agent.teams.simple:Simple"}
-    config = MatchConfig.model_validate(
-        {"name": "turn", "seed": 1, "rules": "msl", "scene": scene, "teams": {"cyan": team, "magenta": team}}
-    )
-    setup = InProcessMatch(config, {}).simulation.setup()
-    turner = Turner(Briefing.of("cyan2", setup), speed, heading, gently=gently)
+    config = one_robot_and_a_ball(-6.0, -2.0)
+    turner = Turner(briefing_of(config), speed, heading, gently=gently)
     match = InProcessMatch(config, {"cyan2": turner})
     while match.simulation.now.time < 7.0 and not (turner.lost or turner.turned):
         match.step()

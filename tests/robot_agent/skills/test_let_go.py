@@ -7,9 +7,9 @@ import pytest
 from robot_agent.bodies import Body
 from robot_agent.contract import Briefing
 from robot_agent.skills.let_go import AHEAD, faster, let_go
-from schemas.config.match_config import MatchConfig
 from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
+from support.lone_robot import briefing_of, one_robot_and_a_ball
 from touchline.play import InProcessMatch
 
 
@@ -33,20 +33,9 @@ class LetsGo:
 
 @pytest.mark.parametrize("speed", [1.5, 3.0])
 def test_a_ball_that_slides_after_the_kick_is_visibly_released_and_caught_again(speed):
-    scene = {
-        "description": "A robot meets a ball at rest.",
-        "game": {"phase": "play"},
-        "ball": {"x": -6.5, "y": 0.0},
-        "robots": [{"name": "cyan2", "side": "cyan", "x": -9.0, "y": 0.0, "heading": 0.0}],
-    }
-    team = {"name": "LetsGo", "brain": "robot_agent.teams.simple:Simple"}
-    config = MatchConfig.model_validate(
-        {"name": "let_go", "seed": 1, "rules": "msl", "scene": scene, "teams": {"cyan": team, "magenta": team}}
-    )
-    probe = InProcessMatch(config, {})
-    setup = probe.simulation.setup()
-    probe.close()
-    brain = LetsGo(Briefing.of("cyan2", setup), speed)
+    config = one_robot_and_a_ball(-9.0, -6.5)
+    briefing = briefing_of(config)
+    setup, brain = briefing.setup, LetsGo(briefing, speed)
     match, air, again = InProcessMatch(config, {"cyan2": brain}), 0.0, False
     while match.simulation.now.time < 7.0 and not again:
         world = match.step().world

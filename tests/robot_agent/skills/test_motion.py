@@ -9,7 +9,6 @@ from robot_agent.skills.braking import braking_speed, travel_time
 from robot_agent.skills.go_to import TOLERANCE, drive, go_to
 from robot_agent.skills.turn_to import turn_to
 from schemas.frames import from_body, wrap
-from schemas.messages.command import Command, Drive
 from schemas.wire.faults import FaultError
 
 
@@ -97,9 +96,3 @@ def test_a_turning_robots_demand_is_for_the_heading_it_will_have(limits):
 def test_a_demand_that_is_no_number_raises_where_it_is_made(limits, vx, vy):
     with pytest.raises(FaultError, match=r"drive\.v[xy] is (nan|inf)"):
         drive(Body(0.0, 0.0, 0.3), vx, vy, 0.0, limits)
-
-
-def test_a_demand_is_a_drive_in_any_command(limits):
-    demand = drive(Body(0.0, 0.0, 0.0), 1.0, -0.5, 0.25, limits)
-    command = Command(answers_tick=1, drive=demand)
-    assert command.drive == Drive(vx=1.0, vy=-0.5, omega=0.25)

@@ -1,13 +1,11 @@
 """Test mode in single decisions; what comes of it in the simulated world, `tests/match/test_coach_tests.py` shows."""
 
 import pytest
-from msgspec.structs import replace
 
 from robot_agent.teams.coach_tests import LEAVES
 from schemas.game import Point, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Drive
-from schemas.side import Side
 
 TEAMS = ("simple", "nubot")
 STARTS = {1: (-10.5, 0.0, 0.0), 2: (2.0, 1.0, 0.0), 3: (-2.0, -1.0, 0.0)}
@@ -98,15 +96,3 @@ def test_a_ball_that_is_not_seen_is_looked_for(squad, team):
     for _ in range(200):
         commands = made.act(ball=None, order=SHOOT)
     assert commands["cyan2"].drive != Drive() and commands["cyan3"].drive == Drive()
-
-
-@pytest.mark.parametrize("team", TEAMS)
-def test_equal_orders_are_shown_alike_by_both_sides(squad, team):
-    given = {side: order(CoachTest.SHOOT, robot_a=f"{side.value}2") for side in Side}
-    sides = {side: squad(team, STARTS, side=side) for side in Side}
-    for _ in range(30):
-        commands = [
-            [replace(one, radio=None) for one in made.act(ball=(4.0, 2.0), order=given[side]).values()]
-            for side, made in sides.items()
-        ]
-        assert commands[0] == commands[1]

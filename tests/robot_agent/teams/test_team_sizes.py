@@ -91,10 +91,6 @@ def test_the_first_places_do_not_depend_on_the_number_of_robots(eleven):
     assert [role for role, _ in whole[:3]] == [Role.DEFENDER, Role.LEFT, Role.RIGHT]
 
 
-def test_nubot_has_a_home_for_every_robot_that_a_side_can_have():
-    assert len(set(HOMES)) == MAX_ROBOTS
-
-
 @pytest.mark.parametrize(("allowed", "inside", "waits"), [(1, 0, False), (1, 1, True), (3, 2, False), (3, 3, True)])
 def test_a_robot_waits_outside_a_penalty_area_while_as_many_teammates_as_allowed_are_inside(
     squad, eleven, allowed, inside, waits
@@ -115,11 +111,6 @@ def test_where_no_field_robot_may_enter_a_penalty_area_even_the_one_with_the_bal
     belief = WorldModel(made.brains["cyan2"].briefing).update(made.sight("cyan2", ball=(8.4, 0.0), holding=True))
     turn = AreaTurn(RuleLimits.of(eleven)._replace(area_robots=0), Area.penalty(eleven.pitch))
     assert turn.has_to_be_out(belief, "cyan1")
-
-
-def test_robots_know_how_many_of_them_the_rule_book_allows_in_a_penalty_area(eleven):
-    assert RuleLimits.of(eleven).area_robots == 3
-    assert RuleLimits.of(make_setup(rules="msl")).area_robots == 1
 
 
 @TEAMS

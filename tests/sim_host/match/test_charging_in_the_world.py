@@ -49,15 +49,6 @@ def test_a_robot_at_full_speed_into_a_standing_opponent_charges_it(profile, phas
     assert (rule, robot) == ("charging", "cyan2") and speed == pytest.approx(3.5, abs=0.2)
 
 
-@pytest.mark.parametrize("gap", [0.55, 0.7, 0.9])
-def test_a_robot_that_is_knocked_into_another_is_never_called(gap):
-    """cyan2 hits magenta1, which stands and is knocked into cyan1."""
-    rig = WorldRig(load_profile("msl"))
-    rig.place(cyan2=(-3, 0, 0), magenta1=(0, 0, 0), cyan1=(gap, 0, 0), ball=(0, 5, 0))
-    ((rule, robot, _),) = called(rig, cyan2=tell(vx=4.0))
-    assert (rule, robot) == ("charging", "cyan2")
-
-
 @pytest.mark.parametrize("gap", [0.505, 0.55, 0.7])
 def test_a_robot_that_knocks_its_teammate_into_an_opponent_is_called_in_its_place(gap):
     rig = WorldRig(load_profile("msl"))

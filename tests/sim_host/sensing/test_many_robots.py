@@ -15,7 +15,6 @@ from schemas.config.robot_model import RobotModel
 from schemas.config.sections import CameraView
 from sim_host.sensing import hulls, pair_draws
 from sim_host.sensing.random_streams import RandomStreams, StreamId, name_words
-from sim_host.sensing.shadows import hulls_near_lines
 from sim_host.snapshot import ObstacleState
 from support.scenery import Scenery, Seen, roster_of
 
@@ -101,26 +100,3 @@ def test_the_draws_of_single_pairs_are_those_of_all_pairs():
     for place, tick in enumerate((7, 2**32 + 8)):
         assert (streams.uniforms_of_pairs(StreamId.SEEN, *names, tick) == every[place, rows, columns]).all()
     assert streams.uniforms_of_pairs(StreamId.SEEN, names[0][:0], names[1][:0], 7).shape == (0, 4)
-
-
-def test_what_a_picture_computes_grows_with_the_pairs_in_view(monkeypatch):
-    """Twice and four times the robots on twice and four times the area: not four and sixteen times as much."""
-    drawn, tried = [], []
-    original = RandomStreams.uniforms_of_pairs
-
-    def count_draws(self, stream, robots, *rest):
-        drawn.append(len(robots))
-        return original(self, stream, robots, *rest)
-
-    def count_trials(*arrays):
-        found = hulls_near_lines(*arrays)
-        tried.append(len(found.hull))
-        return found
-
-    monkeypatch.setattr(RandomStreams, "uniforms_of_pairs", count_draws)
-    monkeypatch.setattr(hulls, "hulls_near_lines", count_trials)
-    with limits(0, 0):
-        for count in (50, 100, 200):
-            crowd(count, math.sqrt(count), ball_range=5.0, obstacle_range=5.0, latency=0.0).look()
-    assert drawn[2] / drawn[1] < 2.5 and drawn[1] / drawn[0] < 2.5
-    assert tried[2] / tried[1] < 2.5 and tried[1] / tried[0] < 2.5

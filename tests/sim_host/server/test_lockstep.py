@@ -120,15 +120,6 @@ def test_a_robot_that_answers_an_earlier_tick_does_not_hold_the_match_and_is_rep
     assert health["cyan1"].fault == ""
 
 
-def test_the_event_of_a_silence_has_its_reason(rig_of):
-    rig = rig_of()
-    rig.join("cyan1"), rig.join("cyan2", Answers(lambda tick: 0)), rig.join("magenta1")
-    rig.begin()
-    rig.ticks(20)
-    reason = "answers tick 0, the match is at 4; use sight.tick"
-    assert rig.silences() == [f"cyan2 does not answer, its robot stops: {reason}"]
-
-
 def test_a_robot_whose_commands_are_invalid_is_reported_with_the_reason(rig):
     rig.ticks(5)
     rig.agents["cyan2"].frozen = True
@@ -165,20 +156,6 @@ def test_an_agent_that_dies_is_not_waited_for_and_its_successor_joins(rig):
     assert ticks[5:36] == [None] * 31
     assert ticks[-9:] == list(range(37, 46))
     assert rig.silences() == ["cyan2 does not answer, its robot stops", "cyan2 answers"]
-
-
-def test_an_agent_that_comes_late_joins(rig_of):
-    rig = rig_of(patience={"attendance": 0})
-    for robot in ("cyan1", "magenta1"):
-        rig.join(robot)
-    rig.begin()
-    rig.ticks(10)
-    rig.join("cyan2")
-    rig.ticks(10)
-    ticks = answered(rig.inputs("cyan2"))
-    assert ticks[:10] == [None] * 10
-    assert ticks[-9:] == list(range(11, 20))
-    assert rig.clock.now() < PATIENCE_S
 
 
 def test_an_agent_that_comes_while_the_host_waits_for_another_is_in_time_for_this_tick(rig):

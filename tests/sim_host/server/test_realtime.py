@@ -9,8 +9,6 @@ from schemas.topics import COMMAND, HEALTH
 REST = AppliedInput(drive=Drive(), dribble=False)
 WATCHDOG_TICKS = 10
 """0.2 s of simulated time."""
-HELD_TICKS = 2
-"""Ticks without a new command in which the last one is in force: in the third one, after 0.06 s, the robot brakes."""
 
 
 @pytest.mark.parametrize(("pace", "period"), [("realtime", 0.02), ("x4", 0.005), ("x0.5", 0.04)])
@@ -45,25 +43,6 @@ def test_late_ticks_are_counted_and_published_and_not_made_up_for(realtime_rig, 
     newest = reports.all()[-1]
     assert newest.late_ticks == 2
     assert newest.worst_tick_ms == pytest.approx(70)  # one period of sleep, and 50 ms of work
-
-
-def test_a_silent_robot_is_braked_and_comes_back(realtime_rig):
-    realtime_rig.ticks(50)
-    realtime_rig.agents["cyan2"].frozen = True
-    began = realtime_rig.clock.now()
-    realtime_rig.ticks(100)
-    assert realtime_rig.clock.now() - began == pytest.approx(2.0)
-    inputs = realtime_rig.inputs("cyan2")
-    assert all(given.drive == Drive(vx=1.0) for given in inputs[: 50 + HELD_TICKS])
-    assert inputs[50 + HELD_TICKS :] == [REST] * (100 - HELD_TICKS)
-    assert abs(realtime_rig.truth("cyan2")["vx"]) < 1e-3
-    assert realtime_rig.truth("cyan1")["vx"] > 0.5
-    health = realtime_rig.health().robots["cyan2"]
-    assert (health.alive, health.answering, health.missed) == (True, False, 101)
-    realtime_rig.agents["cyan2"].frozen = False
-    realtime_rig.ticks(30)
-    assert realtime_rig.truth("cyan2")["vx"] > 0.1
-    assert realtime_rig.silences() == ["cyan2 does not answer, its robot stops", "cyan2 answers"]
 
 
 def test_a_robot_that_misses_less_than_the_watchdog_allows_is_not_called_silent(realtime_rig):

@@ -137,20 +137,6 @@ def test_at_the_end_the_recorders_get_time_for_the_last_tick(rig_of, monkeypatch
     assert rig.host.presence.recorder_lags(rig.host.simulation.now.tick) == {"recorder": 0}
 
 
-def test_at_the_end_a_recorder_that_stands_still_is_not_waited_for_without_end(rig_of, monkeypatch):
-    rig = ending(rig_of())
-    rig.record().stands = True
-    update = rig.host.presence.update
-
-    def look(timeout=0.0):
-        rig.pass_time(timeout)
-        return update(0.0)
-
-    monkeypatch.setattr(rig.host.presence, "update", look)
-    rig.host.run()
-    assert rig.host.simulation.over
-
-
 def test_a_host_that_waits_for_a_recorder_gives_it_the_batches_that_it_missed(rig, recorder):
     """Otherwise each would wait for the other."""
     recorder.stands = True

@@ -12,6 +12,15 @@ from robot_agent.teams.reference.passing import chance, in_time, passes
 from robot_agent.teams.reference.shooting import best_shot
 from schemas.messages.command import KickMode
 
+PRESSED = {
+    "cyan1": (-10.5, 0, 0),
+    "cyan2": (-2.0, 0.0, 0),
+    "cyan3": (1.5, 3.0, math.pi),
+    "magenta1": (10.5, 0, math.pi),
+    "magenta2": (-0.3, -0.3, math.pi),
+}
+"""An opponent comes at cyan2, which has the ball; cyan3 is free."""
+
 
 def test_a_robot_before_an_open_goal_scores(scene):
     robots = {"cyan1": (-10.5, 0, 0), "cyan2": (5.5, 0.5, 0), "magenta1": (-5, 6, 0), "magenta2": (-6, 5, 0)}
@@ -85,14 +94,7 @@ def test_a_chosen_pass_stays_while_another_is_as_good(setup):
 
 
 def test_a_pressed_robot_passes_to_a_free_mate_which_comes_to_meet_the_ball(scene):
-    robots = {
-        "cyan1": (-10.5, 0, 0),
-        "cyan2": (-2.0, 0.0, 0),
-        "cyan3": (1.5, 3.0, math.pi),
-        "magenta1": (10.5, 0, math.pi),
-        "magenta2": (-0.3, -0.3, math.pi),
-    }
-    played = scene(robots, (-1.6, 0.0)).play(
+    played = scene(PRESSED, (-1.6, 0.0)).play(
         6.0, lambda played: bool(played.commands) and played.match.simulation.now.world["possession"] == "cyan3"
     )
     assert [command.radio.pass_to for command in played.kicks("cyan2")] == ["cyan3"]
@@ -100,16 +102,9 @@ def test_a_pressed_robot_passes_to_a_free_mate_which_comes_to_meet_the_ball(scen
 
 
 def test_a_robot_that_has_passed_runs_past_its_opponent_and_often_has_the_ball_returned_there(scene):
-    robots = {
-        "cyan1": (-10.5, 0, 0),
-        "cyan2": (-2.0, 0.0, 0),
-        "cyan3": (1.5, 3.0, math.pi),
-        "magenta1": (10.5, 0, math.pi),
-        "magenta2": (-0.3, -0.3, math.pi),
-    }
     returned = 0
     for seed in range(1, 9):
-        played = scene(robots, (-1.6, 0.0), seed=seed).play(3.0, lambda played: bool(played.kicks("cyan3")))
+        played = scene(PRESSED, (-1.6, 0.0), seed=seed).play(3.0, lambda played: bool(played.kicks("cyan3")))
         assert played.kicks("cyan2")[0].radio.pass_to == "cyan3"
         played.play(3.0, lambda played: played.match.simulation.now.world["possession"] == "cyan2")
         world = played.match.simulation.now.world

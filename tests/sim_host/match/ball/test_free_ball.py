@@ -61,15 +61,6 @@ def test_a_sliding_ball_rolls_at_5_7_of_its_speed_if_it_is_solid_and_at_3_5_if_i
     assert rig.engine.ball_now().spin[1] == approx(end.vx / ball.radius, rel=0.01)
 
 
-def test_rolling_resistance_does_not_change_how_a_slide_ends(build):
-    """Friction alone works while the ball slides: after v·(2/7)/(μ·g), within 5 % of 5/7 of its speed."""
-    ball = build().profile.ball
-    rig = build(ball=NO_AIR | {"inertia": 0.4 * ball.mass * ball.radius**2})
-    rig.set_ball((-5, 0, ball.radius), (4, 0, 0))
-    end = rig.run(4 * 2 / 7 / ball.friction / G).ball
-    assert end.vx == approx(4 * 5 / 7, rel=0.05)
-
-
 def test_a_ball_that_spins_on_the_spot_begins_to_roll(build):
     """The other way round: from ω·r without speed to ω·r·(I / m·r²) / (1 + I / m·r²), within 1 %."""
     rig = build(ball=STILL)

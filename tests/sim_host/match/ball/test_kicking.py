@@ -90,19 +90,6 @@ def test_a_refused_kick_costs_no_charge(build, tell):
     assert snapshot.possession == "cyan1", "and the ball is still held"
 
 
-def test_every_kicker_is_charged_at_a_checkpoint_in_the_running_match_as_in_its_simulation(build, tell):
-    """Poses and velocities tell the future: two worlds with another past kick alike after it."""
-    pasts = build(), build()
-    pasts[0].give("cyan1", 0)
-    pasts[0].tick(cyan1=tell(kick=("ground", 3.0)))
-    for rig in pasts:
-        rig.give("cyan1", 0)
-        rig.world.make_checkpoint()
-    ends = [rig.tick(cyan1=tell(dribble=True, kick=("lob", 8.0))) for rig in pasts]
-    assert [end.kicked for end in ends] == ["cyan1", "cyan1"]
-    assert ends[0].ball == ends[1].ball
-
-
 @pytest.mark.parametrize(
     ("height", "place", "reason"),
     [
