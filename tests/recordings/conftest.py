@@ -1,5 +1,7 @@
 """Recordings of matches on the in-process bus."""
 
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from threading import Event
@@ -77,6 +79,23 @@ def recorded(rig: RecorderRig) -> Recording:
 def make_fake_host() -> Callable[[Bus, Bus], FakeHost]:
     """Makes a fake host on a bus of the test."""
     return lambda bus, robots: FakeHost(bus, robots, make_setup())
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Starts Python programs, and ends those that are left."""
+    running: list[subprocess.Popen[str]] = []
+
+    def start(*arguments: str) -> subprocess.Popen[str]:
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        running.append(subprocess.Popen([sys.executable, *arguments], text=True, **pipes))
+        return running[-1]
+
+    yield start
+    for process in running:
+        if process.returncode is None:
+            process.kill()
+            process.communicate()
 
 
 @pytest.fixture

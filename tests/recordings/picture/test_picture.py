@@ -28,7 +28,7 @@ def share_of(path, colour: str) -> float:
     return float(np.mean(np.all(np.abs(pixels - wanted) <= 1, axis=-1)))
 
 
-@pytest.mark.parametrize("times", [None, [1.0], [0.5, 1.0, 3.9]])
+@pytest.mark.parametrize("times", [None, [0.5, 1.0, 3.9]])
 def test_a_match_is_drawn_with_the_robots_of_both_sides(recorded, tmp_path, times):
     out = tmp_path / "new" / "match.png"
     draw(recorded.path, out, times)
@@ -62,12 +62,6 @@ def test_more_panels_make_a_sheet_of_more_rows(recorded, tmp_path):
     assert heights[1] > 1.5 * heights[0]
 
 
-def test_a_picture_can_be_a_vector_drawing(recorded, tmp_path):
-    out = tmp_path / "match.svg"
-    draw(recorded.path, out)
-    assert "<svg" in out.read_text()
-
-
 def test_the_way_of_the_ball_is_drawn_over_the_whole_match(recorded, tmp_path):
     out = tmp_path / "trace.png"
     trace(recorded.path, out)
@@ -87,14 +81,6 @@ def test_a_picture_is_headed_by_the_teams_and_the_score(recorded, tmp_path, time
         else:
             draw(recorded.path, path, times)
     assert all(f">{words}<" in path.read_text() for words in ("Team cyan", "Team magenta", score))
-
-
-def test_a_cut_off_recording_can_be_drawn(recorded, tmp_path):
-    data = recorded.path.read_bytes()
-    part = tmp_path / "cut.mcap"
-    part.write_bytes(data[: data.index(b"result")])
-    draw(part, tmp_path / "cut.png")
-    assert (tmp_path / "cut.png").exists()
 
 
 @pytest.mark.parametrize("time", [-1.0, 100.0])

@@ -53,20 +53,6 @@ def test_it_leaves_out_the_keys_that_are_not_wanted(recorded):
     assert rest(cursor) == list(recorded.messages("world", "game/event"))
 
 
-def test_a_file_that_is_still_written_grows(rig, wait_until_written):
-    rig.host.referee(0, Phase.PLAY, Score())
-    rig.play(range(50))
-    wait_until_written(rig)
-    cursor = Cursor(rig.path)
-    seen = rest(cursor)
-    assert not cursor.finished
-    rig.play(range(50, 150))
-    rig.host.referee(149, Phase.FULL_TIME, Score())
-    rig.leave()
-    assert cursor.grow() and cursor.finished
-    assert [*seen, *rest(cursor)] == list(rig.read().messages())
-
-
 def test_a_cut_file_is_a_prefix_wherever_it_was_cut(recorded, tmp_path):
     whole, every = recorded.path.read_bytes(), list(recorded.messages())
     for size in random.Random(3).sample(range(8, len(whole)), 60):

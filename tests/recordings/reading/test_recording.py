@@ -7,7 +7,6 @@ from recordings.container.mcap_file import open_mcap_file
 from recordings.container.sealed_metadata import sealed
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
-from schemas.messages.world import World
 from schemas.topics import COMMAND
 
 
@@ -38,12 +37,6 @@ def test_messages_are_chosen_by_key_pattern_and_simulated_time(recorded):
     ]
     assert {message.time for message in chosen} == {1.0, 1.02, 1.04, 1.06, 1.08}
     assert len(chosen) == 25
-
-
-def test_messages_are_decoded_to_the_models_of_the_schemas(recorded):
-    worlds = [message for _, message in recorded.decoded("world")]
-    assert all(isinstance(world, World) for world in worlds)
-    assert [world.tick for world in worlds] == list(range(200))
 
 
 @pytest.mark.parametrize("share", [0.35, 0.999])

@@ -59,14 +59,6 @@ def test_a_recorder_whose_clock_is_ahead_misses_nothing_before_its_first_batch()
     assert Recorder().hear(4) == [4]
 
 
-def test_what_comes_behind_a_gap_waits_until_the_gap_is_closed(recorder):
-    assert recorder.hear(10, 11) == []
-    assert recorder.sequence.missing() == missing(8, 9)
-    assert recorder.hear(12) == []
-    assert recorder.answer(8, 9) == [8, 9, 10, 11, 12]
-    assert recorder.sequence.missing() is None
-
-
 def test_a_missing_batch_may_come_late_or_twice(recorder):
     assert recorder.hear(9) == []
     assert recorder.hear(8) == [8, 9]
@@ -87,26 +79,9 @@ def test_where_the_host_keeps_nothing_of_a_gap_only_the_gap_is_lost(recorder):
     assert recorder.sequence.missing() is None
 
 
-def test_a_second_gap_is_missing_when_the_first_is_closed(recorder):
-    recorder.hear(10, 15)
-    assert recorder.answer(8, 9) == [8, 9, 10]
-    assert recorder.sequence.missing() == missing(11, 14)
-
-
 def test_what_is_missing_is_given_up_on_demand(recorder):
     recorder.hear(10, 11, 15)
     recorder.sequence.skip_missing()
     assert recorder.ready() == [10, 11, 15]
     assert recorder.sequence.lost == 5
     assert recorder.hear(16) == [16]
-
-
-def test_another_host_counts_from_its_own_beginning(recorder):
-    recorder.hear(10, 11)
-    assert recorder.hear(7, stream=ANOTHER) == [10, 11]
-    assert recorder.sequence.lost == 2
-    assert recorder.sequence.missing() == missing(0, 6, BEGAN_NS)
-    recorder.sequence.add_requested([(number, batch(number, ANOTHER)) for number in (5, 6)], 5)
-    assert recorder.ready() == [5, 6, 7]
-    assert recorder.hear(8, stream=ANOTHER) == [8]
-    assert recorder.sequence.lost == 2

@@ -1,9 +1,8 @@
 """The real thing: a recorder process at a real Zenoh host on loopback."""
 
 import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -22,23 +21,6 @@ from schemas.topics import RECORDER_PROGRESS
 
 LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
-
-
-@pytest.fixture
-def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
-    """Starts Python programs, and ends those that are left."""
-    running: list[subprocess.Popen[str]] = []
-
-    def start(*arguments: str) -> subprocess.Popen[str]:
-        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-        running.append(subprocess.Popen([sys.executable, *arguments], text=True, **pipes))
-        return running[-1]
-
-    yield start
-    for process in running:
-        if process.returncode is None:
-            process.kill()
-            process.communicate()
 
 
 @pytest.fixture

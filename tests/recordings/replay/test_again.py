@@ -88,15 +88,6 @@ def test_a_recording_with_other_ticks_is_no_ghost_here(played):
         check_ghosts(load_match(None, {"profile": "paper"}), [f"cyan={played.path}"])
 
 
-@pytest.mark.parametrize(("robot", "brain"), [("cyan2", SIMPLE), ("magenta2", NUBOT)])
-def test_the_brain_that_played_repeats_its_commands(played, robot, brain):
-    verdict = compare_brain(played, robot, brain)
-    assert (verdict.different, verdict.first, verdict.until) == (0, None, "")
-    assert verdict.sights == "simulated"
-    assert verdict.compared == round(UNTIL / 0.02)
-    assert "identical" in verdict.sentence()
-
-
 def test_a_robot_that_did_not_play_is_reported(played):
     with pytest.raises(TouchlineError, match='robot is "cyan9"'):
         compare_brain(played, "cyan9", SIMPLE)

@@ -7,11 +7,9 @@ from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 
 from recordings.container.key_selection import KeySelection
-from recordings.container.mcap_file import is_derived
 from recordings.editing.filtering import filter_recording
 from recordings.exchange.protobuf.export import export
 from recordings.inspection.difference import compare
-from recordings.inspection.facts_table import summary_lines
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
@@ -118,11 +116,6 @@ def test_with_or_without_it_a_recording_is_the_same_match(short, plain, tmp_path
     assert facts_of(seen).messages == facts_of(bare).messages
 
 
-def test_info_reports_the_channels_for_viewers(short, plain):
-    assert dict(summary_lines(facts_of(open_recording(short))))["for viewers"] == " ".join(ALWAYS)
-    assert "for viewers" not in dict(summary_lines(facts_of(open_recording(plain))))
-
-
 def test_a_copy_of_a_part_is_drawn_anew(short, tmp_path):
     filter_recording(open_recording(short), tmp_path / "part.mcap", start=1.0, end=2.0)
     topics = [topic for topic, log_ns, _ in drawn(tmp_path / "part.mcap") if log_ns < round(1e9)]
@@ -134,11 +127,6 @@ def test_a_copy_of_a_part_is_drawn_anew(short, tmp_path):
 def test_a_copy_without_the_world_has_nothing_to_draw_but_the_game(short, tmp_path):
     filter_recording(open_recording(short), tmp_path / "part.mcap", KeySelection(exclude=("world",)))
     assert set(open_recording(tmp_path / "part.mcap").drawn) <= {GAME, EVENTS}
-
-
-def test_a_copy_of_a_recording_without_it_is_without_it(plain, tmp_path):
-    filter_recording(open_recording(plain), tmp_path / "part.mcap")
-    assert open_recording(tmp_path / "part.mcap").drawn == {}
 
 
 def test_every_part_of_a_recording_is_drawn_whole_and_their_copy_as_one_file(make_rig, tmp_path):
@@ -167,9 +155,3 @@ def test_without_a_setup_nothing_is_drawn(make_rig):
     recording = rig.read()
     assert recording.manifest.setup is None
     assert (recording.drawn, len(list(recording.messages()))) == ({}, 6)
-
-
-def test_channels_for_viewers_say_what_they_are_derived_from(short):
-    channels = open_recording(short).mcap_file.channels.values()
-    derived = [channel.key for channel in channels if is_derived(channel.metadata)]
-    assert sorted(derived) == ALWAYS
