@@ -2,16 +2,14 @@
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from typing import Any
 
 import pytest
 
 from coach_gateway.refbox import signal_queue
-from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.client import RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
 from schemas.game import ActionName, Phase
 from schemas.messages.game import ActionReply
-from schemas.side import Side
 from support.box_client import connected
 from support.gateway_bench import Bench, until
 from support.referee_box import Box
@@ -83,21 +81,3 @@ async def test_characters_in_a_flood_leave_the_last_one_in_force(flood: bytes) -
             lambda: bench.stage.asked and bench.stage.asked[-1].action is ActionName.DROP_BALL, "the last character"
         )
         assert client.connected
-
-
-async def test_a_second_box_takes_nothing_from_the_first() -> None:
-    """Both claim the seat by name; the host refuses the second's actions, which is logged in few lines."""
-
-    async with stopped() as (bench, first, client):
-        second_box = Box()
-        port = await second_box.open()
-        second = RefBoxClient(bench.live, BoxAddress(Side.MAGENTA, "127.0.0.1", port), bench.logged.append)
-        bench.start(second)
-        await until(lambda: second.connected)
-        for box in (first, second_box):
-            box.say("STOP")
-        await until(lambda: len(bench.stage.asked) >= 1)
-        names: set[Any] = {action.referee for action in bench.stage.asked}
-        assert all(name and name.startswith("box_127_0_0_1_") for name in names)
-        assert client.connected
-        await second_box.close()

@@ -106,17 +106,10 @@ async def opened(**teams: Any) -> AsyncIterator[Bench]:
     medium = SharedState()
     sizes = {f"teams.{side}.size": 3 for side in Side}
     stage = FakeHost(medium, load_match(None, {**sizes, **teams}))
-    bench = Bench(stage, LiveMatch(medium.open_bus(MATCH, WallClock())))
-    bench.start(stage)
-    bench.start(bench.live)
-    try:
-        await until(lambda: bench.live.setup is not None, "the setup")
+    async with _beside(stage, medium) as bench:
         stage.say()
         await until(lambda: bench.live.state is not None, "the state")
         yield bench
-    finally:
-        await bench.end()
-        await asyncio.sleep(0)  # transports that were closed are gone only now
 
 
 @asynccontextmanager
@@ -125,12 +118,19 @@ async def kicked_off(**words: Any) -> AsyncIterator[Bench]:
     medium = SharedState()
     sizes = {"teams.cyan.size": 2, "teams.magenta.size": 1}
     pitch = Pitch(medium, load_match(None, {**sizes, "pace": "lockstep", "record.wait": False, **words}))
-    bench = Bench(pitch, LiveMatch(medium.open_bus(MATCH, WallClock())))
+    async with _beside(pitch, medium) as bench:
+        await until(lambda: bench.live.state is not None, "the match")
+        yield bench
+
+
+@asynccontextmanager
+async def _beside(stage: Any, medium: SharedState) -> AsyncIterator[Bench]:
+    bench = Bench(stage, LiveMatch(medium.open_bus(MATCH, WallClock())))
     bench.start(bench.live)
-    bench.start(pitch)
+    bench.start(stage)
     try:
-        await until(lambda: bench.live.setup is not None and bench.live.state is not None, "the match")
+        await until(lambda: bench.live.setup is not None, "the setup")
         yield bench
     finally:
         await bench.end()
-        await asyncio.sleep(0)
+        await asyncio.sleep(0)  # transports that were closed are gone only now

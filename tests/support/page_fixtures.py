@@ -83,10 +83,16 @@ def host(host_of: Callable[..., FakeHost]) -> FakeHost:
 
 @pytest.fixture
 def gateway_of(medium: SharedState, tokens: Path) -> Iterator[Callable[..., Gateway]]:
+    """Makes servers of pages; the words are those of their settings."""
     made: list[Gateway] = []
 
-    def make(tokens_file: Path | None = tokens, result: Path | None = None, **words: Any) -> Gateway:
-        made.append(Gateway(medium, WebSettings(**{"port": 0, **words}), tokens_file, result))
+    def make(
+        shown: SharedState | None = medium,
+        tokens_file: Path | None = tokens,
+        result: Path | None = None,
+        **words: Any,
+    ) -> Gateway:
+        made.append(Gateway(shown, WebSettings(**{"port": 0, **words}), tokens_file, result))
         return made[-1]
 
     yield make

@@ -72,11 +72,6 @@ class Tab:
         self.button(action, side).click()
         self._pressed[action, side] = time.monotonic()
 
-    def logged(self) -> str:
-        """The newest line of the log, without its time."""
-        line: str = self.page.locator("#log li").first.evaluate("(line) => line.lastChild.textContent.trim()")
-        return line
-
     def wait_for_log(self, text: str) -> None:
         """Until the newest line of the log has this text."""
         try:

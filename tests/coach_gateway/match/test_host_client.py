@@ -1,19 +1,18 @@
-import threading
-
 import pytest
 
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.in_process_bus import SharedState
+from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.game import ActionReply, RefereeAction
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from schemas.topics import ACTION, ACTIVE_ORDER, ORDER, SETUP
-from support.messages import make_setup
+from schemas.topics import ACTION, ACTIVE_ORDER, ORDER
+from support.fake_host import FakeHost
 
 MICROSECONDS = 1_795_275_009_214_000
 """Since 1970: far beyond any clock in ms."""
@@ -34,29 +33,16 @@ def host(medium: SharedState):
 
     Magenta has an order already, of a program whose clock counts in microseconds.
     """
-    bus = seat(medium)
-    setups, actions = bus.serve(SETUP), bus.serve(ACTION)
-    setup = make_setup(size=2).replace(orders={Side.MAGENTA: MICROSECONDS})
-    asked: list[RefereeAction] = []
 
-    def answer_setups() -> None:
-        while (query := setups.receive(None)) is not None:
-            query.reply(setup)
+    def answer(action: RefereeAction) -> ActionReply:
+        accepted = action.action is ActionName.STOP
+        return ActionReply(accepted=accepted, reason="" if accepted else "play is running")
 
-    def answer_actions() -> None:
-        while (query := actions.receive(None)) is not None:
-            action = query.message()
-            asked.append(action)
-            accepted = action.action is ActionName.STOP
-            query.reply(ActionReply(accepted=accepted, reason="" if accepted else "play is running"))
-
-    threads = [threading.Thread(target=answer) for answer in (answer_setups, answer_actions)]
-    for thread in threads:
-        thread.start()
-    yield asked
-    bus.close()
-    for thread in threads:
-        thread.join()
+    match = load_match(None, {f"teams.{side}.size": 2 for side in Side})
+    host = FakeHost(medium, match, {ACTION: answer}, clock=SteppedClock(), in_threads=True)
+    host.setup = host.setup.replace(orders={Side.MAGENTA: MICROSECONDS})
+    yield host.asked
+    host.close()
 
 
 def test_an_action_reaches_the_referee_and_its_answer_comes_back(
@@ -81,12 +67,8 @@ def test_all_requests_of_one_connection_are_of_one_referee_that_is_present_with_
     page, program, other = (action.referee for action in host)
     assert page == program != other
     first.close()
-    seen = [presence for _ in range(3) if (presence := watch.receive()) is not None]
-    assert [(one.kind, one.name, one.alive) for one in seen] == [
-        (PresenceKind.REFEREE, page, True),
-        (PresenceKind.REFEREE, other, True),
-        (PresenceKind.REFEREE, page, False),
-    ]
+    seen = [presence for presence in iter(watch.receive, None) if presence.kind is PresenceKind.REFEREE]
+    assert [(one.name, one.alive) for one in seen] == [(page, True), (other, True), (page, False)]
 
 
 def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: SharedState) -> None:

@@ -12,7 +12,6 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.game import REFBOX, ActionName, Phase, Score
 from schemas.messages.game import GameState, RefereeAction
-from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
@@ -63,25 +62,6 @@ async def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_
         await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
         assert bench.live.events == []
         assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
-
-
-async def test_a_reply_of_a_host_that_has_left_does_not_pass_for_that_of_the_new_one() -> None:
-    async with opened() as bench:
-        ask, answers = bench.live._client.setup, threading.Event()
-
-        def slow() -> Setup:
-            answer = ask()
-            answers.wait(30.0)
-            return answer
-
-        bench.live._client.setup = slow
-        bench.stage.say(episode=2)  # other robots may take part: the setup is queried again
-        await until(lambda: bench.live._asking is not None and not bench.live._asking.done())
-        bench.stage.setup = bench.stage.setup.replace(rules="another book")
-        bench.stage.say(episode=3)
-        await until(lambda: bench.live.state.episode == 3)
-        answers.set()
-        await until(lambda: bench.live.setup.rules == "another book")
 
 
 async def test_a_stop_waits_for_no_other_request() -> None:

@@ -6,6 +6,7 @@ from schemas.config.match_config import load_match
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
 from schemas.side import Side
+from support.messages import make_event
 
 
 def named(cyan: str, magenta: str) -> TeamNames:
@@ -67,3 +68,9 @@ def test_a_line_of_a_state_and_of_an_event_has_the_names() -> None:
     assert state_line(state, names) == " 1:01.0  half 1  Lions 0 : 0 NuBot  corner, NuBot  proposed: corner for Lions"
     event = GameEvent(tick=9, time=61.0, clock=61.0, kind=EventKind.RESTART, rule="out", text="corner for magenta")
     assert event_line(event, names) == " 1:01.0  restart: corner for NuBot"
+
+
+def test_an_event_is_one_sentence_that_does_not_repeat_its_kind() -> None:
+    goal = make_event(1, "goal, counts for cyan: ball over the goal line", EventKind.GOAL)
+    assert event_line(goal) == " 0:00.0  goal: counts for cyan: ball over the goal line"
+    assert event_line(make_event(1, "goal by cyan3", EventKind.GOAL)) == " 0:00.0  goal: goal by cyan3"

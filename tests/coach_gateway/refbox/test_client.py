@@ -28,6 +28,7 @@ RESTARTS |= {"CORNER": "corner", "PENALTY": "penalty"}
 def asked(bench: Any) -> list[str]:
     """What the referee was asked for: `corner cyan`, `repair cyan2`."""
     assert all(action.source == REFBOX for action in bench.stage.asked)
+    assert all((action.referee or "").startswith("box_127_0_0_1_") for action in bench.stage.asked)
     return [" ".join(filter(None, (action.action, action.side, action.robot))) for action in bench.stage.asked]
 
 

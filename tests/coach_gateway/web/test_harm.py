@@ -15,7 +15,8 @@ from schemas.topics import WORLD
 from support.fake_host import FakeHost
 from support.messages import make_world
 from support.page_gateway import SOON, TOKENS, Gateway
-from support.raw_client import RawClient, deflated, eventually, frame
+from support.process_story import wait_for
+from support.raw_client import RawClient, deflated, frame
 from support.visitor import Visitor
 
 Visit = Callable[..., Visitor]
@@ -61,6 +62,7 @@ GARBAGE = [
     ('{"id": 4, "deed": "drive", "robot": "**", "manual": {"drive": {}}}', "robot"),
     ('{"id": 4, "deed": "scene", "request": {"operation": "load", "scene": "../../../etc/passwd"}}', ""),
     ('{"id": 4, "deed": "action", "action": {"action": "explode"}}', "explode'; one of start, stop"),
+    ('{"id": 4, "deed": "order", "side": "green", "order": {}}', "side is 'green'; one of cyan, magenta"),
     (b"\x00\xff", "only text"),
     ("[" * DEEP + "]" * DEEP, "not JSON"),
     ('{"id": 4, "deed": "action", "action": ' + "[" * DEEP + "]" * DEEP + "}", ""),
@@ -128,7 +130,7 @@ def test_what_breaks_the_protocol_ends_its_own_connection_alone(
     client = RawClient(gateway.port)
     assert b"permessage-deflate" in client.upgrade(gateway.origin, Sec_WebSocket_Extensions="permessage-deflate")
     client.send(BROKEN[broken])
-    eventually(lambda: client.is_closed and len(gateway.pages) == 0)
+    wait_for(lambda: client.is_closed and len(gateway.pages) == 0)
     client.close()
     assert other.ask("token")["accepted"]
 
@@ -147,7 +149,7 @@ def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
     monkeypatch.setattr(listener, "UNREAD_S", 0.5)
     gateway = gateway_of()
     reader, stuck = Visitor(gateway.origin), Visitor(gateway.origin, max_queue=1, compression=None)
-    eventually(lambda: len(gateway.pages) == 2)
+    wait_for(lambda: len(gateway.pages) == 2)
     deadline, tick = time.monotonic() + SOON, 0
     while len(gateway.pages) == 2:
         assert time.monotonic() < deadline
@@ -216,7 +218,7 @@ def test_one_page_too_many_gets_the_reason_and_one_with_a_token_is_admitted(
         second.hear()
     for page in (first, coach):
         page.close()
-    eventually(lambda: len(gateway.pages) == 0)
+    wait_for(lambda: len(gateway.pages) == 0)
     third = Visitor(gateway.origin)
     assert third.hear()["kind"] == "welcome"
     third.close()

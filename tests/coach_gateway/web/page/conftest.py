@@ -9,13 +9,12 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser
 
-from coach_gateway.web.settings import WebSettings
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.in_process_bus import SharedState
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.process.clock import WallClock
-from support.page_gateway import SOON, Gateway, tokens_in
+from support.page_gateway import SOON, Gateway
 from support.page_match import Match
 from support.tab import Tab
 from support.tunnel import Tunnel
@@ -57,19 +56,6 @@ def match(officiated: Callable[..., Match]) -> Match:
 def resting(officiated: Callable[..., Match]) -> Match:
     """A match in which no robot moves by itself."""
     return officiated(still=True)
-
-
-@pytest.fixture
-def gateway_of(tmp_path: Path) -> Iterator[Callable[..., Gateway]]:
-    made: list[Gateway] = []
-
-    def make(medium: SharedState | None, port: int = 0) -> Gateway:
-        made.append(Gateway(medium, WebSettings(port=port), tokens_in(tmp_path)))
-        return made[-1]
-
-    yield make
-    for gateway in made:
-        gateway.close()
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ def test_a_gateway_that_is_killed_and_started_again_finds_its_pages(match, gatew
     assert "connection is broken" in tab.page.locator("#notice").inner_text()
     tab.page.keyboard.press("Space")
     tab.wait_for_log("refused: the page has no connection to the gateway")
-    gateway_of(match.medium, gateway.port)
+    gateway_of(match.medium, port=gateway.port)
     tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
     tick = tab.ask("window.touchline.match.frames.newest?.tick ?? 0")
     tab.until(f"window.touchline.pitchCanvas.world?.tick > {tick + 20}")
