@@ -3,10 +3,8 @@
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.recorder import RecorderProgress
-from schemas.side import Side
-from schemas.topics import COMMAND, INVALID, ORDER, RECORDER_PROGRESS, WORLD
+from schemas.topics import COMMAND, INVALID, RECORDER_PROGRESS, WORLD
 from support.host_rig import TEAMS, HostRig
 
 TICKS = 40
@@ -96,23 +94,6 @@ def test_commands_of_an_earlier_match_that_are_for_later_ticks_have_no_effect_an
     assert worlds.all() == expected
     assert rig.health().robots["cyan1"].invalid == len(recorded)
     assert all("the newest sight is" in message.reason for message in invalid.all())
-
-
-def test_orders_of_earlier_ticks_and_of_an_earlier_match_do_not_replace_the_one_in_force(rig_of):
-    rig = rig_of()
-    invalid, recording = rig.listen(INVALID), Recording(rig, ORDER, side="cyan")
-    rig.begin()
-    coach = rig.outside.publisher(ORDER, side="cyan")
-    for sequence, mode in ((4, CoachMode.PLAY), (5, CoachMode.HOLD), (6, CoachMode.PARK)):
-        coach.put(CoachOrder(sequence=sequence, mode=mode))
-        rig.ticks(1)
-    recording.listen()
-    earlier_match = CoachOrder(sequence=3, mode=CoachMode.PLAY).encode()
-    recording.send([*recording.payloads, earlier_match])
-    rig.ticks(5)
-    assert rig.host.simulation.orders == {Side.CYAN: CoachOrder(sequence=6, mode=CoachMode.PARK)}
-    assert len(invalid.all()) == 3  # the newest one again changes nothing, and is no fault
-    assert rig.health().accounts["cyan_coach"].messages == 7
 
 
 def test_progress_of_an_earlier_tick_neither_sets_a_recorder_back_nor_holds_the_host(rig_of):

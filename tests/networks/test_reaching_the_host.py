@@ -74,13 +74,3 @@ def test_an_agent_that_reaches_no_host_ends_with_one_line(
     lines = log.read_text().splitlines()
     assert any(word in lines[-1] for word in words.split("|")), lines
     assert len([line for line in lines if line.startswith("touchline: ")]) == 1
-
-
-def test_a_port_that_a_firewall_drops_is_one_line(net: Network, tmp_path: Path) -> None:
-    blackhole = ["ip", "-n", net.namespace("host"), "route", "add", "blackhole", f"{net.address('robot')}/32"]
-    subprocess.run(blackhole, check=True)  # answers do not leave, as with a firewall that drops the port
-    command = ("agent", "--robot", "cyan1", "--patience", "0", "--brain", "a:B")
-    program, log = run(net, "robot", tmp_path, *command, "--connect", f"tcp/{net.address('host')}:7447")
-    assert program.wait(LIMIT) == 2
-    assert "nothing answers there, not even with a refusal" in log.read_text().splitlines()[-1]
-    assert "let TCP port 7447 in?" in log.read_text()

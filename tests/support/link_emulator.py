@@ -1,4 +1,4 @@
-"""A network link with delay, jitter, loss and reordering, in user space, for kernels without the qdisc `netem`.
+"""A network link with delay, jitter, loss and reordering, in user space: not every kernel has the qdisc `netem`.
 
 As a program it forwards Ethernet frames between two TAP devices: `python link_emulator.py TAP TAP`. Each line of its
 stdin is a `LinkConditions` as JSON, which holds for the frames from then on; it ends when its stdin does.
@@ -38,12 +38,6 @@ class LinkConditions:
     """Whether all frames are lost."""
     seed: int = 1
     """Of all draws."""
-
-    def netem(self) -> list[str]:
-        """The same as arguments of `tc qdisc … netem`; there jitter, too, changes the order of frames."""
-        arguments = ["delay", f"{self.delay_ms}ms", f"{self.jitter_ms}ms"]
-        arguments += ["loss", f"{100.0 if self.is_cut else 100.0 * self.loss}%"]
-        return arguments + (["reorder", f"{100.0 * self.reordering}%"] if self.reordering else [])
 
     def line(self) -> bytes:
         """The same as a line of the program's input."""

@@ -7,9 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
-from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import load_match
 from schemas.config.settings import Settings
 from sim_host.server.settings import HostSettings
@@ -71,16 +69,6 @@ class Machines:
         """Start a robot; by default it drives in circles, with SPEED at that speed in m/s."""
         settings = AgentSettings(connect=self._endpoint, match=MATCH, robot=robot, brain=brain, patience=patience)
         return self._start(robot, machine, "robot_agent", settings, **environment)
-
-    def start_recorder(self, machine: str, out: Path) -> Program:
-        """Start a recorder."""
-        settings = RecorderSettings(connect=self._endpoint, match=MATCH, out=out)
-        return self._start("recorder", machine, "recordings", settings)
-
-    def start(self, name: str, machine: str, module: str, settings: ClientSettings) -> Program:
-        """Start any other client, with the match's endpoint and name."""
-        joined = settings.model_copy(update={"connect": self._endpoint, "match": MATCH})
-        return self._start(name, machine, module, joined)
 
     def listen(self) -> Listener:
         """A client of the host that no fault of a cable concerns."""

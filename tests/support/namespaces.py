@@ -47,7 +47,6 @@ class Network:
         self._switch = f"{self._prefix}-switch"
         self._programs: list[subprocess.Popen[bytes]] = []
         self._emulators: dict[str, subprocess.Popen[bytes]] = {}
-        self._emulated = False
 
     def namespace(self, name: str) -> str:
         """The namespace of a machine, as `ip netns` lists it."""
@@ -107,11 +106,8 @@ class Network:
     def impair(self, name: str, conditions: LinkConditions) -> None:
         """Give the link of a machine these conditions, in both directions, until the next call for it.
 
-        The kernel does so where it has the qdisc `netem`, else a process in user space. With `is_cut`, frames vanish on
-        the way, and both ends keep their carrier.
+        With `is_cut`, frames vanish on the way, and both ends keep their carrier.
         """
-        if name not in self._emulators and self._netem(name, conditions):
-            return
         emulator = self._emulators.get(name) or self._emulate(name)
         assert emulator.stdin is not None
         emulator.stdin.write(conditions.line())
@@ -150,21 +146,6 @@ class Network:
             for pipe in (program.stdin, program.stdout, program.stderr):
                 if pipe is not None:
                     pipe.close()
-
-    def _netem(self, name: str, conditions: LinkConditions) -> bool:
-        if self._emulated:
-            return False
-        netem = ["root", "netem", *conditions.netem()]
-        ends = ((self._switch, _port(name)), (self.namespace(name), INTERFACE))
-        self._emulated = any(
-            subprocess.run(
-                ["ip", "netns", "exec", namespace, "tc", "qdisc", "replace", "dev", device, *netem],
-                capture_output=True,
-                check=False,
-            ).returncode
-            for namespace, device in ends
-        )
-        return not self._emulated
 
     def _emulate(self, name: str) -> "subprocess.Popen[bytes]":
         """Put an emulator between the port of a machine and the switch."""

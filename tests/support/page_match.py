@@ -25,6 +25,7 @@ from schemas.side import Side
 from schemas.topics import EVENT, Topic
 from sim_host.server.host import Host
 from support.page_gateway import SOON
+from support.process_story import wait_for
 
 TEAMS = {
     "cyan": {"name": "Blues", "brain": "robot_agent.teams.simple:Simple", "size": 2},
@@ -113,10 +114,7 @@ class Match:
 
     def until(self, holds: Callable[[], Any]) -> None:
         """Wait until something is true; it is looked at again and again."""
-        deadline = time.monotonic() + SOON
-        while not holds():
-            assert time.monotonic() < deadline, "it never came true"
-            time.sleep(0.01)
+        wait_for(holds, limit=SOON)
 
     @property
     def state(self) -> GameState:

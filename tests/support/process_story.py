@@ -30,7 +30,7 @@ SHORT_LIMIT = 40.0
 POLL = 0.01
 
 
-def wait_for(condition: Callable[[], Any], what: str, limit: float = LIMIT) -> Any:
+def wait_for(condition: Callable[[], Any], what: str = "", limit: float = LIMIT) -> Any:
     """The first true result of the condition."""
     deadline = time.monotonic() + limit
     while time.monotonic() < deadline:
@@ -38,7 +38,7 @@ def wait_for(condition: Callable[[], Any], what: str, limit: float = LIMIT) -> A
         if found:
             return found
         time.sleep(POLL)
-    raise AssertionError(f"never came: {what}")
+    raise AssertionError(f"never came: {what or condition}")
 
 
 def is_running(pid: int) -> bool:

@@ -3,21 +3,10 @@
 import base64
 import socket
 import struct
-import time
 import zlib
-from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
 
 from support.page_gateway import SOON
-
-
-def eventually(holds: Callable[[], Any], what: str = "") -> None:
-    """Wait until something is true."""
-    deadline = time.monotonic() + SOON
-    while not holds():
-        assert time.monotonic() < deadline, f"never came: {what or holds}"
-        time.sleep(0.01)
 
 
 class RawClient:

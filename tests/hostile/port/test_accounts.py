@@ -3,7 +3,6 @@
 The table below stands here a second time on purpose, apart from the topic table that the rules are derived from.
 """
 
-import contextlib
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,13 +13,12 @@ import zenoh
 from schemas.access.accounts import Account
 from schemas.access.credentials import account_file, new_credentials, write_credentials
 from schemas.access.protection import Protection
-from schemas.bus.contract import NoReplyError, PresenceKind
-from schemas.bus.zenoh.bus import ZenohBus, open_client, open_host
+from schemas.bus.contract import PresenceKind
+from schemas.bus.zenoh.bus import ZenohBus, open_host
 from schemas.bus.zenoh.router_limits import router_limits
-from schemas.messages.setup import SetupRequest
 from schemas.process.clock import WallClock
 from schemas.side import Side
-from schemas.topics import SETUP, key_prefix
+from schemas.topics import key_prefix
 from support.attacker import STAMP, open_session, user_of
 
 pytestmark = pytest.mark.timeout(120)
@@ -180,24 +178,3 @@ def test_an_account_declares_only_its_own_tokens(host, setup_service, attacker, 
     with host.session.liveliness().declare_subscriber(PREFIX + "**", callback):
         repeat(attempt, lambda: tokens >= TOKENS[account], attacker)
     assert tokens == TOKENS[account]
-
-
-def test_no_account_answers_in_place_of_the_host(host, folder, attacker):
-    def forge(query: zenoh.Query) -> None:
-        query.reply(PREFIX + "host/setup", b"forged")
-
-    def reply(query: zenoh.Query) -> None:
-        query.reply(query.key_expr, b"genuine")
-
-    callback = zenoh.handlers.Callback(forge, indirect=False)
-    held = [attacker.declare_queryable(PREFIX + key, callback, complete=True) for key in ("host/setup", "host/*", "**")]
-    with open_client(None, WallClock(), host.endpoint, LIMIT, account_file(folder, Account.VIEWER)) as viewer:
-        with pytest.raises(NoReplyError):
-            viewer.query(SETUP, SetupRequest(), timeout=0.3).payload(LIMIT)
-        service = host.session.declare_queryable(PREFIX + "host/setup", zenoh.handlers.Callback(reply, indirect=False))
-        received, deadline = [], time.monotonic() + LIMIT
-        while len(received) < ROUNDS and time.monotonic() < deadline:
-            with contextlib.suppress(NoReplyError):
-                received.append(viewer.query(SETUP, SetupRequest(), timeout=0.5).payload(LIMIT))
-    assert received == [b"genuine"] * ROUNDS
-    del held, service

@@ -117,27 +117,16 @@ def test_a_topic_of_every_message_keeps_all_of_them_in_order(buses: Buses) -> No
     assert [reader.receive(SOON).message().tick for _ in range(200)] == list(range(1, 201))  # type: ignore[union-attr]
 
 
-def test_a_topic_of_the_newest_message_gives_a_late_reader_the_newest_alone(buses: Buses) -> None:
-    bus = buses.join()
-    reader = bus.subscribe(SIGHT, robot="cyan1")
-    writer = buses.host.publisher(SIGHT, robot="cyan1")
+@pytest.mark.parametrize("topic", [SIGHT, STATE], ids=["newest", "recovered"])
+def test_a_late_reader_of_the_newest_message_is_given_it_alone(buses: Buses, topic: Topic) -> None:
+    bus, chunks = buses.join(), dict.fromkeys(topic.chunks, "cyan1")
+    reader = bus.subscribe(topic, newest=True, **chunks)
+    writer = buses.host.publisher(topic, **chunks)
     put_until_heard(lambda: writer.put_payload(b"0"), reader)
     for number in range(1, 6):
         writer.put_payload(str(number).encode())
     wait_for_all(buses, bus)
     assert reader.receive(SOON).payload == b"5"  # type: ignore[union-attr]
-    assert reader.receive() is None
-
-
-def test_a_newest_only_subscription_to_a_recovered_topic_gets_the_newest_message(buses: Buses) -> None:
-    bus = buses.join()
-    reader = bus.subscribe(STATE, newest=True)
-    writer = buses.host.publisher(STATE)
-    put_until_heard(lambda: writer.put(state(0)), reader)
-    for tick in range(1, 6):
-        writer.put(state(tick))
-    wait_for_all(buses, bus)
-    assert reader.receive(SOON).message().tick == 5  # type: ignore[union-attr]
     assert reader.receive() is None
 
 
@@ -176,33 +165,21 @@ def test_the_newest_is_kept_for_each_key_apart(buses: Buses) -> None:
     assert reader.receive() is None
 
 
-def test_a_reader_of_one_robot_hears_nothing_of_another(buses: Buses) -> None:
-    reader = buses.host.subscribe(COMMAND, robot="cyan1")
-    agent = buses.join()
-    mine, other = agent.publisher(COMMAND, robot="cyan1"), agent.publisher(COMMAND, robot="cyan2")
-    put_until_heard(lambda: mine.put(Command(answers_tick=1)), reader)
-    other.put(Command(answers_tick=2))
-    mine.put(Command(answers_tick=3))
-    assert reader.receive(SOON).message().answers_tick == 3  # type: ignore[union-attr]
-
-
-def test_readers_of_single_robots_do_not_hear_the_ball(buses: Buses) -> None:
-    reader = buses.join().subscribe(WORLD_ROBOT)
-    robot, ball = buses.host.publisher(WORLD_ROBOT, robot="cyan1"), buses.host.publisher(WORLD_BALL)
-    put_until_heard(lambda: robot.put_payload(b"robot"), reader)
-    ball.put_payload(b"ball")
-    robot.put_payload(b"again")
-    assert reader.receive(SOON).payload == b"again"  # type: ignore[union-attr]
-
-
-def test_matches_on_one_medium_do_not_hear_each_other(buses: Buses) -> None:
-    reader = buses.host.subscribe(COMMAND)
-    here, elsewhere = buses.join(), buses.join("another")
-    mine, other = here.publisher(COMMAND, robot="cyan1"), elsewhere.publisher(COMMAND, robot="cyan1")
-    put_until_heard(lambda: mine.put(Command(answers_tick=1)), reader)
-    other.put(Command(answers_tick=2))
-    mine.put(Command(answers_tick=3))
-    assert reader.receive(SOON).message().answers_tick == 3  # type: ignore[union-attr]
+@pytest.mark.parametrize("other", ["robot", "ball", "match"])
+def test_a_reader_of_one_robot_hears_nothing_of_another_of_the_ball_and_of_another_match(
+    buses: Buses, other: str
+) -> None:
+    reader, agent = buses.host.subscribe(WORLD_ROBOT, robot="cyan1"), buses.join()
+    mine = agent.publisher(WORLD_ROBOT, robot="cyan1")
+    if other == "ball":
+        foreign = agent.publisher(WORLD_BALL)
+    else:
+        bus, robot = (agent, "cyan2") if other == "robot" else (buses.join("another"), "cyan1")
+        foreign = bus.publisher(WORLD_ROBOT, robot=robot)
+    put_until_heard(lambda: mine.put_payload(b"1"), reader)
+    foreign.put_payload(b"2")
+    mine.put_payload(b"3")
+    assert reader.receive(SOON).payload == b"3"  # type: ignore[union-attr]
 
 
 def test_who_asks_for_payloads_alone_gets_those_of_the_same_messages(buses: Buses) -> None:

@@ -20,6 +20,7 @@ from schemas.messages.setup import SetupRequest
 from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER, COMMAND, EVENT, SCENE, SETUP, SIGHT, WORLD, key_prefix
+from support.process_story import wait_for
 
 LIMIT = 30.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
@@ -88,7 +89,7 @@ def attacker(request: pytest.FixtureRequest, host: ZenohBus, folder: Path) -> It
     for key, value in settings.items():
         config.insert_json5(key, json.dumps(value))
     with zenoh.open(config) as session:
-        wait_until(lambda: bool([*session.info.routers_zid()]))
+        wait_for(lambda: bool([*session.info.routers_zid()]))
         yield session
 
 
@@ -96,23 +97,15 @@ def join(host: ZenohBus, folder: Path, account: Account) -> ZenohBus:
     return open_client(None, WallClock(), host.endpoint, LIMIT, account_file(folder, account))
 
 
-def wait_until(is_done: Any) -> None:
-    clock = WallClock()
-    until = clock.now() + LIMIT
-    while not is_done():
-        assert clock.now() < until
-        clock.sleep_until(clock.now() + 0.002)
-
-
 def wait_for_subscriber(publisher: Publisher) -> None:
-    wait_until(publisher.has_subscribers)
+    wait_for(publisher.has_subscribers)
 
 
 def keys_until(reader: Any, last: str) -> list[str]:
     """The keys of all samples up to the one on `last`."""
     found: list[str] = []
     while last not in found:
-        wait_until(lambda: (sample := reader.try_recv()) is not None and found.append(key_of(sample)) is None)
+        wait_for(lambda: (sample := reader.try_recv()) is not None and found.append(key_of(sample)) is None)
     return found
 
 
@@ -147,12 +140,12 @@ def test_of_all_that_a_team_publishes_only_its_own_commands_reach_the_host(
     is_router = "router" in request.node.name
     command = attacker.declare_publisher(PREFIX + OWN)
     if not is_router:  # it sends nothing before it knows that somebody subscribes
-        wait_until(lambda: command.matching_status.matching)
+        wait_for(lambda: command.matching_status.matching)
     for key in FOREIGN_PUTS:
         attacker.put(PREFIX + key, b"{}")
         attacker.delete(PREFIX + key)
     attacker.put(PREFIX + OWN, b"{}")
-    wait_until(lambda: any(reply.ok is not None for reply in attacker.get(PREFIX + "host/setup", timeout=0.5)))
+    wait_for(lambda: any(reply.ok is not None for reply in attacker.get(PREFIX + "host/setup", timeout=0.5)))
     own = [] if is_router else [OWN]  # even these are no router's to send on
     assert [key_of(sample) for sample in iter(arrived.try_recv, None)] == own
     assert caches.try_recv() is None
@@ -197,7 +190,7 @@ def test_a_robot_sees_the_host_s_token_and_no_other(host: ZenohBus, folder: Path
     with join(host, folder, Account.MAGENTA) as other, join(host, folder, Account.CYAN) as robot:
         other.declare_alive(PresenceKind.SESSION, "magenta_7")
         watch = host.watch_alive()
-        wait_until(lambda: (seen := watch.receive()) is not None and seen.name == "magenta_7")
+        wait_for(lambda: (seen := watch.receive()) is not None and seen.name == "magenta_7")
         seen = robot.watch_alive()
         first = seen.receive(LIMIT)
         assert first is not None and first.kind is PresenceKind.HOST

@@ -1,7 +1,6 @@
 """What reaches no reader, though Zenoh delivers it: messages and queries on keys of no topic, tokens without a name."""
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
 import zenoh
@@ -37,13 +36,6 @@ def ends() -> Iterator[tuple[Bus, zenoh.Session]]:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     with open_host("test", WallClock(), endpoint) as host, open_session(endpoint) as session:
         yield host, session
-
-
-def wait_until(true: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + LIMIT
-    while not true():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
 
 
 @pytest.mark.parametrize("key", WILDCARDS)
