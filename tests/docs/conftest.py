@@ -6,8 +6,14 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.game import EventKind
+from sim_host.match.simulation import TickResult
+from touchline.play import play_match
 
 
 @pytest.fixture(scope="session")
@@ -24,6 +30,28 @@ def fenced() -> Callable[[str, str], list[str]]:
         return [piece for its_language, piece in every if its_language == language]
 
     return pieces
+
+
+@pytest.fixture(scope="session")
+def carry_and_shot() -> Callable[..., tuple[float, float]]:
+    """Plays a match whose cyan1 takes the kick-off: how far it carries the ball along x, and where it kicks first."""
+
+    def played(config: MatchConfig, until: float, **more: Any) -> tuple[float, float]:
+        held: list[float] = []
+        kicks: list[float] = []
+
+        def watch(tick: TickResult) -> None:
+            x = tick.world["robots"]["cyan1"]["x"]
+            if tick.world["possession"] == "cyan1":
+                held.append(x)
+            if tick.applied["inputs"]["cyan1"].kick is not None and not tick.refused.get("cyan1", 0):
+                kicks.append(x)
+
+        events = play_match(config, watch=watch, until=until, **more).events
+        assert next(event for event in events if event.kind is EventKind.IN_PLAY).robot == "cyan1"
+        return max(held) - min(held), kicks[0]
+
+    return played
 
 
 @pytest.fixture(scope="session")

@@ -1,31 +1,55 @@
-"""docs/debugging.md: its brain plays."""
+"""docs/debugging.md: its brains play and draw, and its bounds are those of the code."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
+from robot_agent.teams.simple import Simple
+from schemas.config.match_config import load_match
+from schemas.messages import debug
+from schemas.messages.command import Command
+from schemas.messages.sight import Sight
 from support.messages import make_setup, make_sight
+from touchline.play import InProcessMatch
 
-Fenced = Callable[[str, str], list[str]]
+PAGE = (Path(__file__).parents[2] / "docs" / "debugging.md").read_text()
+SECTION = PAGE.partition("## Draw and plot")[2].partition("\n## ")[0]
 
 
 @pytest.fixture(scope="module")
-def page(root: Path) -> str:
-    return (root / "docs" / "debugging.md").read_text()
+def brains(fenced: Callable[[str, str], list[str]]) -> dict[str, Any]:
+    """What the code of the page defines."""
+    names: dict[str, Any] = {}
+    for piece in fenced(PAGE, "python"):
+        if re.search(r"class (Careful|Chaser)", piece):
+            exec(piece, names)  # the documents are ours
+    return names
 
 
-def test_its_brain_is_slower_while_it_holds_the_ball(
-    page: str, fenced: Fenced, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    source = next(piece for piece in fenced(page, "python") if "class Careful" in piece)
-    (tmp_path / "my_team_of_the_page.py").write_text(source)
-    monkeypatch.syspath_prepend(tmp_path)
-    careful, simple = (
-        load_brain(spec, Briefing.of("cyan3", make_setup()))
-        for spec in ("my_team_of_the_page:Careful", "robot_agent.teams.simple:Simple")
-    )
-    sight = make_sight(robot="cyan3", holding=True)
-    assert careful.act(sight).drive.vx == 0.5 * simple.act(sight).drive.vx != 0.0
+def test_its_brain_is_slower_while_it_holds_the_ball(brains: dict[str, Any]) -> None:
+    briefing, sight = Briefing.of("cyan3", make_setup()), make_sight(robot="cyan3", holding=True)
+    careful, simple = (brain(briefing).act(sight) for brain in (brains["Careful"], Simple))
+    assert careful.drive.vx == 0.5 * simple.drive.vx != 0.0
+
+
+def test_the_example_plays_and_draws(brains: dict[str, Any]) -> None:
+    match = InProcessMatch(load_match(None, {"seed": 1, "duration": 5.0}))
+    brain = brains["Chaser"](Briefing.of("cyan2", match.simulation.setup()))
+    drawn = []
+    for _ in range(20):
+        command = brain.act(Sight.decode(match.step().sights["cyan2"]))
+        assert isinstance(command, Command) and command.debug is not None
+        drawn.append(command.debug)
+    match.simulation.close()
+    assert any(shown.lines and "distance_to_ball" in shown.values for shown in drawn)
+
+
+def test_bounds_and_colours_on_the_page_are_those_of_the_code() -> None:
+    bounds = SECTION.partition("**Bounds.**")[2].partition("\n\n")[0]
+    for bound in (debug.MAX_VALUES, debug.MAX_SHAPES, debug.MAX_CORNERS, debug.MAX_BYTES):
+        assert re.search(rf"\b{bound}\b", bounds)
+    assert ", ".join(debug.COLOURS) in " ".join(SECTION.split())

@@ -2,6 +2,7 @@
 
 import re
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,6 @@ from schemas.config.rule_book import load_rule_book
 from schemas.config.scene import Scene
 from schemas.game import EventKind
 from schemas.side import Side
-from sim_host.match.simulation import TickResult
 from touchline.launch.check_brains import check_teams
 from touchline.play import play_match
 
@@ -77,20 +77,9 @@ def test_the_papers_match_is_three_a_side_on_its_own_pitch(root: Path) -> None:
     assert [event.kind for event in played.events][:3] == [EventKind.RESTART, EventKind.START, EventKind.IN_PLAY]
 
 
-def test_the_first_brain_gets_the_ball_carries_it_and_shoots(root: Path) -> None:
+def test_the_first_brain_gets_the_ball_carries_it_and_shoots(
+    root: Path, carry_and_shot: Callable[..., tuple[float, float]]
+) -> None:
     config = load_match(root / "examples" / "first_brain.toml")
-    held: list[float] = []
-    kicks: list[float] = []
-
-    def watch(tick: TickResult) -> None:
-        robot = tick.world["robots"]["cyan1"]
-        if tick.world["possession"] == "cyan1":
-            held.append(robot["x"])
-        if tick.applied["inputs"]["cyan1"].kick is not None and tick.refused.get("cyan1", 0) == 0:
-            kicks.append(robot["x"])
-
-    played = play_match(config, watch=watch, until=20.0)
-    in_play = next(event for event in played.events if event.kind is EventKind.IN_PLAY)
-    assert in_play.robot == "cyan1"
-    assert max(held) - min(held) > 3.0
-    assert kicks and kicks[0] > config.load_profile().field.goal_line - 5.5
+    carried, shot_from = carry_and_shot(config, 20.0)
+    assert carried > 3.0 and shot_from > config.load_profile().field.goal_line - 5.5

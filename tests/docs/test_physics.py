@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from schemas.config.profile import load_profile
 from schemas.config.sections import SECTIONS
 
 
@@ -40,25 +39,15 @@ def test_every_plot_is_shown_and_light(root: Path, text: str, drawing: ModuleTyp
         assert picture.startswith(b"\x89PNG") and len(picture) < 150_000
 
 
-@pytest.mark.parametrize("name", ["step_response", "ball_roll", "bounce", "duel", "dribble_turn"])
+FURTHER = [pytest.param(name, marks=pytest.mark.long) for name in ("ball_roll", "bounce", "duel", "dribble_turn")]
+
+
+@pytest.mark.parametrize("name", ["step_response", *FURTHER])
 def test_a_plot_is_drawn_from_a_run(name: str, drawing: ModuleType) -> None:
     figure = drawing.PLOTS[name]()
     lines = [line for panel in figure.axes for line in panel.lines if len(line.get_xdata()) > 2]
     assert lines
     assert all(np.ptp(np.asarray(line.get_xdata(), dtype=float)) > 0.1 for line in lines)
-
-
-def test_slow_plots_are_drawn_from_less(drawing: ModuleType) -> None:
-    """Top speeds in two directions within 2 % of the wheel limit over |sin| of its axle; noise from few pictures."""
-    runs = drawing.runs
-    wheels = load_profile("omni").wheels
-    _, speeds = runs.top_speeds("omni", 1)
-    assert speeds == approx([wheels.max_speed * 2**0.5] * 2, rel=0.02)
-    assert len(drawing.noise(pictures=20).axes) == 1
-    profile = load_profile("msl")
-    run = runs.kick(runs.KickMode.LOB, 8.0, 7.0, profile, seconds=1.5)
-    x, z = run.ball("x", "z").T
-    assert z[np.argmax(x > profile.field.goal_line)] < profile.field.goal_height
 
 
 @pytest.mark.parametrize("drive", ["msl", "omni"])

@@ -4,15 +4,14 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
-from schemas.game import EventKind
 from schemas.topics import APPLIED
-from sim_host.match.simulation import TickResult
 from touchline.play import play_match
 
 TOOLS = {"javascript": "node", "c_robot": "cc"}
@@ -32,20 +31,11 @@ def example(request: pytest.FixtureRequest, root: Path, tmp_path: Path) -> Path:
     return folder / f"{name}.toml"
 
 
-def test_it_takes_the_kick_off_carries_the_ball_and_shoots(example: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    held: list[float] = []
-    kicks: list[float] = []
-
-    def watch(tick: TickResult) -> None:
-        if tick.world["possession"] == "cyan1":
-            held.append(tick.world["robots"]["cyan1"]["x"])
-        if tick.applied["inputs"]["cyan1"].kick is not None and not tick.refused.get("cyan1", 0):
-            kicks.append(tick.world["robots"]["cyan1"]["x"])
-
-    played = play_match(load_match(example), watch=watch, until=15.0, brain_folder=example.parent)
-    assert next(event for event in played.events if event.kind is EventKind.IN_PLAY).robot == "cyan1"
-    assert max(held) - min(held) > 3.0
-    assert kicks and kicks[0] > 11.0 - 5.5
+def test_it_takes_the_kick_off_carries_the_ball_and_shoots(
+    example: Path, carry_and_shot: Callable[..., tuple[float, float]], capfd: pytest.CaptureFixture[str]
+) -> None:
+    carried, shot_from = carry_and_shot(load_match(example), 15.0, brain_folder=example.parent)
+    assert carried > 3.0 and shot_from > 11.0 - 5.5
     assert "the program" not in capfd.readouterr().err
 
 

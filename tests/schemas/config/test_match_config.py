@@ -85,12 +85,6 @@ def test_flags_override_the_file_by_the_same_names(tmp_path: Path) -> None:
     assert len(match.robots(Side.CYAN)) == 3
 
 
-def test_the_path_of_a_match_file_may_be_a_string(tmp_path: Path) -> None:
-    path = tmp_path / "cup.toml"
-    path.write_text("seed = 3\n")
-    assert load_match(str(path)) == load_match(path)
-
-
 def test_a_team_with_only_a_size_has_the_shipped_brain() -> None:
     assert load_match(None, {"teams.magenta.size": 2}).teams.magenta.brain == load_match(None).teams.magenta.brain
 

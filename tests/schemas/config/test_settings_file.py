@@ -14,7 +14,7 @@ from coach_gateway.web.settings import WebSettings
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.bus.settings import ListenSettings
-from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.match_config import MatchConfig
 from schemas.config.settings import RecordOptions, Settings
 from schemas.config.settings_file import read_settings, run_process, write_settings
 from schemas.errors import TouchlineError
@@ -41,18 +41,6 @@ def test_settings_that_are_written_are_read_again(module: str, tmp_path: Path) -
     file = tmp_path / "settings.json"
     write_settings(EXAMPLES[module], file)
     assert read_settings(type(EXAMPLES[module]), str(file)) == EXAMPLES[module]
-
-
-MATCHES = Path(__file__).parents[3] / "matches"
-MATCH_FILES = sorted(set(MATCHES.glob("*.toml")) - {MATCHES / "cup.toml"})
-"""A cup has matches, and is none."""
-
-
-@pytest.mark.parametrize("match", MATCH_FILES, ids=lambda file: file.stem)
-def test_a_match_file_s_content_is_read_again_from_the_settings_of_its_host(match: Path, tmp_path: Path) -> None:
-    settings = HostSettings(config=load_match(match))
-    write_settings(settings, tmp_path / "host.json")
-    assert read_settings(HostSettings, str(tmp_path / "host.json")) == settings
 
 
 @pytest.mark.parametrize("module", EXAMPLES)
