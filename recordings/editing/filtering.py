@@ -7,7 +7,7 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import Manifest
 from recordings.editing.compose import composition
 from recordings.reading.recording import RecordedMessage, Recording
-from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
+from recordings.recorder.match_progress import LatchedMessages, LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from schemas.errors import TouchlineError
 

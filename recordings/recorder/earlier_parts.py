@@ -8,8 +8,7 @@ from recordings.container.mcap_file import open_mcap_file
 from recordings.container.parts import locked, parts_of
 from recordings.container.sealed_metadata import from_metadata
 from recordings.reading.recording import open_recording
-from recordings.recorder.latched_messages import LatchedMessages
-from recordings.recorder.match_progress import MatchProgress
+from recordings.recorder.match_progress import LatchedMessages, MatchProgress
 from recordings.recorder.sequence_tracker import LossCounts
 from schemas.errors import TouchlineError
 from schemas.topic import Party

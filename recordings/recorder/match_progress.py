@@ -1,4 +1,4 @@
-"""The part of the recorded messages that the recorder itself reads: time, phase, score and roster of the match."""
+"""What a recorder follows of a match: time, phase, score and roster, and the messages that stay valid."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable
@@ -10,8 +10,14 @@ from schemas.config.roster import RosterEntry
 from schemas.game import EventKind, Phase
 from schemas.messages.applied import Applied
 from schemas.messages.game import GameEvent, GameState
-from schemas.topics import APPLIED, EVENT, STATE
+from schemas.topics import ACTIVE_ORDER, APPLIED, EVENT, ORDER, STATE, WORLD
 from schemas.wire.message import BadMessageError
+
+LoggedMessage = tuple[int, ReceivedMessage]
+"""Log time in ns, and message."""
+
+_LATCHED_KEYS = frozenset({WORLD.key, STATE.key, ORDER.key, ACTIVE_ORDER.key, APPLIED.key})
+"""Topics whose newest message is valid until the next one on its key."""
 
 
 class MatchProgress:
@@ -79,3 +85,33 @@ class MatchProgress:
 
 def _ignore_roster(robots: list[RosterEntry]) -> None:
     """Do nothing with the new roster."""
+
+
+class LatchedMessages:
+    """The latched messages at a time: the newest world, and the newest of each topic sent on change only.
+
+    A file that begins in the middle of a match begins with them, so that it can be read without the files before it.
+    """
+
+    def __init__(self) -> None:
+        self._newest: dict[str, LoggedMessage] = {}
+        self._changes: list[LoggedMessage] = []
+        """Messages `host/applied` with lasting changes; all of them remain valid."""
+
+    def update(self, batch: Iterable[LoggedMessage]) -> None:
+        """Add messages."""
+        newest = self._newest
+        for logged in batch:
+            received = logged[1]
+            row = received.topic.key
+            if row not in _LATCHED_KEYS:
+                continue
+            if row == APPLIED.key:
+                before = newest.get(received.key)
+                if before is not None and changes_in(before[1].payload):
+                    self._changes.append(before)
+            newest[received.key] = logged
+
+    def messages(self) -> list[LoggedMessage]:
+        """The latched messages with their log times, oldest first."""
+        return sorted([*self._changes, *self._newest.values()], key=lambda logged: logged[0])

@@ -6,7 +6,7 @@ from pathlib import Path
 from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.container.parts import part_path
 from recordings.recorder.earlier_parts import EarlierParts
-from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
+from recordings.recorder.match_progress import LatchedMessages, LoggedMessage
 from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sequence_tracker import LossCounts

@@ -10,7 +10,7 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
 from recordings.recorder.batch_reader import BatchReader, Unbatcher
 from recordings.recorder.earlier_parts import EarlierParts
-from recordings.recorder.latched_messages import LoggedMessage
+from recordings.recorder.match_progress import LoggedMessage
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.poll_interval import PollInterval
 from recordings.recorder.recording_summary import RecordingSummary

@@ -18,7 +18,7 @@ from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError, create_part
 from recordings.container.sealed_metadata import digest, to_metadata
-from recordings.recorder.latched_messages import LoggedMessage
+from recordings.recorder.match_progress import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.timing import FLUSH_S
 from recordings.viz.drawing import READS
