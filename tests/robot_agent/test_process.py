@@ -2,7 +2,10 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -11,6 +14,9 @@ from robot_agent.settings import AgentSettings
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
 from schemas.config.settings_file import write_settings
+from schemas.messages.command import Command
+from schemas.messages.setup import Setup
+from schemas.messages.sight import Sight
 from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, SETUP, SIGHT
 from support.process_story import descendants, is_running, wait_for
@@ -59,43 +65,43 @@ for line in sys.stdin:
 """
 
 
-@pytest.mark.processes
-def test_a_program_of_lines_answers_a_host_and_ends_with_its_agent(setup, sight_of, tmp_path):
-    (tmp_path / "robot.py").write_text(PROGRAM)
-    endpoint = with_free_port("tcp/127.0.0.1:0")
-    words = [
-        "agent",
-        "--connect",
-        endpoint,
-        "--match",
-        "friendly",
-        "--robot",
-        "cyan2",
-        "--stdio",
-        f"{sys.executable} robot.py",
-    ]
+@contextmanager
+def answering_robot(
+    endpoint: str, words: list[str], setup: Setup, sight: Sight, **options: Any
+) -> Iterator[tuple[subprocess.Popen[bytes], Command]]:
+    """A robot's process that has answered a sight of a host, and its command; it ends without a word, with status 0."""
     with open_host("friendly", WallClock(), endpoint) as host:
-        server = host.serve(SETUP)
+        server, presence = host.serve(SETUP), host.watch_alive()
         commands, sights = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan2")
-        run = [sys.executable, "-m", "touchline", *words]
-        robot = subprocess.Popen(run, cwd=tmp_path, stderr=subprocess.PIPE)
+        robot = subprocess.Popen([sys.executable, "-m", *words], stderr=subprocess.PIPE, **options)
         try:
             query = server.receive(LIMIT_S)
             assert query is not None
             query.reply(setup)
+            arrived = presence.receive(LIMIT_S)
+            assert arrived is not None and (arrived.kind, arrived.name) == ("agent", "cyan2")
             received = None
             while received is None:
-                sights.put(sight_of(3))
+                sights.put(sight)
                 received = commands.receive(0.2)
-            assert (received.message().answers_tick, received.message().refuses_order) == (3, "cyan2")
-            programs = descendants(robot.pid)
-            assert len(programs) == 1
+            yield robot, received.message()
         finally:
             robot.terminate()
             _, said = robot.communicate(timeout=LIMIT_S)
+    assert robot.returncode == 0, said.decode()
     assert said == b""
-    assert robot.returncode == 0
-    wait_for(lambda: not is_running(programs[0]), "the end of the program")
+
+
+@pytest.mark.processes
+def test_a_program_of_lines_answers_a_host_and_ends_with_its_agent(setup, sight_of, tmp_path):
+    (tmp_path / "robot.py").write_text(PROGRAM)
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    words = ["touchline", "agent", "--connect", endpoint, "--match", "friendly", "--robot", "cyan2"]
+    words += ["--stdio", f"{sys.executable} robot.py"]
+    with answering_robot(endpoint, words, setup, sight_of(3), cwd=tmp_path) as (robot, command):
+        assert (command.answers_tick, command.refuses_order) == (3, "cyan2")
+        (program,) = descendants(robot.pid)
+    wait_for(lambda: not is_running(program), "the end of the program")
 
 
 @pytest.mark.parametrize("words", [[], ["--brain", "a:B", "--stdio", "cat"]])
@@ -110,23 +116,7 @@ def test_an_agent_has_a_brain_or_a_program(words):
 def test_a_robot_answers_a_host_and_ends_politely(setup, sight_of, tmp_path, told, polite):
     endpoint = with_free_port("tcp/127.0.0.1:0")
     words, environment = told(endpoint, tmp_path)
-    with open_host("friendly", WallClock(), endpoint) as host:
-        server, presence = host.serve(SETUP), host.watch_alive()
-        commands, sights = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan2")
-        robot = subprocess.Popen([sys.executable, "-m", *words], env=os.environ | environment, stderr=subprocess.PIPE)
-        try:
-            query = server.receive(LIMIT_S)
-            assert query is not None
-            query.reply(setup)
-            arrived = presence.receive(LIMIT_S)
-            assert arrived is not None and (arrived.kind, arrived.name) == ("agent", "cyan2")
-            received = None
-            while received is None:
-                sights.put(sight_of(3))
-                received = commands.receive(0.2)
-            assert received.message().answers_tick == 3
-        finally:
-            robot.send_signal(polite)
-            _, said = robot.communicate(timeout=LIMIT_S)
-    assert robot.returncode == 0, said.decode()
-    assert said == b""
+    with answering_robot(endpoint, words, setup, sight_of(3), env=os.environ | environment) as (robot, command):
+        assert command.answers_tick == 3
+        robot.send_signal(polite)
+        robot.wait(LIMIT_S)

@@ -98,14 +98,6 @@ def test_an_age_grows_by_the_tick_in_every_sight() -> None:
     assert 0.03 <= ages[0] < 0.05, "the first sight at or after its arrival"
 
 
-def test_a_message_without_delay_is_in_the_sight_after_the_one_that_it_answers() -> None:
-    one = radio()
-    for tick in range(1, 200):
-        one.send(tick, {"cyan1": Radio(intention=str(tick))})
-        heard = one.receive(tick)[1]["cyan1"]
-        assert heard.intention == str(tick) and 0.0 <= heard.age <= TICK
-
-
 def cyan_hears(air: RadioChannel, magenta: Sequence[str], talking: int, seed: int) -> list[dict[str, ReceivedRadio]]:
     """What cyan2 receives in each tick while the first `talking` robots of magenta send as well."""
     one = radio(air, seed, roster(magenta=magenta))

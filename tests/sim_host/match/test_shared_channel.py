@@ -93,15 +93,6 @@ def test_each_side_slows_the_other() -> None:
     assert separate[0] == separate[1], "with a channel of its own, it does not"
 
 
-def test_a_light_load_waits_half_a_message_for_each_other_sender_in_a_tick() -> None:
-    """N senders at independent times: (N − 1)·s²/(2·tick) on average, to first order; the age has s and half a tick."""
-    word, s = Radio(intention="x" * 64), 4e-4
-    air = replace(SHARED, bit_rate=8 * len(encode(replace_number(word, 1))) / s)
-    alone, ten = (np.mean(heard_ages(names, word, air, 4000)) for names in (["cyan1"], CYAN + MAGENTA))
-    assert alone == approx(s + TICK / 2, abs=3e-4)
-    assert ten - alone == approx(9 * s**2 / (2 * TICK), abs=6e-5)
-
-
 def test_a_side_that_fills_the_channel_has_messages_of_both_sides_refused() -> None:
     word = Radio(intention="x" * 64)
     bits = 8 * len(encode(word))

@@ -265,6 +265,9 @@ def test_the_least_case_is_called_with_its_measure_and_the_nearest_other_is_not(
     assert all(name in event.text for name in case.offenders) or case.rule == "scrum"
     assert event.card is case.card
     assert (rig.state.pending.phase, rig.state.pending.side) == (case.restart, case.taker)
+    (x, y), pitch = rig.state.pending.spot, rig.pitch
+    assert abs(x) <= pitch.goal_line - pitch.penalty_area_depth or abs(y) >= pitch.penalty_area_width / 2
+    assert abs(y) <= pitch.touch_line
     _, nothing = told(new_rig, case, case.allowed)
     assert nothing is None
 
@@ -279,15 +282,6 @@ def test_colours_swapped_the_same_is_decided(new_rig, case):
     assert sorted(mirror.robots) == sorted(turned.robot(name) for name in event.robots)
     spot, other = rig.state.pending.spot, turned.state.pending.spot
     assert (-other[0], -other[1]) == pytest.approx(spot)
-
-
-@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
-def test_the_spot_of_the_restart_is_on_the_field_and_out_of_penalty_areas(new_rig, case):
-    rig, _ = told(new_rig, case, case.breaks)
-    x, y = rig.state.pending.spot
-    pitch = rig.pitch
-    assert abs(x) <= pitch.goal_line - pitch.penalty_area_depth or abs(y) >= pitch.penalty_area_width / 2
-    assert abs(y) <= pitch.touch_line
 
 
 @pytest.mark.parametrize("rule", ["own_half_goal", "dribble_circle", "backward", "not_rolling", "lob", "leaving_field"])

@@ -91,14 +91,6 @@ def test_a_half_that_was_ended_early_leaves_the_other_its_whole_time(new_rig):
     assert early < 1.0 and rig.state.clock == pytest.approx(early + 10.0)
 
 
-def test_a_match_that_is_not_automatic_waits_for_start(new_rig):
-    rig = new_rig(automatic=False)
-    rig.run(5.0)
-    assert rig.state.phase is Phase.PRE_GAME and rig.events == []
-    assert rig.ask("start").replies[0].accepted
-    assert rig.state.phase is Phase.KICK_OFF and rig.state.side is Side.CYAN
-
-
 def test_a_robot_without_a_start_pose_is_named(new_rig):
     with pytest.raises(TouchlineError, match="cyan1"):
         new_rig(starts={})

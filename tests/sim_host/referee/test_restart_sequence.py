@@ -47,12 +47,6 @@ def test_a_throw_in_runs_through_stop_signal_start_and_in_play_in_their_times(ri
     assert rig.kinds() == [EventKind.BALL_OUT, STOP, RESTART, START, IN_PLAY]
 
 
-def test_an_unplayed_ball_is_in_play_after_the_time_limit(rig):
-    thrown_in(rig).until(lambda state: state.running)
-    rig.until(lambda state: state.phase is Phase.PLAY)
-    assert moment(rig, IN_PLAY) - moment(rig, START) == pytest.approx(rig.book.restarts.time_limit)
-
-
 def test_a_dropped_ball_is_in_play_at_start(rig):
     rig.playing()
     rig.ask("drop_ball", place=(0.0, 1.0))

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from schemas.game import REFBOX, Card, EventKind, OffField, OfficiatingMode, Phase
+from schemas.game import REFBOX, Card, EventKind, OffField, OfficiatingMode
 from schemas.messages.game import GameState, RobotQuestion
 from schemas.side import Side
 from support.referee_rig import RefereeRig
@@ -84,15 +84,6 @@ def test_the_last_offender_of_the_side_gets_the_card_by_default(box: RefereeRig)
     assert [question.default for question in published(box).questions] == ["cyan3", "magenta5"]
     box.run(10.1)
     assert cards(box) == [("cyan3", Card.YELLOW), ("magenta5", Card.YELLOW)]
-
-
-def test_a_foul_that_our_referee_called_names_the_offender_too() -> None:
-    rig = RefereeRig("msl")
-    rig.playing()
-    rig.robots["cyan3"] = (rig.pitch.goal_line - 0.3, 0.0)
-    rig.until(lambda state: state.phase is Phase.STOPPED)
-    rig.ask("yellow_card", CYAN)
-    assert published(rig).questions[0].default == "cyan3"
 
 
 @pytest.mark.parametrize(

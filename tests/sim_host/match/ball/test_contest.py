@@ -2,6 +2,7 @@
 
 import math
 import random
+from collections import Counter
 
 import pytest
 
@@ -22,15 +23,21 @@ def scene(number):
     return bodies
 
 
-def who_has_it(rig, tell, cyan, magenta, seconds=1.0):
-    """Ticks that each side has the ball in, while both drive at it with their dribblers on."""
+def drive_at_it(rig, tell, cyan, magenta, seconds=1.0):
+    """What is seen tick by tick while both robots drive at the ball with their dribblers on."""
     rig.place(cyan1=cyan, magenta1=magenta, ball=(0, 0, 0))
     rig.world.make_checkpoint()
-    held = {"cyan1": 0, "magenta1": 0, None: 0}
+    told = tell(1.5, dribble=True)
     for _ in range(round(seconds / rig.profile.time.tick)):
-        told = tell(1.5, dribble=True)
-        held[rig.tick(cyan1=told, magenta1=told).possession] += 1
-    return held
+        yield rig.tick(cyan1=told, magenta1=told)
+
+
+def scenes_and_mirror_images(rig, tell):
+    """The same of all scenes, each also turned by π with the sides exchanged."""
+    for number in range(SCENES):
+        first, second = scene(number)
+        yield from drive_at_it(rig, tell, first, second)
+        yield from drive_at_it(rig, tell, turned(second), turned(first))
 
 
 def turned(body):
@@ -40,31 +47,17 @@ def turned(body):
 
 @pytest.mark.parametrize("way", ["pose", "velocity", "force"])
 def test_over_scenes_and_their_mirror_images_both_sides_have_the_ball_as_often(build, tell, way):
-    """The same scenes turned by π with the sides exchanged; to 10 % of the ticks in which a robot has it."""
+    """To 10 % of the ticks in which a robot has it."""
     rig = build(dribble={"method": way})
-    totals = {"cyan1": 0, "magenta1": 0}
-    for number in range(SCENES):
-        first, second = scene(number)
-        for cyan, magenta in ((first, second), (turned(second), turned(first))):
-            held = who_has_it(rig, tell, cyan, magenta)
-            for name in totals:
-                totals[name] += held[name]
-    both = sum(totals.values())
+    held = Counter(seen.possession for seen in scenes_and_mirror_images(rig, tell))
+    both = held["cyan1"] + held["magenta1"]
     assert both > SCENES * 5
-    assert abs(totals["cyan1"] - totals["magenta1"]) < 0.1 * both
+    assert abs(held["cyan1"] - held["magenta1"]) < 0.1 * both
 
 
-def last_touches(rig, tell, cyan, magenta, seconds=1.0):
-    """Per robot: ticks in which both touch the ball and it is the last; and the ticks in which neither is."""
-    rig.place(cyan1=cyan, magenta1=magenta, ball=(0, 0, 0))
-    rig.world.make_checkpoint()
-    last = {"cyan1": 0, "magenta1": 0, None: 0}
-    for _ in range(round(seconds / rig.profile.time.tick)):
-        told = tell(1.5, dribble=True)
-        snapshot = rig.tick(cyan1=told, magenta1=told)
-        if len(snapshot.touches) == 2:
-            last[None if snapshot.level else snapshot.touches[-1]] += 1
-    return last
+def last_touches(snapshots):
+    """Per robot: ticks in which both touch the ball and it is the last; and under None those in which neither is."""
+    return Counter(None if seen.level else seen.touches[-1] for seen in snapshots if len(seen.touches) == 2)
 
 
 @pytest.mark.parametrize(
@@ -72,22 +65,15 @@ def last_touches(rig, tell, cyan, magenta, seconds=1.0):
 )
 def test_in_ticks_in_which_both_touch_the_ball_each_side_is_the_last_as_often(build, tell, order):
     """Over scenes and their mirror images; by the order of the roster, one of them would always be."""
-    rig = build(order=order)
-    totals = {"cyan1": 0, "magenta1": 0, None: 0}
-    for number in range(SCENES):
-        first, second = scene(number)
-        for cyan, magenta in ((first, second), (turned(second), turned(first))):
-            for name, ticks in last_touches(rig, tell, cyan, magenta).items():
-                totals[name] += ticks
-    decided = totals["cyan1"] + totals["magenta1"]
-    assert decided > SCENES and totals[None] > 0
-    assert abs(totals["cyan1"] - totals["magenta1"]) < 0.4 * decided
+    last = last_touches(scenes_and_mirror_images(build(order=order), tell))
+    decided = last["cyan1"] + last["magenta1"]
+    assert decided > SCENES and last[None] > 0
+    assert abs(last["cyan1"] - last["magenta1"]) < 0.4 * decided
 
 
 def test_two_robots_that_press_a_ball_from_both_ends_alike_are_level(build, tell):
-    rig = build()
     cyan = (-0.5, 0.0, 0.0)
-    last = last_touches(rig, tell, cyan, turned(cyan))
+    last = last_touches(drive_at_it(build(), tell, cyan, turned(cyan)))
     assert last[None] > 10 and last["cyan1"] == last["magenta1"] == 0
 
 
@@ -100,8 +86,7 @@ def test_a_first_touch_belongs_to_the_same_robot_in_any_order_of_the_roster(buil
         cyan, magenta = scene(number)
         first = []
         for rig in rigs:
-            rig.place(cyan1=cyan, magenta1=magenta, ball=(0, 0, 0))
-            snapshots = (rig.tick(cyan1=tell(1.5, dribble=True), magenta1=tell(1.5, dribble=True)) for _ in range(50))
+            snapshots = drive_at_it(rig, tell, cyan, magenta)
             first.append(next((s.possession for s in snapshots if s.possession), None))
         assert first[0] == first[1]
         winners.append(first[0])

@@ -79,14 +79,6 @@ def test_a_keepers_frame_stops_a_ball_that_passes_a_round_robot() -> None:
         assert (pitch.run(0.4).ball.x < -0.3) == passes
 
 
-def test_each_robot_has_the_limits_of_its_own_type() -> None:
-    pitch = new_pitch(size=2, cyan2="slow")
-    pitch.place(cyan1=(-5, 0, 0), cyan2=(-5, 2, 0))
-    pitch.run(2.0, cyan1=drive(20), cyan2=drive(20))
-    assert pitch.at("cyan1").vx == approx(4.0, rel=1e-3)
-    assert pitch.at("cyan2").vx == approx(2.0, rel=1e-3)
-
-
 @pytest.mark.parametrize("profile", ["msl", "paper"])
 @pytest.mark.parametrize(("lift", "tilt"), [(0.3, 0.0), (0.0, 0.4), (0.2, 1.2), (0.06, 0.0), (0.0, 0.06)])
 def test_a_robot_that_is_lifted_or_tipped_is_put_upright_where_it_is(profile: str, lift: float, tilt: float) -> None:

@@ -60,16 +60,6 @@ def test_robots_of_each_model_reach_the_demanded_velocity_in_their_own_frame(fie
     assert at.z == approx(0.399, abs=1e-6)
 
 
-@pytest.mark.parametrize("profile", [TRACTION, OMNI, THREE], ids=["traction", "four wheels", "three wheels"])
-def test_two_equal_robots_that_push_each_other_stay_where_they_are(profile: Profile) -> None:
-    """Within 2 cm after three seconds, with all their grip: neither wins, and both know that they are stuck."""
-    field = field_of(profile=profile)
-    assert abs(push_each_other(field)) < 0.02
-    field.tick(cyan1=drive(2), magenta1=drive(2))
-    assert field.stuck == [True, False, True, False]
-    field.world.close()
-
-
 def test_the_duel_is_won_by_the_difference_of_grips() -> None:
     """Both wheels spin: acceleration (mu1 − mu2)·g / 2√2 of two equal masses, from 0.2 s on; within 5 %."""
     strong, weak = like(OMNI, traction=0.9), like(OMNI, traction=0.6)

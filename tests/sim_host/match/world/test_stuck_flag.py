@@ -84,12 +84,6 @@ def test_a_slow_start_and_a_stop_are_not_stuck(rig, demand):
     assert not any(flags(rig, 1.5, "cyan1", cyan1=always(REST)))
 
 
-def test_a_robot_that_turns_back_at_full_speed_is_not_stuck(rig):
-    rig.place(cyan1=(-3, 0, 0), ball=(0, 5, 0))
-    for demand in (drive(4), drive(-4), drive(0, 4), drive(4)):
-        assert not any(flags(rig, 1.2, "cyan1", cyan1=always(demand)))
-
-
 def test_a_robot_that_stands_and_is_pushed_away_is_not_stuck(rig):
     r = rig.profile.robot.radius
     rig.place(cyan1=(-2 * r - 0.5, 0, 0), magenta1=(0, 0, 0), ball=(0, 5, 0))
