@@ -17,7 +17,8 @@ from touchline.play import play_match
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-MATCH = "[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n"
+MATCH = "[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n[patience]\nanswer = 60\n"
+"""A machine that is busy with other things must not make a robot miss a tick."""
 SEEDS = (1, 2)
 ROOT = Path(__file__).parents[2]
 
