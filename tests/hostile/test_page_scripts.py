@@ -12,7 +12,7 @@ from coach_gateway.web.match_result import FILE
 from recordings.reading.recording import open_recording
 from recordings.stats.page import page_of
 from schemas.bus.in_process_bus import SharedState
-from schemas.config.match_config import load_match
+from schemas.config.match_config import MatchConfig, load_match
 from schemas.game import EventKind, Phase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.game import GameEvent
@@ -22,7 +22,7 @@ from schemas.side import Side
 from schemas.topics import EVENT, HEALTH
 from support.fake_host import FakeHost
 from support.page_gateway import Gateway
-from support.page_match import Match
+from support.recorded_match import record_match
 from support.tab import Tab
 
 SCRIPTS = (
@@ -109,7 +109,7 @@ def hostile_recording(tmp_path: Path) -> Path:
     teams = {
         side: {"name": SCRIPTS[2 + number], "brain": shouting, "size": 1} for number, side in enumerate(map(str, Side))
     }
-    Match(pace="lockstep", duration=2.0, teams=teams).record(path)
+    record_match(path, MatchConfig.model_validate({"seed": 7, "duration": 2.0, "teams": teams}), until=600.0)
     return path
 
 

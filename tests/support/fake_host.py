@@ -10,10 +10,10 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, Phase
+from schemas.game import Phase
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.debug import Debug, RobotDebug
-from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
@@ -115,9 +115,8 @@ class FakeHost:
         self.put(STATE, self.state)
 
     def tell(self, text: str) -> None:
-        """Publish an event."""
-        moment = {"tick": self.state.tick, "time": self.state.time, "clock": 0.0}
-        self.put(EVENT, GameEvent(**moment, kind=EventKind.ACTION, rule="test", text=text))
+        """Publish an event of the newest state's tick."""
+        self.happen(self.state.tick, text)
 
     def happen(self, tick: int, text: str) -> None:
         """Publish an event of a tick."""

@@ -3,12 +3,9 @@
 import threading
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from coach_gateway.match.host_client import HostClient
-from recordings.recorder.part_sink import PartSink
-from recordings.recorder.recorder import Recorder
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
@@ -96,17 +93,6 @@ class Match:
         self.host.simulation.close()
         self._bus.close()
 
-    def record(self, path: Path) -> None:
-        """Record the match to its end, and close it."""
-        clock = WallClock()
-        sink = PartSink(path, clock)
-        recorder = Recorder(self.medium.open_bus("friendly", clock), sink, config=self.config)
-        recording = threading.Thread(target=recorder.run, args=(lambda: False,))
-        recording.start()
-        self._hosting.join()
-        self.close()
-        recording.join(SOON)
-
     def close(self) -> None:
         self.stop()
         self._over.set()
@@ -132,6 +118,10 @@ class Match:
         """All that has happened so far."""
         self._events += [received.message() for received in iter(self._ear.receive, None)]
         return self._events
+
+    def said(self, text: str) -> bool:
+        """Whether there has been an event with this text."""
+        return any(event.text == text for event in self.events)
 
     def hear(self, topic: Topic) -> Callable[[], list[Any]]:
         """A function for the messages on a topic since its last call."""

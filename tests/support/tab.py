@@ -54,12 +54,8 @@ class Tab:
         """Open a tab; with the referee's token it may be on the operator's page."""
         opener = self.page.locator(f"#to-{tab}")
         if not opener.is_visible():
-            self.swap_seat()
+            self.page.evaluate("document.getElementById('seat').click()")  # from the referee's page, or back to it
         opener.click()
-
-    def swap_seat(self) -> None:
-        """From the referee's page to the operator's, or back."""
-        self.page.evaluate("document.getElementById('seat').click()")
 
     def button(self, action: str, side: str = "") -> Locator:
         return self.page.locator(f'[data-action="{action}"][data-side="{side}"]')

@@ -54,6 +54,12 @@ def test_every_signal_has_its_row() -> None:
         ("REPAIR", CYAN, "cyan3", STOPPED, ["repair cyan3"]),
         ("REPAIR_END", CYAN, "cyan3", STOPPED, ["enter cyan3"]),
         ("SUBSTITUTION", CYAN, "cyan3", STOPPED, ["substitute cyan3"]),
+        ("YELLOW_CARD", CYAN, None, STOPPED, ["yellow_card cyan"]),  # the referee asks the side which robot it is
+        ("DOUBLE_YELLOW", CYAN, None, STOPPED, ["double_yellow cyan"]),
+        ("RED_CARD", CYAN, None, STOPPED, ["red_card cyan"]),
+        ("REPAIR", CYAN, None, STOPPED, ["repair cyan"]),
+        ("REPAIR_END", CYAN, None, STOPPED, ["enter cyan"]),
+        ("SUBSTITUTION", CYAN, None, STOPPED, ["substitute cyan"]),
         ("HALF_TIME", None, None, STOPPED, ["end_half"]),
         ("END_PART", None, None, STOPPED, ["end_half"]),
         ("END_PART", None, None, {**STOPPED, "half": 4, "stage": GameStage.SHOOT_OUT}, ["end_game"]),
@@ -82,23 +88,6 @@ def test_a_signal_becomes_actions(
 def test_a_signal_without_a_counterpart_in_our_game_has_a_reason(name: str) -> None:
     found = led_to(name)
     assert not found.actions and name in found.reason
-
-
-@pytest.mark.parametrize(
-    ("name", "action"),
-    [
-        ("YELLOW_CARD", "yellow_card"),
-        ("DOUBLE_YELLOW", "double_yellow"),
-        ("RED_CARD", "red_card"),
-        ("REPAIR", "repair"),
-        ("REPAIR_END", "enter"),
-        ("SUBSTITUTION", "substitute"),
-    ],
-)
-def test_a_card_or_a_repair_for_no_robot_in_particular_is_requested_for_the_side(name: str, action: str) -> None:
-    """The referee asks the side which robot it is."""
-    found = led_to(name, CYAN)
-    assert said(found) == [f"{action} cyan"] and not found.reason
 
 
 @pytest.mark.parametrize("name", ["KICKOFF", "GOAL", "REPAIR"])

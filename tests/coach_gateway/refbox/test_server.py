@@ -332,16 +332,22 @@ class Display(asyncio.DatagramProtocol):
         self.said.append(json.loads(data[:-1]))
 
 
+async def audience(bench: Any, box: Any) -> tuple[asyncio.DatagramTransport, Display]:
+    """A display that receives the feed of the box."""
+    loop = asyncio.get_running_loop()
+    transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
+    address = transport.get_extra_info("sockname")[:2]
+    bench.start(AudienceFeed(bench.live, [address], bench.logged.append, box.team_states))
+    await until(lambda: display.said, "the feed")
+    return transport, display
+
+
 async def test_the_audience_receives_teams_and_events(check_world_state: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A base station's own world state, and where none comes, what our robots say."""
     monkeypatch.setattr("coach_gateway.refbox.audience_feed.WORLD_STATE_S", 1000.0)  # it is sent once
 
     async with boxed() as (bench, box, come):
-        loop = asyncio.get_running_loop()
-        transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
-        address = transport.get_extra_info("sockname")[:2]
-        bench.start(AudienceFeed(bench.live, [address], bench.logged.append, box.team_states))
-        await until(lambda: display.said, "the feed")
+        transport, display = await audience(bench, box)
         bench.stage.show()
         cyan = await come(team="cyan")
         mine = world_state("Sapphire", intention="win")
@@ -381,11 +387,7 @@ async def test_the_audience_receives_teams_and_events(check_world_state: Any, mo
 
 async def test_a_world_state_that_is_too_large_does_not_silence_the_audience_feed(check_world_state: Any) -> None:
     async with boxed() as (bench, box, come):
-        loop = asyncio.get_running_loop()
-        transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
-        bench.start(
-            AudienceFeed(bench.live, [transport.get_extra_info("sockname")[:2]], bench.logged.append, box.team_states)
-        )
+        transport, display = await audience(bench, box)
         bench.stage.show()
         cyan = await come(team="cyan")
         cyan.say(**world_state("Sapphire", intention="x" * 64_500))

@@ -64,10 +64,6 @@ def referee(coaches: CoachPrograms) -> Program:
     return Program(coaches, "referee", port=2)
 
 
-def test_a_hello_with_a_token_begins_a_session(cyan: Program) -> None:
-    assert cyan.hello.accepted and cyan.hello.role is Role.CYAN and len(cyan.session) > 10
-
-
 @pytest.mark.parametrize("token", ["", "guessed", "cyan-token ", "é"])
 def test_an_unknown_token_is_refused(coaches: CoachPrograms, token: str) -> None:
     said = json.dumps({"kind": "hello", "sequence": 1, "token": token}).encode()

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from coach_gateway.web import broadcaster
-from coach_gateway.web.match_result import STATISTICS, STATISTICS_ADDRESS, ResultReader, write_result
+from coach_gateway.web.match_result import STATISTICS, STATISTICS_ADDRESS, write_result
 from coach_gateway.web.protocol import ResultUpdate
 from support.fake_host import FakeHost
 from support.page_gateway import SOON, Gateway
@@ -21,17 +21,6 @@ WHOLE = KNOWN.replace(figures=[("shots", "3", "1")], statistics=STATISTICS_ADDRE
 @pytest.fixture(autouse=True)
 def short_grace(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(broadcaster, "RELOAD_S", 0.3)
-
-
-def test_a_result_is_read_when_it_is_written_and_again_when_more_is_known(tmp_path: Path) -> None:
-    reader = ResultReader(tmp_path / "result")
-    assert not reader.update() and reader.result is None
-    write_result(tmp_path / "result", KNOWN)
-    assert reader.update() and reader.result == KNOWN
-    assert not reader.update()
-    write_result(tmp_path / "result", WHOLE)
-    assert reader.update() and reader.result == WHOLE
-    assert not ResultReader(None).update()
 
 
 def test_the_result_stays_until_the_last_page_is_closed(

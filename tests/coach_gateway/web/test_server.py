@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from websockets.exceptions import ConnectionClosed
 
 from coach_gateway.web.protocol import ServerMessage
 from coach_gateway.web.settings import WebSettings
@@ -209,24 +208,6 @@ def test_a_welcome_names_the_scenes_that_can_be_loaded(host: FakeHost, gateway_o
     assert list(scenes) == shipped_scenes()
     assert all(scenes.values())
     page.close()
-
-
-def test_a_server_that_is_started_again_has_the_same_tokens_and_all_events(
-    host: FakeHost, gateway_of: Callable[..., Gateway]
-) -> None:
-    first = gateway_of()
-    page = Visitor(first.origin)
-    host.happen(1, "before")
-    page.hear("event")
-    first.close()
-    with pytest.raises(ConnectionClosed):
-        page.hear("nothing")
-    again = Visitor(gateway_of(port=first.port).origin)
-    again.hear_what_is_played()
-    assert again.hear("event")["event"]["text"] == "before"
-    again.enter("referee")
-    assert again.ask("action", action={"action": "stop"})["accepted"]
-    again.close()
 
 
 def test_a_replay_sends_all_its_events_at_once_and_none_again(

@@ -2,7 +2,6 @@
 
 import threading
 from collections.abc import Callable, Iterator
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +11,13 @@ from playwright.sync_api import Browser
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.in_process_bus import SharedState
+from schemas.config.match_config import MatchConfig
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.process.clock import WallClock
 from support.page_gateway import SOON, Gateway
-from support.page_match import Match
+from support.page_match import TEAMS, Match
+from support.recorded_match import record_match
 from support.tab import Tab
-from support.tunnel import Tunnel
 
 
 @pytest.fixture
@@ -59,19 +59,6 @@ def resting(officiated: Callable[..., Match]) -> Match:
 
 
 @pytest.fixture
-def tunnel_to() -> Iterator[Callable[[int], Tunnel]]:
-    made: list[Tunnel] = []
-
-    def make(port: int) -> Tunnel:
-        made.append(Tunnel(port))
-        return made[-1]
-
-    yield make
-    for tunnel in made:
-        tunnel.close()
-
-
-@pytest.fixture
 def visit(browser: Browser, gateway_of: Callable[..., Gateway]) -> Iterator[Callable[..., Tab]]:
     """Opens the page of a match in a window of its own; what it complained of fails the test."""
     made: list[Tab] = []
@@ -98,7 +85,7 @@ def record(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
 
     def recorded_match(**words: Any) -> Path:
         path = tmp_path_factory.mktemp("recorded") / "match.mcap"
-        Match(pace="lockstep", **words).record(path)
+        record_match(path, MatchConfig.model_validate({"seed": 7, "teams": TEAMS, **words}), until=600.0)
         return path
 
     return recorded_match
@@ -147,11 +134,5 @@ def replay_file() -> Iterator[Callable[..., Replayed]]:
 
 
 @pytest.fixture
-def replay_of(recorded: Path, replay_file: Callable[..., Replayed]) -> Callable[..., Replayed]:
-    """Replays the match of `recorded`."""
-    return partial(replay_file, recorded)
-
-
-@pytest.fixture
-def replayed(replay_of: Callable[..., Replayed]) -> Replayed:
-    return replay_of()
+def replayed(recorded: Path, replay_file: Callable[..., Replayed]) -> Replayed:
+    return replay_file(recorded)

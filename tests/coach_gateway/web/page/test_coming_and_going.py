@@ -1,5 +1,7 @@
 """Pages, gateways and hosts that come and go: a page shows it, and recovers by itself."""
 
+from support.tunnel import Tunnel
+
 
 def test_a_gateway_that_is_killed_and_started_again_finds_its_pages(match, gateway_of, visit) -> None:
     gateway = gateway_of(match.medium)
@@ -33,9 +35,10 @@ def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> 
     tab.until("document.getElementById('score').textContent === '0 : 1'")
 
 
-def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, gateway_of, visit, tunnel_to) -> None:
+def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, gateway_of, visit, request) -> None:
     """As with a laptop that changes its network, or sleeps: nothing arrives any more, without any close."""
-    tunnel = tunnel_to(gateway_of(match.medium).port)
+    tunnel = Tunnel(gateway_of(match.medium).port)
+    request.addfinalizer(tunnel.close)
     tab = visit(f"http://127.0.0.1:{tunnel.port}", "referee")
     tab.button("start").click()
     tab.until("document.getElementById('phase').classList.contains('running')")

@@ -25,17 +25,13 @@ def drop(match, tab) -> tuple[float, float]:
     return spot.x, spot.y
 
 
-def said(match, text: str) -> bool:
-    return any(event.text == text for event in match.events)
-
-
 def take(match, tab, robot: str):
     """Take over a robot; returns a function for the drives that are sent from then on."""
     hands = match.hear(MANUAL)
     tab.open("drive")
     tab.page.locator("#drive-robot").select_option(robot)
     tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, f"{robot} is under manual control"))
+    match.until(lambda: match.said(f"{robot} is under manual control"))
     return hands
 
 
@@ -86,7 +82,7 @@ def test_a_finger_on_the_buttons_drives_for_as_long_as_it_lies_there(match, visi
     tab.page.locator("#kick-lob").tap()
     match.until(lambda: any(hand.kick is not None and hand.kick.mode == "lob" for hand in hands()))
     tab.page.locator("#drive-take").tap()
-    match.until(lambda: said(match, "cyan2 is controlled by its brain again"))
+    match.until(lambda: match.said("cyan2 is controlled by its brain again"))
 
 
 def test_a_key_that_is_let_go_of_beside_another_does_not_drive_on(match, visit) -> None:
@@ -112,7 +108,7 @@ def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> Non
             document.dispatchEvent(new Event("visibilitychange"));
         }"""
     )
-    match.until(lambda: said(match, "cyan2 is controlled by its brain again"))
+    match.until(lambda: match.said("cyan2 is controlled by its brain again"))
     assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 

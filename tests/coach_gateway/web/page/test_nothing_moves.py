@@ -145,6 +145,12 @@ def test_no_element_moves_under_a_proposal_a_question_a_card_or_a_goal(
         assert page.evaluate("window.shifts") == [], role
 
 
+def assert_in_its_place(tab: Any, button: str) -> None:
+    slot, box = (tab.page.locator(one).bounding_box() for one in ("#pending", button))
+    assert slot["y"] <= box["y"] and box["y"] + box["height"] <= slot["y"] + slot["height"]
+    assert box["height"] >= 30 and box["width"] >= 40
+
+
 @pytest.mark.parametrize(("width", "height"), SIZES)
 def test_a_proposal_is_answered_in_its_place_on_every_screen(
     staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
@@ -153,15 +159,7 @@ def test_a_proposal_is_answered_in_its_place_on_every_screen(
     staged.propose()
     for name in ("confirm", "overrule"):
         tab.until(f"!document.getElementById('{name}').disabled")
-        assert tab.page.locator("#proposal").is_visible()
-        inside = tab.ask(
-            f"""(() => {{
-                const slot = document.getElementById("pending").getBoundingClientRect();
-                const button = document.getElementById("{name}").getBoundingClientRect();
-                return button.top >= slot.top && button.bottom <= slot.bottom && button.height >= 30;
-            }})()"""
-        )
-        assert inside
+        assert_in_its_place(tab, f"#{name}")
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
@@ -171,12 +169,10 @@ def test_a_question_beside_another_and_a_proposal_is_answered_in_its_place_on_ev
     tab = visit(staged.origin, "cyan", width, height)
     staged.propose()
     staged.ask_both_sides()
-    last = tab.page.locator('#cyan-question [data-names="cyan5"]')
-    last.click()
+    last = '#cyan-question [data-names="cyan5"]'
+    tab.page.locator(last).click()
     tab.wait_for_log("Name cyan5 accepted")
-    slot, button = tab.page.locator("#pending").bounding_box(), last.bounding_box()
-    assert slot["y"] <= button["y"] and button["y"] + button["height"] <= slot["y"] + slot["height"]
-    assert button["height"] >= 30 and button["width"] >= 40
+    assert_in_its_place(tab, last)
     assert tab.page.locator("#cyan-question p").bounding_box()["height"] >= 15
     assert not tab.page.locator("#magenta-question button").first.is_visible()
 

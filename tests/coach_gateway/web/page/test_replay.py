@@ -35,8 +35,8 @@ def test_the_bar_leads_to_any_moment_and_back(replayed, visit) -> None:
             assert (shown[name]["x"], shown[name]["y"]) == pytest.approx((robot.x, robot.y), abs=0.00051)
 
 
-def test_a_recording_that_is_begun_paused_shows_its_first_picture(replay_of, visit) -> None:
-    replay = replay_of(start=None)
+def test_a_recording_that_is_begun_paused_shows_its_first_picture(recorded, replay_file, visit) -> None:
+    replay = replay_file(recorded, start=None)
     tab = visit(replay)
     first = next(world for _, world in replay.programme.recording.decoded("world"))
     assert time_of(tab) == first.time
