@@ -19,8 +19,9 @@ from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.setup import Setup
-from schemas.messages.world import BallTruth, RobotTruth, World
+from schemas.messages.world import BallTruth, World
 from schemas.side import Side
+from support.messages import make_robot
 
 TICK = 0.1
 CORNERS = {"cyan1": (-10.0, 0.0), "cyan2": (-2.0, 3.0), "magenta1": (10.0, 0.0), "magenta2": (2.0, -3.0)}
@@ -65,14 +66,12 @@ class MatchScript:
         self.tick += 1
         time, log_ns = self.tick * TICK, round(self.tick * TICK * 1e9)
         robots = {
-            name: RobotTruth(
-                x=x,
-                y=y,
-                z=0.4,
-                heading=self.headings.get(name, 0.0),
+            name: make_robot(
+                x,
+                y,
+                self.headings.get(name, 0.0),
                 vx=(moving or {}).get(name, (0.0, 0.0))[0],
                 vy=(moving or {}).get(name, (0.0, 0.0))[1],
-                omega=0.0,
                 holding=name == self.held_by,
                 stuck=name in stuck,
                 off_field="repair" if name in off else None,

@@ -20,10 +20,11 @@ from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Command, Drive
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.setup import Setup
-from schemas.messages.world import BallTruth, RobotTruth, World
+from schemas.messages.world import BallTruth, World
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
+from support.messages import make_robot
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
@@ -41,16 +42,7 @@ def make_setup(match: str = "friendly") -> Setup:
 def make_world(tick: int, names: tuple[str, ...] = ROBOTS) -> World:
     time = tick * TICK
     robots = {
-        name: RobotTruth(
-            x=(-1) ** number * (2.0 + number) + math.sin(time + number),
-            y=1.5 * number - 2.0,
-            z=0.4,
-            heading=time % 3.0,
-            vx=0.0,
-            vy=0.0,
-            omega=0.0,
-            holding=False,
-        )
+        name: make_robot((-1) ** number * (2.0 + number) + math.sin(time + number), 1.5 * number - 2.0, time % 3.0)
         for number, name in enumerate(names)
     }
     ball = BallTruth(x=6 * math.sin(time), y=3 * math.cos(time), z=0.11, vx=0.0, vy=0.0, vz=0.0)

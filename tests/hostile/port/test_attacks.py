@@ -92,10 +92,3 @@ def test_a_new_client_gets_in_while_a_thousand_half_open_connections_are_held(ta
     assert setup.match == target.config.name
     assert attacker.popen.poll() is None, attacker.err
     attacker.end()
-
-
-def test_tokens_without_a_name_are_named_in_health(target):
-    carry_out(target, "strange_tokens", [])
-    target.watcher.until(
-        lambda one: one.healths[-1].accounts["alive/recorder/*"].dropped, "a count of tokens without a name"
-    )

@@ -37,15 +37,13 @@ EXAMPLES: dict[str, Settings] = {
 
 
 @pytest.mark.parametrize("module", EXAMPLES)
-def test_settings_that_are_written_are_read_again(module: str, tmp_path: Path) -> None:
+def test_settings_that_are_written_are_read_again_also_from_standard_input(
+    module: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     file = tmp_path / "settings.json"
     write_settings(EXAMPLES[module], file)
     assert read_settings(type(EXAMPLES[module]), str(file)) == EXAMPLES[module]
-
-
-@pytest.mark.parametrize("module", EXAMPLES)
-def test_settings_are_read_from_standard_input(module: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "stdin", io.StringIO(EXAMPLES[module].model_dump_json()))
+    monkeypatch.setattr(sys, "stdin", io.StringIO(file.read_text()))
     assert read_settings(type(EXAMPLES[module]), "-") == EXAMPLES[module]
 
 
@@ -128,13 +126,6 @@ def test_what_a_person_can_mend_is_one_line_and_status_2(capsys: pytest.CaptureF
     first, second = capsys.readouterr().err.splitlines()
     assert first == "touchline: my_team:Brain is not there"
     assert "No such file" in second
-
-
-def test_a_process_that_is_given_no_settings_tells_its_usage(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as ended:
-        run_with([], lambda settings: 0)
-    assert ended.value.code == 2
-    assert "usage: python -m robot_agent [-h] --settings FILE" in capsys.readouterr().err
 
 
 @pytest.mark.processes

@@ -3,8 +3,6 @@ import sys
 
 import pytest
 
-from schemas.process.large_blocks import mapped
-
 FREED = """
 from schemas.process.large_blocks import return_large_blocks
 
@@ -50,7 +48,3 @@ with open("/proc/self/statm") as file:
 def test_a_mapped_block_goes_back_to_the_system_when_it_is_dropped() -> None:
     program = subprocess.run([sys.executable, "-c", KEPT], capture_output=True, check=True)
     assert int(program.stdout) / 1e6 < 30.0
-
-
-def test_a_mapped_block_has_the_same_bytes() -> None:
-    assert mapped(b'{"batch": 1}') == b'{"batch": 1}'

@@ -13,7 +13,6 @@ from schemas.access.credentials import account_file, new_credentials, write_cred
 from schemas.access.protection import Protection
 from schemas.bus.contract import BusError, PresenceKind
 from schemas.bus.zenoh.bus import ZenohBus, open_client, open_host
-from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.side import Side
 
@@ -101,8 +100,3 @@ def test_a_client_with_a_root_certificate_uses_tls_where_tcp_is_written(hosts: H
     plain = host.endpoint.replace("tls/", "tcp/")
     with open_client("cup", WallClock(), plain, PATIENCE, hosts.file("own")) as client:
         assert client.endpoint == host.endpoint
-
-
-def test_credentials_of_another_match_are_refused_by_the_host() -> None:
-    with pytest.raises(TouchlineError, match='for the match "final", not for "cup"; use --match final'):
-        Protection.of(new_credentials("final"), "cup", ROBOTS)

@@ -9,12 +9,11 @@ import zenoh
 
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_client, open_host
+from schemas.bus.zenoh.bus import open_host
 from schemas.bus.zenoh.router_limits import router_limits
-from schemas.messages.scene import SceneRequest
 from schemas.process.clock import WallClock
 from schemas.topic import Party
-from schemas.topics import COMMAND, ORDER, SCENE, TOPICS, key_prefix
+from schemas.topics import COMMAND, ORDER, TOPICS, key_prefix
 from support.attacker import open_session
 
 LIMIT = 30.0
@@ -100,14 +99,3 @@ def test_of_a_flood_only_a_part_reaches_the_host_and_the_rest_of_the_link_works(
     took = time.monotonic() - began
     arrived = sum(1 for _ in iter(commands.receive, None))
     assert 0 < arrived <= 200_000 * took + 1
-
-
-def test_a_large_scene_within_its_limit_is_received(ends: tuple[Bus, zenoh.Session]) -> None:
-    host, _ = ends
-    scenes = host.serve(SCENE)
-    with open_client("test", WallClock(), host.endpoint) as client:  # type: ignore[attr-defined]
-        request = SceneRequest(operation="remove", remove=[f"robot_{number:020}" for number in range(100)])
-        client.query(SCENE, request, LIMIT)
-        query = scenes.receive(LIMIT)
-    assert query is not None
-    assert query.message() == request
