@@ -19,7 +19,7 @@ from schemas.errors import TouchlineError
     ],
 )
 def test_our_own_page_and_an_allowed_one_come_in(origin: str, host: str) -> None:
-    assert Origins(["https://cup.example.org"], ["localhost", "field"]).allows(origin, host)
+    assert Origins(["https://Cup.Example.org"], ["localhost", "field"]).allows(origin, host)
 
 
 @pytest.mark.parametrize(
@@ -45,10 +45,6 @@ def test_our_own_page_and_an_allowed_one_come_in(origin: str, host: str) -> None
 )
 def test_a_foreign_origin_is_not_allowed(origin: str | None, host: str | None) -> None:
     assert not Origins(["https://cup.example.org"], ["localhost"]).allows(origin, host)
-
-
-def test_an_allowed_origin_may_be_written_in_large_letters() -> None:
-    assert Origins(["https://Cup.Example.org"]).allows("https://cup.example.org", "127.0.0.1:8080")
 
 
 @pytest.mark.parametrize(

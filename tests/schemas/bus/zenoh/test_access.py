@@ -11,7 +11,7 @@ import zenoh
 from schemas.access.accounts import Account
 from schemas.access.credentials import account_file, new_credentials, read_credentials, write_credentials
 from schemas.access.protection import Protection
-from schemas.bus.contract import BusError, NoReplyError, PresenceKind, Publisher
+from schemas.bus.contract import BusError, NoReplyError, PresenceKind
 from schemas.bus.zenoh.bus import ZenohBus, open_client, open_host
 from schemas.bus.zenoh.protection_settings import client_settings
 from schemas.messages.command import Command
@@ -97,10 +97,6 @@ def join(host: ZenohBus, folder: Path, account: Account) -> ZenohBus:
     return open_client(None, WallClock(), host.endpoint, LIMIT, account_file(folder, account))
 
 
-def wait_for_subscriber(publisher: Publisher) -> None:
-    wait_for(publisher.has_subscribers)
-
-
 def keys_until(reader: Any, last: str) -> list[str]:
     """The keys of all samples up to the one on `last`."""
     found: list[str] = []
@@ -125,7 +121,7 @@ def test_a_team_s_commands_arrive_and_it_receives_its_own_sights(host: ZenohBus,
         robot.publisher(COMMAND, robot="cyan1").put(Command(answers_tick=7))
         received = commands.receive(LIMIT)
         assert received is not None and received.message().answers_tick == 7
-        wait_for_subscriber(sight)
+        wait_for(sight.has_subscribers)
         sight.put_payload(b"{}")
         assert reader.receive_payload(LIMIT) == b"{}"
 
@@ -155,7 +151,7 @@ def test_a_team_receives_only_its_own_sights_and_public_news(host: ZenohBus, att
     readers = [attacker.declare_subscriber(PREFIX + key, zenoh.handlers.FifoChannel(1000)) for key in FOREIGN_READS]
     own = attacker.declare_subscriber(PREFIX + "robot/cyan1/sight", zenoh.handlers.FifoChannel(1000))
     sight = host.publisher(SIGHT, robot="cyan1")
-    wait_for_subscriber(sight)
+    wait_for(sight.has_subscribers)
     foreign = ("robot/magenta1/sight", "team/magenta/belief/magenta1", "team/magenta/order", "world", "host/applied")
     for key in (*foreign, "team/cyan/debug/cyan1", "team/magenta/debug/magenta1"):
         host.session.put(PREFIX + key, b"{}")
