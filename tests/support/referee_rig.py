@@ -223,6 +223,10 @@ class RefereeRig:
         score = event.score and tuple(event.score.of(self.side(one)) for one in Side)
         return event.tick, event.kind, event.rule, side, robot, robots, place, score, event.measured, event.card
 
+    def fouls(self) -> list[tuple[str | None, str | None]]:
+        """Rule and robot of each foul."""
+        return [(event.rule, event.robot) for event in self.events if event.kind is EventKind.FOUL]
+
     def kinds(self) -> list[EventKind]:
         return [event.kind for event in self.events]
 

@@ -91,7 +91,7 @@ def operated(simulation: Simulation, number: int) -> None:
 POST = StaticObstacle(name="post", shape=Shape.CYLINDER, place=[0.0, 0.0], radius=0.15, height=0.9)
 
 
-@pytest.fixture(params=KINDS.values(), ids=KINDS)
+@pytest.fixture(scope="module", params=KINDS.values(), ids=KINDS)
 def recorded(request) -> Iterator[tuple[Simulation, list[TickResult]]]:
     """A lively game of three a side with six checkpoints in the middle of it."""
     teams = {f"teams.{side}.size": 3 for side in ("cyan", "magenta")}

@@ -32,10 +32,6 @@ def hit(rig, one="cyan3", other="magenta2", ball=None, possession=None, **speeds
     return rig.tick(ball, impacts=[(one, other)], motions=moving(**speeds), possession=possession)
 
 
-def fouls(rig):
-    return [(event.rule, event.robot) for event in rig.events if event.kind is EventKind.FOUL]
-
-
 CALLED = [("charging", "cyan3")]
 
 
@@ -45,7 +41,7 @@ def test_a_robot_that_drives_into_a_standing_opponent_at_speed_charges_it(new_ri
     rig = placed(new_rig(mirrored=mirrored))
     hit(rig, cyan3=speed)
     robot = rig.robot("cyan3")
-    assert fouls(rig) == ([("charging", robot)] if called else [])
+    assert rig.fouls() == ([("charging", robot)] if called else [])
     if called:
         foul = next(event for event in rig.events if event.kind is EventKind.FOUL)
         assert foul.measured == pytest.approx(speed) and (foul.limit, foul.unit) == (1.5, "m/s")
@@ -78,7 +74,7 @@ def test_the_robot_that_drove_faster_toward_the_other_is_the_offender_and_neithe
 ):
     rig = placed(new_rig())
     hit(rig, **speeds)
-    assert fouls(rig) == ([("charging", offender)] if offender else [])
+    assert rig.fouls() == ([("charging", offender)] if offender else [])
 
 
 def test_the_speed_of_the_other_robot_makes_no_card(new_rig):
@@ -90,14 +86,14 @@ def test_the_speed_of_the_other_robot_makes_no_card(new_rig):
 def test_robots_side_by_side_that_touch_do_not_charge(new_rig):
     rig = placed(new_rig())
     rig.tick(impacts=[("cyan3", "magenta2")], motions={"cyan3": (0.0, 1.0, 4.0), "magenta2": (0.0, -0.4, 4.0)})
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def test_teammates_that_hit_each_other_commit_no_foul(new_rig):
     rig = placed(new_rig())
     rig.robots["cyan4"] = (-0.5, 2.0)
     hit(rig, "cyan4", "cyan3", cyan4=4.0)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def test_a_robot_on_its_own_penalty_area_gives_a_penalty_away(new_rig):
@@ -117,26 +113,26 @@ def touching_ball(rig, air, behind=False):
 def test_a_robot_that_plays_the_ball_does_not_charge(new_rig, air, called):
     rig = placed(new_rig(), gap=1.0)
     hit(rig, ball=touching_ball(rig, air), cyan3=2.0)
-    assert fouls(rig) == (CALLED if called else [])
+    assert rig.fouls() == (CALLED if called else [])
 
 
 def test_a_robot_with_the_ball_behind_it_charges_as_any_other(new_rig):
     rig = placed(new_rig(), gap=0.5)
     hit(rig, ball=touching_ball(rig, 0.0, behind=True), possession="cyan3", cyan3=2.0)
-    assert fouls(rig) == CALLED
+    assert rig.fouls() == CALLED
 
 
 def test_a_ball_that_flies_over_the_robots_is_not_played(new_rig):
     rig = placed(new_rig(), gap=1.0)
     x, y = touching_ball(rig, 0.0)
     hit(rig, ball=(x, y, 1.5), cyan3=2.0)
-    assert fouls(rig) == CALLED
+    assert rig.fouls() == CALLED
 
 
 def test_a_robot_that_holds_the_ball_is_charged_from_behind(new_rig):
     rig = placed(new_rig())
     hit(rig, ball=(0.5 + rig.hull + rig.radius, 2.0), possession="magenta2", cyan3=2.0)
-    assert fouls(rig) == CALLED
+    assert rig.fouls() == CALLED
 
 
 @pytest.mark.parametrize("shover", ["magenta3", "magenta2"])
@@ -144,10 +140,10 @@ def test_a_robot_that_an_opponent_has_knocked_into_another_is_no_offender(new_ri
     rig = placed(new_rig(), gap=0.8)
     rig.robots["magenta3"] = (-0.5, 2.0)
     hit(rig, "magenta3", "cyan3", ball=(-0.25, 2.3), magenta3=3.0)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
     rig.run(0.1)
     hit(rig, ball=FAR, cyan3=2.0)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def test_a_robot_that_a_teammate_has_knocked_into_an_opponent_makes_the_teammate_the_offender(new_rig):
@@ -156,7 +152,7 @@ def test_a_robot_that_a_teammate_has_knocked_into_an_opponent_makes_the_teammate
     hit(rig, "cyan4", "cyan3", cyan4=3.0)
     rig.run(0.1)
     hit(rig, cyan3=2.0)
-    assert fouls(rig) == [("charging", "cyan4")]
+    assert rig.fouls() == [("charging", "cyan4")]
     assert "cyan4 drove cyan3 into magenta2" in rig.events[0].text
 
 
@@ -168,7 +164,7 @@ def test_a_bump_of_a_teammate_excuses_no_charge_that_the_robot_had_time_to_drive
     hit(rig, "cyan4", "cyan3", cyan4=0.8)
     rig.run(later)
     hit(rig, cyan3=1.7)
-    assert fouls(rig) == (CALLED if called else [])
+    assert rig.fouls() == (CALLED if called else [])
 
 
 def test_a_robot_that_was_at_speed_before_a_bump_is_not_excused_by_it(new_rig):
@@ -176,7 +172,7 @@ def test_a_robot_that_was_at_speed_before_a_bump_is_not_excused_by_it(new_rig):
     rig.robots["cyan4"] = (-0.5, 2.0)
     hit(rig, "cyan4", "cyan3", cyan4=3.5, cyan3=2.5)
     hit(rig, cyan3=2.9)
-    assert fouls(rig) == CALLED
+    assert rig.fouls() == CALLED
 
 
 def test_a_robot_that_an_opponent_pushes_into_another_is_no_offender(new_rig):
@@ -186,21 +182,21 @@ def test_a_robot_that_an_opponent_pushes_into_another_is_no_offender(new_rig):
     for _ in range(3):
         rig.tick(**push)
     rig.tick(impacts=[("cyan3", "magenta2")], **push)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def test_two_charges_in_one_tick_are_one_decision(new_rig):
     rig = placed(new_rig())
     rig.robots |= {"cyan4": (3.0, 2.0), "magenta4": (3.5, 2.0)}
     rig.tick(impacts=[("cyan3", "magenta2"), ("cyan4", "magenta4")], motions=moving(cyan3=3.0, cyan4=3.0))
-    assert fouls(rig) == CALLED
+    assert rig.fouls() == CALLED
 
 
 def test_charging_is_called_as_the_rule_book_says(new_rig):
     for speed, called in ((2.4, []), (2.6, CALLED)):
         friendly = placed(new_rig(rules="friendly"))
         hit(friendly, cyan3=speed)
-        assert fouls(friendly) == called
+        assert friendly.fouls() == called
     china = placed(new_rig(rules="china-sim-2020"))
     hit(china, cyan3=1.6)
     assert [event.card for event in china.events if event.kind is EventKind.FOUL] == [Card.YELLOW]

@@ -5,7 +5,7 @@ Each table holds the least case that breaks the rule and the nearest that does n
 
 import pytest
 
-from schemas.game import EventKind, Phase
+from schemas.game import Phase
 from schemas.side import Side
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
@@ -33,10 +33,6 @@ def stand(rig, robot, distance, bearing=(0.0, 1.0)):
     rig.robots[robot] = (x + bearing[0] * away, y + bearing[1] * away)
 
 
-def fouls(rig):
-    return [(event.rule, event.robot) for event in rig.events if event.kind is EventKind.FOUL]
-
-
 @pytest.mark.parametrize("phase", ["free_kick", "throw_in", "corner", "goal_kick", "kick_off"])
 @pytest.mark.parametrize(("distance", "called"), [(2.79, True), (2.81, False)])
 def test_an_opponent_that_comes_too_near_before_the_kick_repeats_the_restart(new_rig, phase, distance, called):
@@ -44,7 +40,7 @@ def test_an_opponent_that_comes_too_near_before_the_kick_repeats_the_restart(new
     restart = rig.state.restart
     stand(rig, "magenta3", distance, (-1.0 if rig.state.spot[0] > 0.0 else 1.0, 0.0))
     rig.tick()
-    assert fouls(rig) == ([("encroachment", "magenta3")] if called else [])
+    assert rig.fouls() == ([("encroachment", "magenta3")] if called else [])
     if called:
         assert rig.state.pending == restart
         foul = rig.events[0]
@@ -58,7 +54,7 @@ def test_a_teammate_that_comes_too_near_gives_the_restart_away(new_rig, distance
     rig = started(new_rig())
     stand(rig, "cyan3", distance)
     rig.tick()
-    assert fouls(rig) == ([("encroachment", "cyan3")] if called else [])
+    assert rig.fouls() == ([("encroachment", "cyan3")] if called else [])
     if called:
         assert (rig.state.pending.phase, rig.state.pending.side) == (Phase.FREE_KICK, MAGENTA)
 
@@ -66,7 +62,7 @@ def test_a_teammate_that_comes_too_near_gives_the_restart_away(new_rig, distance
 def test_the_taker_and_one_robot_alone_beside_the_ball_may_be_there(new_rig):
     rig = started(new_rig())
     rig.run(1.0)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def test_another_teammate_may_take_the_restart_in_place_of_the_first(new_rig):
@@ -75,7 +71,7 @@ def test_another_teammate_may_take_the_restart_in_place_of_the_first(new_rig):
     rig.tick()
     stand(rig, "cyan4", 0.2)
     rig.run(0.5)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def test_once_the_ball_is_in_play_every_robot_may_come(new_rig):
@@ -88,7 +84,7 @@ def test_once_the_ball_is_in_play_every_robot_may_come(new_rig):
     stand_at = (x + 1.0, y)
     rig.robots["magenta3"] = stand_at
     rig.run(0.5)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def test_after_the_time_limit_every_robot_may_come(new_rig):
@@ -96,7 +92,7 @@ def test_after_the_time_limit_every_robot_may_come(new_rig):
     rig.until(lambda state: state.phase is Phase.PLAY)
     rig.robots["magenta3"] = (SPOT[0] + 1.0, SPOT[1])
     rig.run(0.5)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 def too_near_at_start(rig, distance=1.0):
@@ -119,7 +115,7 @@ def test_a_robot_that_was_too_near_at_start_has_two_seconds_to_retreat(new_rig, 
             break
         stand(rig, "magenta3", 1.0 + speed * rig.dt * tick)
         rig.tick()
-    assert fouls(rig) == ([("encroachment", "magenta3")] if called else [])
+    assert rig.fouls() == ([("encroachment", "magenta3")] if called else [])
     if called:
         assert "2.0 s after START" in rig.events[0].text
 
@@ -129,10 +125,10 @@ def test_a_robot_that_retreats_and_comes_back_encroaches(new_rig):
     for distance in (1.0, 1.3, 1.6, 1.41):
         stand(rig, "magenta3", distance)
         rig.tick()
-    assert fouls(rig) == []
+    assert rig.fouls() == []
     stand(rig, "magenta3", 1.39)
     rig.tick()
-    assert fouls(rig) == [("encroachment", "magenta3")]
+    assert rig.fouls() == [("encroachment", "magenta3")]
 
 
 def test_a_robot_that_was_out_once_is_no_longer_excused(new_rig):
@@ -140,7 +136,7 @@ def test_a_robot_that_was_out_once_is_no_longer_excused(new_rig):
     for distance in (2.5, 3.1, 2.7):
         stand(rig, "magenta3", distance)
         rig.tick()
-    assert fouls(rig) == [("encroachment", "magenta3")]
+    assert rig.fouls() == [("encroachment", "magenta3")]
 
 
 def pushed_in(rig, pusher, behind=True):
@@ -158,7 +154,7 @@ def test_a_robot_that_an_opponent_pushes_in_has_not_encroached(new_rig, behind, 
     stand(rig, "magenta3", 3.1)
     rig.tick()
     pushed_in(rig, "cyan3", behind)
-    assert (("encroachment", "magenta3") in fouls(rig)) is called
+    assert (("encroachment", "magenta3") in rig.fouls()) is called
 
 
 def test_a_robot_that_was_pushed_in_has_to_retreat(new_rig):
@@ -166,15 +162,15 @@ def test_a_robot_that_was_pushed_in_has_to_retreat(new_rig):
     pushed_in(rig, "cyan3")
     rig.robots["cyan3"] = (-6.0, -4.0)
     rig.run(1.9)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
     rig.run(0.2)
-    assert fouls(rig) == [("encroachment", "magenta3")]
+    assert rig.fouls() == [("encroachment", "magenta3")]
 
 
 def test_a_robot_that_its_teammate_pushes_in_encroaches(new_rig):
     rig = started(new_rig())
     pushed_in(rig, "magenta4")
-    assert ("encroachment", "magenta3") in fouls(rig)
+    assert ("encroachment", "magenta3") in rig.fouls()
 
 
 def test_a_robot_that_an_opponent_has_knocked_in_is_excused(new_rig):
@@ -186,7 +182,7 @@ def test_a_robot_that_an_opponent_has_knocked_in_is_excused(new_rig):
     stand(rig, "magenta3", 2.7)
     rig.robots["cyan3"] = (-6.0, -4.0)
     rig.run(0.4)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 @pytest.mark.parametrize(("x", "called"), [(0.21, True), (0.19, False)])
@@ -196,7 +192,7 @@ def test_at_a_kick_off_a_robot_encroaches_on_the_other_half(new_rig, x, called):
     rig.robots["cyan2"] = (0.4, 0.0)
     rig.robots["cyan3"] = (x - rig.hull, 4.0)
     rig.tick()
-    assert fouls(rig) == ([("encroachment", "cyan3")] if called else [])
+    assert rig.fouls() == ([("encroachment", "cyan3")] if called else [])
     if called:
         assert "in the other half" in rig.events[0].text
 
@@ -215,10 +211,10 @@ def test_the_goalkeeper_and_one_more_defender_may_stay_near_in_their_own_penalty
     rig.events.clear()
     rig.robots |= {"magenta1": (line - 0.3, y), "magenta2": (line - 1.0, y)}
     rig.run(0.3)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
     rig.robots["magenta3"] = (line - 1.0, y + 0.8)
     rig.tick()
-    assert [rule for rule, _ in fouls(rig)] == ["encroachment"]
+    assert [rule for rule, _ in rig.fouls()] == ["encroachment"]
 
 
 def test_a_robot_off_the_field_does_not_encroach(new_rig):
@@ -227,7 +223,7 @@ def test_a_robot_off_the_field_does_not_encroach(new_rig):
     assert "magenta3" in rig.state.participation.absences and rig.state.running
     rig.robots["magenta3"] = (SPOT[0] + 0.8, SPOT[1])
     rig.run(0.5)
-    assert fouls(rig) == []
+    assert rig.fouls() == []
 
 
 @pytest.mark.parametrize("phase", ["drop_ball", "penalty"])
@@ -235,11 +231,11 @@ def test_restarts_with_places_of_their_own_are_left_to_their_rules(new_rig, phas
     rig = started(new_rig(), phase, None if phase == "drop_ball" else CYAN, taker=None)
     rig.robots["magenta3"] = (rig.ball[0] - 1.5, rig.ball[1])
     rig.tick()
-    assert ("encroachment", "magenta3") not in fouls(rig)
+    assert ("encroachment", "magenta3") not in rig.fouls()
 
 
 def test_a_friendly_does_not_call_it(new_rig):
     rig = started(new_rig(rules="friendly"))
     stand(rig, "magenta3", 0.6)
     rig.tick()
-    assert fouls(rig) == []
+    assert rig.fouls() == []

@@ -9,10 +9,6 @@ from sim_host.referee.evidence.stays import NO_STAYS
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
 
-def fouls(rig):
-    return [(event.rule, event.robot) for event in rig.events if event.kind is EventKind.FOUL]
-
-
 def places(rig, rule):
     """Where the robot may not stay, where it may, and how long it may stay."""
     line, touch = rig.pitch.goal_line, rig.pitch.touch_line
@@ -41,7 +37,7 @@ RULES = ["penalty_area", "goal_area", "leaving_field"]
 def test_a_robot_that_steps_out_for_a_tick_before_its_time_is_up_is_called(new_rig, rule):
     rig = new_rig().playing()
     hop(rig, rule, 0.9, rig.dt, 2)
-    assert fouls(rig) == [(rule, "cyan3")]
+    assert rig.fouls() == [(rule, "cyan3")]
     limit = places(rig, rule)[2]
     event = next(event for event in rig.events if event.kind is EventKind.FOUL)
     assert limit < event.measured <= limit + 2 * rig.dt
@@ -56,7 +52,7 @@ def test_a_second_outside_gives_a_second_back(new_rig, rule, rest, called):
     hop(rig, rule, 0.9, rest * limit, 1)
     rig.robots["cyan3"] = inside
     rig.play_on(0.9 * limit)
-    assert bool(fouls(rig)) is called
+    assert bool(rig.fouls()) is called
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -77,7 +73,7 @@ def test_a_robot_outside_is_not_called_while_its_clock_runs_down(new_rig, rule):
     rig.robots["cyan3"] = away
     assert rig.ask("overrule").replies[0].accepted
     rig.play_on(0.5 * limit)
-    assert rig.state.proposal is None and fouls(rig) == []
+    assert rig.state.proposal is None and rig.fouls() == []
 
 
 def test_the_robot_that_came_last_is_named_first(new_rig):
@@ -111,7 +107,7 @@ def test_a_crowd_that_parts_for_a_tick_is_called_when_its_time_is_up(new_rig):
         rig.play_on(0.9 * limit)
         rig.robots["cyan3"] = (5.0, 0.0)
         rig.tick()
-    assert fouls(rig) == [("penalty_area", "cyan3")] or fouls(rig) == [("penalty_area", "cyan4")]
+    assert rig.fouls() == [("penalty_area", "cyan3")] or rig.fouls() == [("penalty_area", "cyan4")]
 
 
 def test_robots_that_the_referee_moves_are_not_put_into_a_penalty_area_where_their_time_would_run(new_rig):
