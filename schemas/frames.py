@@ -28,11 +28,6 @@ def to_body(x: float, y: float, heading: float) -> tuple[float, float]:
     return rotate(x, y, -heading)
 
 
-def from_body(x: float, y: float, heading: float) -> tuple[float, float]:
-    """A vector of the body frame in the frame of the heading."""
-    return rotate(x, y, heading)
-
-
 @dataclass(frozen=True, slots=True)
 class Pose:
     """Position in m and heading in rad, in the frame that its owner names."""

@@ -86,8 +86,6 @@ TEST_MODES: dict[int, RecordedTest] = {
     13: RecordedTest(CoachTest.MOVE, with_ball=True, avoid=True),
 }
 """Number → test mode."""
-TEST_NUMBERS = {mode: number for number, mode in TEST_MODES.items()}
-"""Test mode → number; tests that the record lacks have none."""
 
 
 class Meaning(NamedTuple):

@@ -1,4 +1,4 @@
-"""Clocks: the only access to wall time, and a stepped clock with which tests and lockstep need none.
+"""Clocks: the only access to wall time.
 
 A clock has wall time, the time of people and networks, and simulated time, the time of the match. The owner of a bus
 advances its clock's simulated time; the bus stamps each message with both.
@@ -45,25 +45,3 @@ class WallClock:
         left = moment - time.perf_counter()
         if left > 0:
             time.sleep(left)
-
-
-class SteppedClock:
-    """Wall time that passes only in `sleep_until`: a paced loop takes no time and is deterministic."""
-
-    __slots__ = ("_now", "sim_ns")
-
-    def __init__(self) -> None:
-        self.sim_ns = UNKNOWN_SIM_NS
-        self._now = 0.0
-
-    def now(self) -> float:
-        """The sum of all sleeps so far, in s."""
-        return self._now
-
-    def unix_ns(self) -> int:
-        """The sum of all sleeps so far, in ns."""
-        return round(self._now * 1e9)
-
-    def sleep_until(self, moment: float) -> None:
-        """Advance to `moment` at once."""
-        self._now = max(self._now, moment)

@@ -10,10 +10,10 @@ from recordings.container.manifest import EndReason, Result, make_manifest
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
-from schemas.process.clock import SteppedClock
 from schemas.topics import WORLD
 from schemas.wire.message import VERSION
 from sim_host.match.simulation import Simulation, TickResult
+from support.stepped_clock import SteppedClock
 from touchline.play import play_match
 
 

@@ -30,10 +30,10 @@ from schemas.messages.coach import CoachMode, CoachTest
 from schemas.messages.game import RefereeAction
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Sight
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
+from support.stepped_clock import SteppedClock
 
 CYAN = ("cyan1", "cyan2", "cyan3")
 RIVALS = ("magenta1", "magenta2", "magenta3")

@@ -7,7 +7,7 @@ import pytest
 
 from robot_agent.bodies import Body, DriveLimits
 from robot_agent.contract import Briefing
-from schemas.frames import from_body, wrap
+from schemas.frames import rotate, wrap
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
@@ -44,7 +44,7 @@ class Plant:
     def step(self, demand: Drive) -> Body:
         """One tick under a demand."""
         me, lim = self.body, self.limits
-        vx, vy = from_body(demand.vx, demand.vy, me.heading)
+        vx, vy = rotate(demand.vx, demand.vy, me.heading)
         dvx, dvy = vx - me.vx, vy - me.vy
         slows = math.hypot(vx, vy) < math.hypot(me.vx, me.vy)
         most = (lim.deceleration if slows else lim.acceleration) * lim.tick

@@ -15,8 +15,8 @@ from robot_agent.runner import serve
 from robot_agent.settings import AgentSettings
 from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
-from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP
+from support.stepped_clock import SteppedClock
 
 NUMBERS = count()
 BRAIN = """

@@ -11,7 +11,7 @@ from robot_agent.contract import Briefing
 from robot_agent.settings import AgentSettings
 from robot_agent.teams.simple import Simple
 from schemas.config.match_config import load_match
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 from touchline.play import play_match
 
 

@@ -9,9 +9,9 @@ from schemas.bus.contract import PresenceKind
 from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ROBOT_CLAIM
+from support.stepped_clock import SteppedClock
 
 
 class ClaimHost:

@@ -10,8 +10,8 @@ from robot_agent.settings import FIRST_SIGHT_FAILED
 from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
-from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP, SIGHT
+from support.stepped_clock import SteppedClock
 
 
 class Counting:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pytest import approx
 
-from schemas.frames import Pose, from_body, to_body, wrap
+from schemas.frames import Pose, rotate, to_body, wrap
 
 ANGLE = st.floats(-20, 20)
 METRES = st.floats(-50, 50)
@@ -27,7 +27,7 @@ def test_straight_back_is_plus_pi_never_minus_pi() -> None:
 
 @given(METRES, METRES, ANGLE)
 def test_into_the_body_frame_and_back_changes_nothing(x: float, y: float, heading: float) -> None:
-    assert from_body(*to_body(x, y, heading), heading) == approx((x, y), abs=1e-9)
+    assert rotate(*to_body(x, y, heading), heading) == approx((x, y), abs=1e-9)
 
 
 def test_the_body_frame_has_x_ahead_and_y_to_the_left() -> None:

@@ -14,12 +14,13 @@ from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
-from schemas.process.clock import SteppedClock, WallClock
+from schemas.process.clock import WallClock
 from schemas.side import Side
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
 from support.fake_host import MATCH, FakeHost
+from support.stepped_clock import SteppedClock
 
 LIMIT_S = 90.0
 """Patience in s, longer than any wait on a busy machine: a test fails only if something never happens."""

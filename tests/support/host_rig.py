@@ -15,13 +15,13 @@ from schemas.messages.command import Command, Drive
 from schemas.messages.health import Health
 from schemas.messages.recorder import RecorderProgress
 from schemas.messages.sight import Sight
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import APPLIED, EVENT, HEALTH, RECORDER_PROGRESS, WORLD
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
 from support.lossy_medium import LossyMedium
+from support.stepped_clock import SteppedClock
 
 LOOK_S = 0.001
 """Wall time that passes in each poll of a waiting host."""

@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.player import Player
-from schemas.process.clock import SteppedClock
 from schemas.topics import WORLD
+from support.stepped_clock import SteppedClock
 
 
 @dataclass

@@ -14,12 +14,12 @@ from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command
 from schemas.messages.game import RefereeAction
 from schemas.messages.sight import Sight
-from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.debug_publisher import DebugPublisher
 from sim_host.server.outbox import Outbox
 from support.recorder_rig import ONE_PART
+from support.stepped_clock import SteppedClock
 from touchline.play import InProcessMatch
 
 

@@ -7,9 +7,10 @@ from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.world import BallTruth, World
-from schemas.process.clock import SteppedClock, WallClock
+from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER, BELIEF, EVENT, HEALTH, STATE, WORLD
+from support.stepped_clock import SteppedClock
 
 
 def seats() -> tuple[Bus, MatchFollower]:

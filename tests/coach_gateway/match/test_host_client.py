@@ -9,10 +9,10 @@ from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.game import ActionReply, RefereeAction
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, ACTIVE_ORDER, ORDER
 from support.fake_host import FakeHost
+from support.stepped_clock import SteppedClock
 
 MICROSECONDS = 1_795_275_009_214_000
 """Since 1970: far beyond any clock in ms."""

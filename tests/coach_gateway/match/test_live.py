@@ -12,11 +12,12 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.game import REFBOX, ActionName, Phase, Score
 from schemas.messages.game import GameState, RefereeAction
-from schemas.process.clock import SteppedClock, WallClock
+from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
 from support.gateway_bench import kicked_off, opened, until
 from support.messages import make_setup
+from support.stepped_clock import SteppedClock
 
 pytestmark = pytest.mark.anyio
 

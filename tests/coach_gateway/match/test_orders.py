@@ -5,9 +5,9 @@ import pytest
 from coach_gateway.match.orders import OrderBook, OrderFollower, OrderStatus
 from schemas.bus.in_process_bus import SharedState
 from schemas.messages.coach import ActiveOrder, CoachOrder
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
+from support.stepped_clock import SteppedClock
 
 
 def standing(sequence: int, tick: int = 5, **acknowledged: bool) -> ActiveOrder:

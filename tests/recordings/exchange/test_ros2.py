@@ -14,7 +14,7 @@ from rosbags.highlevel import AnyReader
 from recordings.exchange.ros2 import export
 from recordings.reading.recording import Recording, open_recording
 from schemas.errors import TouchlineError
-from schemas.frames import from_body
+from schemas.frames import rotate
 from schemas.messages.world import World
 from schemas.topics import COMMAND, EVENT, STATE, WORLD
 
@@ -69,7 +69,7 @@ def test_both_readers_find_every_robot_where_it_was(
             place, turn, twist = message.pose.pose.position, message.pose.pose.orientation, message.twist.twist
             assert (place.x, place.y, place.z) == (robot.x, robot.y, robot.z)
             assert 2 * math.atan2(turn.z, turn.w) == pytest.approx(robot.heading, abs=1e-12)
-            assert from_body(twist.linear.x, twist.linear.y, robot.heading) == pytest.approx(
+            assert rotate(twist.linear.x, twist.linear.y, robot.heading) == pytest.approx(
                 (robot.vx, robot.vy), abs=1e-12
             )
             assert twist.angular.z == robot.omega

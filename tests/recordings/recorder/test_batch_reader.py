@@ -12,9 +12,9 @@ from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Query
 from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
-from schemas.process.clock import SteppedClock
 from schemas.process.timing import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
+from support.stepped_clock import SteppedClock
 
 
 @dataclass

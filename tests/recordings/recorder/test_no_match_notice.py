@@ -3,7 +3,7 @@ import pytest
 from recordings.recorder.no_match_notice import NoMatchNotice
 from schemas.bus.contract import PresenceKind
 from schemas.bus.in_process_bus import SharedState
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 
 
 @pytest.mark.parametrize(("host_at", "count"), [(0.0, 0), (2.0, 0), (5.0, 1), (None, 1)])

@@ -7,8 +7,8 @@ from recordings.reading.recording import open_recording
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
-from schemas.process.clock import SteppedClock
 from schemas.topics import WORLD
+from support.stepped_clock import SteppedClock
 
 
 def batch(*numbers: int):

@@ -8,8 +8,8 @@ from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording
 from recordings.replay.player import PlaybackRange, Player
 from schemas.game import Phase, Score
-from schemas.process.clock import SteppedClock
 from support.player_rig import PlayerRig
+from support.stepped_clock import SteppedClock
 
 TICK = 0.02
 

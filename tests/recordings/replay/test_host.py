@@ -18,8 +18,8 @@ from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.messages.setup import SetupRequest
-from schemas.process.clock import SteppedClock
 from schemas.topics import ACTION, EVENT, REPLAY_CONTROL, SETUP, WORLD
+from support.stepped_clock import SteppedClock
 
 
 class Room:

@@ -15,7 +15,7 @@ from recordings.replay.replay import Replay, ReplaySettings
 from recordings.viz.drawing import FIELD, SCHEMAS, TF
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayRequest
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 
 PATIENCE_S = 30.0
 """Wall time that the server's threads are given."""

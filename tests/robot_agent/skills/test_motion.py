@@ -8,7 +8,7 @@ from robot_agent.bodies import Body
 from robot_agent.skills.braking import braking_speed, travel_time
 from robot_agent.skills.go_to import TOLERANCE, drive, go_to
 from robot_agent.skills.turn_to import turn_to
-from schemas.frames import from_body, wrap
+from schemas.frames import rotate, wrap
 from schemas.wire.faults import FaultError
 
 
@@ -82,7 +82,7 @@ def test_a_turn_goes_the_short_way_over_the_cut_at_pi(plant, limits):
 def test_a_demand_beyond_the_top_speed_keeps_its_direction(limits):
     me = Body(0.0, 0.0, 1.0)
     demand = drive(me, 30.0, 40.0, 0.0, limits)
-    vx, vy = from_body(demand.vx, demand.vy, me.heading)
+    vx, vy = rotate(demand.vx, demand.vy, me.heading)
     assert (vx, vy) == pytest.approx((0.6 * limits.speed, 0.8 * limits.speed))
 
 

@@ -9,7 +9,8 @@ import pytest
 from robot_agent.contract import Briefing
 from robot_agent.stdio.program import Exchange, StdioProgram
 from schemas.messages.sight import Sight
-from schemas.process.clock import SteppedClock, WallClock
+from schemas.process.clock import WallClock
+from support.stepped_clock import SteppedClock
 
 HEAD = """
 import json, os, signal, sys

@@ -16,8 +16,8 @@ from schemas.messages.record_batch import (
     RecordBatchesRequest,
     payload_fields,
 )
-from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, EVENT, RECORD_BATCH, RECORD_BATCHES, SIGHT, WORLD
+from support.stepped_clock import SteppedClock
 
 KEY = "robot/cyan1/command"
 

@@ -7,8 +7,8 @@ import pytest
 from schemas.bus.contract import PresenceKind
 from schemas.bus.host_watch import HostWatch
 from schemas.bus.in_process_bus import InProcessBus, SharedState
-from schemas.process.clock import SteppedClock
 from schemas.process.timing import CUT_OFF_S, LINK_GRACE_S
+from support.stepped_clock import SteppedClock
 
 
 @dataclass

@@ -4,11 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from schemas.process.clock import SteppedClock
 from sim_host.match.radio_use import RadioUse
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.agent_stats import AgentStats
 from sim_host.server.health_reporter import HealthReporter
+from support.stepped_clock import SteppedClock
 
 NO_AGENTS = SimpleNamespace(agent_stats={}, unknown_senders={})
 NO_RECORDERS = SimpleNamespace(recorder_lags=lambda tick: {})

@@ -9,13 +9,13 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.command import Command
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import COMMAND, INVALID, ORDER, WORLD
 from sim_host.server import inbox
 from sim_host.server.account_limits import AccountLimits
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
+from support.stepped_clock import SteppedClock
 
 RUBBISH = {
     "a number that is none": (b'{"answers_tick":1,"drive":{"vx":NaN}}', "drive.vx is nan"),

@@ -10,7 +10,6 @@ from schemas.config.profile import load_profile
 from schemas.messages.command import Command
 from schemas.messages.latency_counts import CLASSES, class_of, quantile_ms
 from schemas.messages.radio import Radio
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import COMMAND, HEALTH
 from sim_host.match.radio_medium import Budget
@@ -20,6 +19,7 @@ from sim_host.server.agent_stats import AgentStats
 from sim_host.server.inbox import Inbox
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
+from support.stepped_clock import SteppedClock
 
 
 class Talker:

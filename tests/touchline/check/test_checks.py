@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from schemas.config.match_config import load_match
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 from touchline.check.checks import CHECKS, CheckResult, run_check, run_checks
 from touchline.check.examination import Examination
 from touchline.check.subject import Subject

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 from touchline.check import examination
 from touchline.check.checks import CHECKS
 from touchline.command_line import app

@@ -10,10 +10,10 @@ from schemas.access.accounts import Account
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
-from schemas.process.clock import SteppedClock
 from schemas.topics import ADMISSION
 from sim_host.server.admission import Admission
 from support.fake_host import FakeHost
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 from touchline.commands import admit
 

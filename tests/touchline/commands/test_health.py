@@ -16,11 +16,11 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import AccountHealth, Health, RobotHealth, TeamRadio
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import HEALTH
 from support.fake_host import FakeHost
 from support.host_rig import TEAMS, HostRig
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 from touchline.commands import health
 

@@ -15,9 +15,9 @@ from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.messages.setup import Setup
-from schemas.process.clock import SteppedClock
 from schemas.topics import SETUP
 from support.fake_host import FakeHost
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 from touchline.commands import orders
 

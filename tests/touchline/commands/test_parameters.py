@@ -15,9 +15,9 @@ from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.parameters import ParametersReply
-from schemas.process.clock import SteppedClock
 from schemas.topics import PARAMETERS
 from sim_host.match.live_parameters import LiveParameters
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 from touchline.commands import parameters
 

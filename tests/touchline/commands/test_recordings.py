@@ -13,8 +13,8 @@ from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
 from schemas.game import Phase
 from schemas.messages.game import GameState
-from schemas.process.clock import SteppedClock
 from schemas.topics import STATE
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 
 

@@ -16,10 +16,10 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import load_match
 from schemas.config.scene import shipped_scenes
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import SCENE
 from sim_host.match.simulation import Simulation
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 from touchline.commands import scene
 from touchline.play import InProcessMatch

@@ -18,8 +18,8 @@ from schemas.game import Phase, Score
 from schemas.messages.game import GameState
 from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
-from schemas.process.clock import SteppedClock
 from schemas.topics import STATE, WORLD
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"

@@ -13,9 +13,9 @@ from robot_agent.settings import AgentSettings
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
+from support.stepped_clock import SteppedClock
 from touchline.launch.process_table import PROCESSES, Process, ProcessKind
 from touchline.launch.processes import MatchPlan, Page, check_robot_names, client_processes, host_process
 from touchline.launch.run_folder import prepare_run

@@ -6,7 +6,7 @@ import pytest
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import FIRST_SIGHT_FAILED, AgentSettings
 from schemas.errors import TouchlineError
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 

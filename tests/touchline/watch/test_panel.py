@@ -13,11 +13,11 @@ from schemas.messages.health import Health, RobotHealth
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
 from schemas.wire.part_faults import validated
 from support.messages import make_setup
+from support.stepped_clock import SteppedClock
 from touchline.watch.panel import ARROWS, head, orders, panel, robots
 
 

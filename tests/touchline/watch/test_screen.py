@@ -1,6 +1,6 @@
 import io
 
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 from touchline.watch.screen import LiveScreen, Screen, screen_for
 
 

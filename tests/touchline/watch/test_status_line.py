@@ -7,9 +7,9 @@ from schemas.game import GameStage, OffField, Phase, Score
 from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.recorder import RecorderProgress
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import RECORDER_PROGRESS
+from support.stepped_clock import SteppedClock
 from touchline.watch.status_line import robots_text, status_line
 
 

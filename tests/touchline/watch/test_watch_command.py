@@ -12,10 +12,10 @@ from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.debug import Debug, RobotDebug
 from schemas.messages.game import GameEvent, GameState
-from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import DEBUG, EVENT, STATE, WORLD
 from support.messages import make_setup, make_world
+from support.stepped_clock import SteppedClock
 from touchline.command_line import app
 from touchline.commands.watch import watch_lines, watch_on
 from touchline.watch.debug_values import values

@@ -5,7 +5,7 @@ import pytest
 from schemas.bus.contract import BusError
 from schemas.bus.zenoh.bus import ZenohBus
 from schemas.bus.zenoh.waiting_client import open_when_there
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 
 CLIENT = cast(ZenohBus, object())
 

@@ -6,7 +6,7 @@ from io import StringIO
 
 import pytest
 
-from schemas.process.clock import SteppedClock
+from support.stepped_clock import SteppedClock
 from touchline.matches.engine.progress import progress_of
 from touchline.matches.engine.run_counts import RunCounts
 
