@@ -46,8 +46,6 @@ class CupPlan:
     """Team → digest of its files."""
     _matches: dict[Slot, PlannedMatch] = field(default_factory=dict, init=False, compare=False, repr=False)
     """Slot → match; its identity is computed once."""
-    _ended: dict[str, Ended] = field(default_factory=dict, init=False, compare=False, repr=False)
-    """Identity → how a match ended; outcomes are decoded once."""
 
     @cached_property
     def forfeit_goals(self) -> int:
@@ -62,13 +60,8 @@ class CupPlan:
         """How far the cup is."""
 
         def ended(slot: Slot) -> Ended | None:
-            identity = self.match(slot).identity
-            if identity not in outcomes:
-                return None
-            known = self._ended.get(identity)
-            if known is None or known.result is None:  # a match without a result may have been played again
-                known = self._ended[identity] = self.ended(slot, outcomes[identity])
-            return known
+            outcome = outcomes.get(self.match(slot).identity)
+            return self.ended(slot, outcome) if outcome is not None else None
 
         return state_of(self.cup, ended)
 
