@@ -17,7 +17,8 @@ from touchline.matches.engine.hang_watch import HangWatch
 from touchline.matches.engine.measurement import Measurement
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.judging.judge import Judge
+from touchline.matches.judging.judge import verdict_of
+from touchline.matches.judging.occurrences import OccurrenceTracker
 from touchline.play import InProcessMatch, RobotNotStartedError
 from touchline.tick_messages import played_ticks
 
@@ -131,12 +132,13 @@ def _measured(planned: PlannedMatch, match: _WatchedMatch) -> Played:
     setup, scene = match.simulation.setup(), planned.config.scene
     measurement = Measurement(setup)
     drill = scene.drill if scene is not None and planned.is_drill else None
-    judge, verdict = Judge(drill, setup) if drill is not None else None, None
+    tracker, verdict = OccurrenceTracker(setup), None
     with recording_of(planned, match.simulation) as recording:
         record = (lambda tick: recording.add(tick, match.commands)) if recording is not None else (lambda _: None)
         for tick in played_ticks(match, record):
             measurement.update(tick)
-            verdict = judge.update(tick) if judge is not None else None
+            if drill is not None:
+                verdict = verdict_of(drill, tick.world.time, tracker.update(tick))
             if verdict is not None:
                 break
     return replace(measurement.played(planned.identity, planned.recording), verdict=verdict)

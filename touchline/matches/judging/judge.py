@@ -3,10 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from recordings.stats.match_tick import MatchTick
 from schemas.config.drill import Drill, DrillResult
-from schemas.messages.setup import Setup
-from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
+from touchline.matches.judging.occurrences import Occurrence
 
 NO_CONDITION = "none of the conditions"
 """Why a drill ended whose time was over."""
@@ -32,15 +30,3 @@ def verdict_of(drill: Drill, time: float, occurrences: Sequence[Occurrence]) -> 
     if time >= drill.seconds - 1e-9:
         return Verdict(drill.otherwise is DrillResult.SUCCESS, NO_CONDITION, time)
     return None
-
-
-class Judge:
-    """Follows a drill to its verdict."""
-
-    def __init__(self, drill: Drill, setup: Setup) -> None:
-        self._drill = drill
-        self._tracker = OccurrenceTracker(setup)
-
-    def update(self, tick: MatchTick) -> Verdict | None:
-        """Add a tick; the verdict after it, None while the drill goes on."""
-        return verdict_of(self._drill, tick.world.time, self._tracker.update(tick))
