@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import MatchConfig
@@ -24,20 +24,17 @@ from touchline.matches.engine.progress import Progress
 from touchline.verify.resimulate import verify
 
 
-class Result(Protocol):
-    """What a table says of a match that was played: an outcome, or a row of a published table."""
+@dataclass(frozen=True, slots=True)
+class ResultRow:
+    """What a published table says of a match that was played, as an outcome does."""
 
-    @property
-    def chain(self) -> str:
-        """The hash chain over all states."""
+    chain: str
+    goals: Mapping[Side, int]
+    recording: str | None = None
+    """Path of its recording in the folder of the run; None to play the match again."""
 
-    @property
-    def goals(self) -> Mapping[Side, int]:
-        """The goals of each side."""
 
-    @property
-    def recording(self) -> str | None:
-        """The file of its recording, as in an outcome."""
+Result = Played | ResultRow
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """Checks a study that was played: digests, results and recordings, and matches that are simulated again."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,10 +9,9 @@ from typing import Any
 
 import pandas as pd
 
-from schemas.side import Side
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.progress import Progress
-from touchline.matches.engine.verify import Depth, sampled, verify_run
+from touchline.matches.engine.verify import Depth, ResultRow, sampled, verify_run
 from touchline.matches.series.plan import SeedMatch
 from touchline.matches.study.digests import file_digest, library_digest, team_digests
 from touchline.matches.study.match_figures import FIRST, SECOND
@@ -34,16 +33,6 @@ class Verdict:
     """Matches that were simulated again from their recordings, or played again."""
     byte_identical: bool | None
     """Whether the whole table of results is the same to the byte; None if not all figures were computed again."""
-
-
-@dataclass(frozen=True, slots=True)
-class ResultRow:
-    """What the table of results says of a match."""
-
-    chain: str
-    goals: Mapping[Side, int]
-    recording: str | None = None
-    """Path of its recording in the folder of the study; None to play the match again."""
 
 
 def verify_study(
