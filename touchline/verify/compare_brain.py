@@ -6,9 +6,9 @@ from bdb import BdbQuit
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import asdict, dataclass, field
-from io import TextIOBase
+from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from recordings.reading.recording import Recording
 from robot_agent.brain_loader import load_brain
@@ -20,9 +20,6 @@ from schemas.messages.sight import Sight
 from schemas.topics import SIGHT
 from touchline.verify.command_difference import FieldDifference, differences
 from touchline.verify.repeated_match import commands_of
-
-if TYPE_CHECKING:
-    from touchline.verify.regenerate_sights import RegeneratedSights
 
 Act = Callable[[Brain, Sight], Command]
 """A way to call a brain."""
@@ -47,24 +44,32 @@ class FirstDifference:
     answered: Any
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class BrainComparison:
-    """The result of the comparison."""
+    """The result of the comparison, which is counted while it goes on."""
 
     robot: str
     brain: str
     sights: str
     """Source of the sights: `recorded`, or `simulated` if the match was simulated again."""
-    earlier: int
+    earlier: int = 0
     """Number of sights before the compared ones, which the brain received for its state."""
-    compared: int
+    compared: int = 0
     """Number of sights that the robot answered and the brain received, up to the end of the comparison."""
-    different: int
-    fields: dict[str, int]
+    different: int = 0
+    fields: dict[str, int] = field(default_factory=dict)
     """Field of a command → number of differences."""
-    first: FirstDifference | None
-    until: str
+    first: FirstDifference | None = None
+    until: str = ""
     """Reason why the sights ended before the recording; empty if they did not."""
+
+    def add(self, sight: Sight, found: list[FieldDifference]) -> None:
+        """Count a command that was compared, with the fields in which it differs."""
+        self.compared += 1
+        self.different += bool(found)
+        for name, before, now in found:
+            self.fields[name] = self.fields.get(name, 0) + 1
+            self.first = self.first or FirstDifference(sight.tick, sight.time, name, before, now)
 
     def to_json(self) -> dict[str, Any]:
         """The verdict as plain JSON values."""
@@ -103,22 +108,6 @@ class ComparisonSettings:
     """Folder in which the brain's module is looked for before the current directory."""
 
 
-@dataclass(slots=True)
-class _Counts:
-    earlier: int = 0
-    compared: int = 0
-    different: int = 0
-    first: FirstDifference | None = None
-    fields: dict[str, int] = field(default_factory=dict)
-
-    def add(self, sight: Sight, found: list[FieldDifference]) -> None:
-        self.compared += 1
-        self.different += bool(found)
-        for name, before, now in found:
-            self.fields[name] = self.fields.get(name, 0) + 1
-            self.first = self.first or FirstDifference(sight.tick, sight.time, name, before, now)
-
-
 def compare_brain(
     recording: Recording, robot: str, spec: str, settings: ComparisonSettings | None = None
 ) -> BrainComparison:
@@ -135,39 +124,26 @@ def compare_brain(
     if not commands.get(robot):
         raise TouchlineError(f"{recording.path}: no commands of {robot} are recorded; name a robot that played")
     key = SIGHT.fill(robot=robot)
-    regenerated: RegeneratedSights | None = None
-    sights: Iterable[Sight]
     if any(channel.key == key and channel.messages for channel in recording.channels):
-        sights = (sight for _, sight in recording.decoded(key))
-    else:
-        sights = regenerated = _regenerated(recording, robot, commands)
-    counts = _compared(brain, spec, sights, commands[robot], settings)
-    return BrainComparison(
-        robot,
-        spec,
-        "recorded" if regenerated is None else "simulated",
-        counts.earlier,
-        counts.compared,
-        counts.different,
-        counts.fields,
-        counts.first,
-        regenerated.until if regenerated is not None else "",
-    )
-
-
-def _regenerated(
-    recording: Recording, robot: str, commands: Mapping[str, Mapping[int, Command]]
-) -> "RegeneratedSights":
+        comparison = BrainComparison(robot, spec, "recorded")
+        _compare(brain, (sight for _, sight in recording.decoded(key)), commands[robot], settings, comparison)
+        return comparison
     from touchline.verify.regenerate_sights import RegeneratedSights  # needs PyBullet, unlike recorded sights
 
-    return RegeneratedSights(recording, robot, commands)
+    comparison, sights = BrainComparison(robot, spec, "simulated"), RegeneratedSights(recording, robot, commands)
+    _compare(brain, sights, commands[robot], settings, comparison)
+    comparison.until = sights.until
+    return comparison
 
 
-def _compared(
-    brain: Brain, spec: str, sights: Iterable[Sight], commands: Mapping[int, Command], settings: ComparisonSettings
-) -> _Counts:
-    counts = _Counts()
-    answered = -1
+def _compare(
+    brain: Brain,
+    sights: Iterable[Sight],
+    commands: Mapping[int, Command],
+    settings: ComparisonSettings,
+    comparison: BrainComparison,
+) -> None:
+    answered, spec = -1, comparison.brain
     for sight in sights:
         recorded = commands.get(sight.tick)
         if recorded is None or sight.tick <= answered:
@@ -178,26 +154,14 @@ def _compared(
         if sight.time < settings.start - EPSILON_S:
             with without_output():
                 checked_answer(spec, brain, sight)
-            counts.earlier += 1
+            comparison.earlier += 1
             continue
         found = differences(recorded, checked_answer(spec, brain, sight, settings.act))
-        counts.add(sight, found)
+        comparison.add(sight, found)
         if found:
             settings.show(sight, found)
             if settings.first_only:
                 break
-    return counts
-
-
-class _Nowhere(TextIOBase):
-    """A text stream that keeps nothing."""
-
-    def write(self, text: str) -> int:
-        """Discard a text."""
-        return len(text)
-
-
-_NOWHERE = _Nowhere()
 
 
 @contextmanager
@@ -206,7 +170,7 @@ def without_output() -> Iterator[None]:
     hook = sys.breakpointhook
     sys.breakpointhook = lambda *_, **__: None
     try:
-        with redirect_stdout(_NOWHERE):
+        with redirect_stdout(StringIO()):
             yield
     finally:
         sys.breakpointhook = hook
