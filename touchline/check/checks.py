@@ -12,7 +12,6 @@ from touchline.check.examination import (
     check_situations,
     check_time,
     no_kick_when_stopped,
-    no_rule,
 )
 from touchline.check.subject import BreachError
 
@@ -76,7 +75,7 @@ CHECKS = (
         "gives sights without a ball, and with one that was seen long ago",
         "{sights:.0f} sights without a visible ball are answered",
         "sight.ball is None until the ball is seen, and sight.game.spot is None without a restart",
-        check_situations(situations.ball_unseen, no_rule),
+        check_situations(situations.ball_unseen),
     ),
     Check(
         "stopped",
@@ -90,7 +89,7 @@ CHECKS = (
         "gives sights of a robot that is off the field, and of one whose teammates are",
         "{sights:.0f} sights with robots off the field are answered",
         "answer every sight, also off the field: sight.game.robots names who does not take part",
-        check_situations(situations.sent_off, no_rule),
+        check_situations(situations.sent_off),
     ),
     Check(
         "set_pieces",
@@ -104,14 +103,14 @@ CHECKS = (
         "gives messages of teammates that lack each field, or have unknown content",
         "{sights:.0f} sights with incomplete messages of teammates are answered",
         "every field of a radio message may be None, and extra may lack any name",
-        check_situations(situations.radio_fields, no_rule),
+        check_situations(situations.radio_fields),
     ),
     Check(
         "twice",
         "gives each sight twice, leaves ticks out, and sets the world up anew",
         "{sights:.0f} sights that come again or after a gap are answered",
         "decide from the sight; a tick may come again, and ticks may be missing",
-        check_situations(situations.repeated, no_rule, times=2),
+        check_situations(situations.repeated, times=2),
     ),
 )
 """All checks, in the order in which they are run."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup
@@ -18,35 +19,31 @@ _MOST_SHOWN = 3
 """Examples of a fault that a sentence has."""
 
 
-@dataclass(slots=True)
+@dataclass
 class Examination:
-    """One subject while it is checked; the match that several checks look at is played once."""
+    """One subject while it is checked; the matches that several checks look at are played once."""
 
     subject: Subject
     seconds: float = DEFAULT_SECONDS
     clock: Clock = field(default_factory=WallClock)
-    _matches: list[Played] = field(default_factory=list)
 
+    @cached_property
     def played(self) -> Played:
         """The first match.
 
         Raises:
             BreachError: the contract is broken in it.
         """
-        return self._match(0)
+        return play_checked(self.subject, self.seconds, self.clock)
 
+    @cached_property
     def played_again(self) -> Played:
         """A second match with equal seeds and new brains.
 
         Raises:
             BreachError: the contract is broken in it.
         """
-        return self._match(1)
-
-    def _match(self, number: int) -> Played:
-        while len(self._matches) <= number:
-            self._matches.append(play_checked(self.subject, self.seconds, self.clock))
-        return self._matches[number]
+        return play_checked(self.subject, self.seconds, self.clock)
 
 
 def check_build(examination: Examination) -> dict[str, float]:
@@ -63,7 +60,7 @@ def check_time(examination: Examination) -> dict[str, float]:
     So a machine that is busy otherwise does not count. The first decision of a robot, before the game begins, does
     not count either: a program is still starting.
     """
-    runs = zip(examination.played().decisions, examination.played_again().decisions, strict=True)
+    runs = zip(examination.played.decisions, examination.played_again.decisions, strict=True)
     took = sorted(min(one.seconds, other.seconds) * 1e3 for one, other in runs if one.tick > 0)
     figures = {
         "p50": took[len(took) // 2],
@@ -80,7 +77,7 @@ def check_time(examination: Examination) -> dict[str, float]:
 
 def check_repeatable(examination: Examination) -> dict[str, float]:
     """Play the match twice with equal seeds and new brains, and compare all commands."""
-    first, second = examination.played(), examination.played_again()
+    first, second = examination.played, examination.played_again
     for one, other in zip(first.decisions, second.decisions, strict=True):
         if one.payload != other.payload:
             raise BreachError(
@@ -92,7 +89,7 @@ def check_repeatable(examination: Examination) -> dict[str, float]:
 
 def check_limits(examination: Examination) -> dict[str, float]:
     """Compare the demands of a match with the limits of the robots, and count what the host refuses."""
-    played = examination.played()
+    played = examination.played
     faults = played.excesses or played.refusals
     if faults:
         more = f"; {len(faults) - _MOST_SHOWN} more" if len(faults) > _MOST_SHOWN else ""
@@ -106,14 +103,17 @@ Rule = Callable[[Command, Sight], str]
 
 
 def check_situations(
-    situations: Situations, rule: Rule, *, times: int = 1
+    situations: Situations, rule: Rule = lambda _command, _sight: "", *, times: int = 1
 ) -> Callable[[Examination], dict[str, float]]:
-    """Give each robot the sights of these situations, each sight `times` times, and apply a rule to its commands."""
+    """Give each robot the sights of these situations, each sight `times` times, and apply a rule to its commands.
+
+    Without a rule every valid command is allowed.
+    """
 
     def check(examination: Examination) -> dict[str, float]:
         subject, setup = examination.subject, examination.subject.setup()
         asked = 0
-        for name, sight in examination.played().sights.items():
+        for name, sight in examination.played.sights.items():
             robot = subject.start(name, setup)
             try:
                 for situation, made in over_time(situations(sight, setup), setup.time.tick):
@@ -135,12 +135,6 @@ def _ask(act: Callable[[Sight], Command], situation: str, sight: Sight, rule: Ru
     broken = rule(command, sight)
     if broken:
         raise BreachError(f"{situation}: {robot} {broken}")
-
-
-def no_rule(command: Command, sight: Sight) -> str:
-    """Every valid command is allowed."""
-    del command, sight
-    return ""
 
 
 def no_kick_when_stopped(command: Command, sight: Sight) -> str:
