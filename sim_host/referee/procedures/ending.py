@@ -4,6 +4,7 @@ from typing import Any
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
+from sim_host.referee.game.restart import Restart
 from sim_host.referee.procedures import advantage, discipline
 from sim_host.referee.ruling_draft import RulingDraft
 
@@ -11,8 +12,11 @@ RULE = "periods"
 """The name of the rule in the events of a forfeit."""
 
 
-def suspend_play(draft: RulingDraft, phase: Phase, until: float | None) -> None:
-    """Enter a phase without play; it lasts until the timer reaches `until` s, or for good."""
+def suspend_play(draft: RulingDraft, phase: Phase, until: float | None, pending: Restart | None = None) -> None:
+    """Enter a phase without play; it lasts until the timer reaches `until` s, or for good.
+
+    The game clock stands still in it, unless the game is only stopped, for the `pending` restart.
+    """
     advantage.end(draft)
     discipline.show_owed_cards(draft)
     state = draft.state
@@ -21,11 +25,11 @@ def suspend_play(draft: RulingDraft, phase: Phase, until: float | None) -> None:
         side=None,
         spot=None,
         running=False,
-        pending=None,
+        pending=pending,
         set_piece=None,
         proposal=None,
         participation=discipline.for_new_stoppage(state.participation),
-        timing=state.timing.restart_timer(until, runs=False),
+        timing=state.timing.restart_timer(until, runs=None if phase is Phase.STOPPED else False),
     )
 
 

@@ -26,7 +26,8 @@ from sim_host.referee.offence_order import worst_first
 from sim_host.referee.placement.clear_ground import clear_restart
 from sim_host.referee.placement.legal_poses import legal_poses
 from sim_host.referee.placement.positions import is_spot_covered, position_faults
-from sim_host.referee.procedures import advantage, discipline, offences
+from sim_host.referee.procedures import discipline, offences
+from sim_host.referee.procedures.ending import suspend_play
 from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.situation import Situation
 from sim_host.referee.wording import restart_text
@@ -39,20 +40,7 @@ def stop(draft: RulingDraft, rule: str, restart: Restart | None) -> None:
     """Stop the game at once; without a restart, people have to decide how it goes on."""
     follows = f"{restart_text(restart)} follows" if restart is not None else "the referee decides how it goes on"
     draft.add_event(EventKind.STOP, rule, f"STOP; {follows}")
-    advantage.end(draft)
-    discipline.show_owed_cards(draft)
-    state = draft.state
-    draft.state = state._replace(
-        phase=Phase.STOPPED,
-        side=None,
-        spot=None,
-        running=False,
-        pending=restart,
-        set_piece=None,
-        proposal=None,
-        participation=discipline.for_new_stoppage(state.participation),
-        timing=state.timing.restart_timer(draft.book.restarts.stop_to_signal if restart is not None else None),
-    )
+    suspend_play(draft, Phase.STOPPED, draft.book.restarts.stop_to_signal if restart is not None else None, restart)
 
 
 def signal(draft: RulingDraft, restart: Restart) -> None:
