@@ -5,14 +5,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from recordings.container.manifest import EndReason, KeyCount
+from recordings.container.manifest import EndReason, KeyCount, Result
 from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.sequence_tracker import LossCounts
 from schemas.config.number_files import UNVERSIONED
-from schemas.game import Phase, Score
-from schemas.topics import EVENT
 
 CUT_OFF = "cut_off"
 """Stands for the end reason of a recording that its recorder did not finish."""
@@ -96,7 +94,7 @@ class RecordingFacts:
 def facts_of(recording: Recording) -> RecordingFacts:
     """The facts of a recording; of a truncated file they are collected from its messages."""
     manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
-    ending = _ending(recording)
+    ended, ending = _ending(recording)
     start, end = _extent(recording)
     described = setup or config
     teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
@@ -119,11 +117,11 @@ def facts_of(recording: Recording) -> RecordingFacts:
         time=ending.time,
         phase=ending.phase.value if ending.phase is not None else None,
         score=ending.score.plain() if ending.score is not None else None,
-        ended=ending.ended,
-        events=ending.keys.get(EVENT.key, KeyCount()).messages,
-        messages=sum(count.messages for count in ending.keys.values()),
-        lost=sum(count.lost for count in ending.keys.values()),
-        missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
+        ended=ended,
+        events=ending.events,
+        messages=ending.messages,
+        lost=ending.lost,
+        missed_before_start=ending.missed_before_start,
         part=manifest.part,
         made=manifest.made,
         include=manifest.include,
@@ -146,20 +144,11 @@ def _extent(recording: Recording) -> tuple[float, float]:
     return start, max(start, max((channel.end for channel in channels), default=0.0))
 
 
-@dataclass(frozen=True, slots=True)
-class _Ending:
-    ended: str
-    phase: Phase | None
-    score: Score | None
-    tick: int
-    time: float
-    keys: dict[str, KeyCount]
-
-
-def _ending(recording: Recording) -> _Ending:
+def _ending(recording: Recording) -> tuple[str, Result]:
+    """How the recording ended, and its result with the counts of this part."""
     result = recording.result
     if result is not None and result.keys and recording.manifest.part == 1:  # others have the counts of all parts
-        return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
+        return result.ended.value, result.counted(result.keys)
     progress = MatchProgress()
     counts = LossCounts()
     for recorded in recording.messages():
@@ -168,18 +157,10 @@ def _ending(recording: Recording) -> _Ending:
         if recorded.log_ns >= recording.manifest.begins_ns:
             counts.add([received])
     progress.catch_up()
-    keys = counts.counts()
     if result is not None:  # of a repaired file, or a later part
-        return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, keys)
-    state, applied = progress.state, progress.applied
-    return _Ending(
-        ended=EndReason.FULL_TIME.value if progress.finished else CUT_OFF,
-        phase=state.phase if state is not None else None,
-        score=state.score if state is not None else None,
-        tick=applied.tick if applied is not None else -1,
-        time=applied.time if applied is not None else 0.0,
-        keys=keys,
-    )
+        return result.ended.value, result.counted(counts.counts())
+    ended = EndReason.FULL_TIME if progress.finished else EndReason.STOPPED
+    return ended.value if progress.finished else CUT_OFF, progress.result(ended, "", counts.counts())
 
 
 def _key_facts(recording: Recording, counts: dict[str, KeyCount]) -> Iterator[KeyFacts]:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from recordings.container.applied_changes import changes_in
+from recordings.container.manifest import EndReason, KeyCount, Result
 from schemas.bus.contract import ReceivedMessage
 from schemas.config.roster import RosterEntry
 from schemas.game import EventKind, Phase
@@ -59,6 +60,20 @@ class MatchProgress:
         if self._newest_applied is not None:
             self.applied = self.read(self._newest_applied) or self.applied
             self._newest_applied = None
+
+    def result(self, ended: EndReason, finished: str, keys: dict[str, KeyCount]) -> Result:
+        """The result of a recording with these counts that ends now; `finished` is the wall time."""
+        state, applied = self.state, self.applied
+        result = Result(
+            ended=ended,
+            finished=finished,
+            phase=state.phase if state is not None else None,
+            score=state.score if state is not None else None,
+            clock=state.clock if state is not None else 0.0,
+            tick=applied.tick if applied is not None else -1,
+            time=applied.time if applied is not None else 0.0,
+        )
+        return result.counted(keys)
 
     def read(self, received: ReceivedMessage) -> Any:
         """The message, or None if it is invalid."""

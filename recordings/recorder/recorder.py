@@ -254,19 +254,8 @@ class Recorder:
 
     def _make_result(self, ended: EndReason) -> Result:
         """The result of the recording so far."""
-        state, applied = self._match.state, self._match.applied
-        result = Result(
-            ended=ended,
-            finished=timestamp(self._clock),
-            phase=state.phase if state is not None else None,
-            score=state.score if state is not None else None,
-            clock=state.clock if state is not None else 0.0,
-            tick=applied.tick if applied is not None else -1,
-            time=applied.time if applied is not None else 0.0,
-            unreadable=self._unreadable(),
-            lost_batches=self._batches.lost,
-        )
-        return result.counted(self._sink.loss_counts.counts())
+        result = self._match.result(ended, timestamp(self._clock), self._sink.loss_counts.counts())
+        return result.replace(unreadable=self._unreadable(), lost_batches=self._batches.lost)
 
     def _unreadable(self) -> dict[str, int]:
         """Key → payloads that could not be read."""
