@@ -7,7 +7,7 @@ extent.
 
 from typing import Any
 
-from schemas.access.accounts import ACCOUNTS, Account
+from schemas.access.accounts import ACCOUNTS
 from schemas.access.rights import Rights, Robots
 from schemas.tokens import PresenceKind
 from schemas.topics import ALIVE, key_prefix
@@ -23,10 +23,10 @@ def access_rules(match: str, robots: Robots) -> dict[str, Any]:
     return {
         "enabled": True,
         "default_permission": "deny",
-        "rules": [rule for of_account in rules.values() for rule in of_account],
+        "rules": [one for of_account in rules.values() for one in of_account],
         "subjects": [{"id": account.value, "usernames": [account.value]} for account in ACCOUNTS],
         "policies": [
-            {"rules": [rule["id"] for rule in of_account], "subjects": [account.value]}
+            {"rules": [one["id"] for one in of_account], "subjects": [account.value]}
             for account, of_account in rules.items()
         ],
     }
@@ -51,17 +51,16 @@ def _rules_of(match: str, rights: Rights) -> list[dict[str, Any]]:
         ("sees tokens", "egress", ("liveliness_token",), [*rights.sees, *caches]),
     )
     account, prefix = rights.account, key_prefix(match)
-    rules = [
-        _rule(account, name, flow, messages, [prefix + key for key in keys]) for name, flow, messages, keys in rows
-    ]
+    rules = [rule(account, name, flow, messages, [prefix + key for key in keys]) for name, flow, messages, keys in rows]
     any_host = key_prefix("*") + ALIVE.fill(kind=PresenceKind.HOST)
-    rules.append(_rule(account, "finds the match", "ingress", ("liveliness_query",), [any_host]))
-    return [rule for rule in rules if rule["key_exprs"]]
+    rules.append(rule(account, "finds the match", "ingress", ("liveliness_query",), [any_host]))
+    return [one for one in rules if one["key_exprs"]]
 
 
-def _rule(account: Account, name: str, flow: str, messages: tuple[str, ...], keys: list[str]) -> dict[str, Any]:
+def rule(subject: str, name: str, flow: str, messages: tuple[str, ...], keys: list[str]) -> dict[str, Any]:
+    """One rule, which allows a subject these messages on these keys."""
     return {
-        "id": f"{account.value} {name}",
+        "id": f"{subject} {name}",
         "permission": "allow",
         "flows": [flow],
         "messages": list(messages),

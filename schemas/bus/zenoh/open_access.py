@@ -6,7 +6,7 @@ answering in its place, keys with wildcards, and keys of no topic.
 
 from typing import Any
 
-from schemas.access.access_rules import access_rules
+from schemas.access.access_rules import access_rules, rule
 from schemas.access.rights import Robots
 from schemas.tokens import PresenceKind
 from schemas.topics import ALIVE, CLAIM, key_prefix
@@ -16,28 +16,14 @@ _ANYBODY = "anybody"
 
 def open_access(match: str, robots: Robots) -> dict[str, Any]:
     """The `access_control` section of a host without credentials, for a match with these robots."""
-    prefix = key_prefix(match)
-    extra = [
-        _rule("claims a robot", "ingress", "query", prefix + CLAIM.key),
-        _rule("receives the reply to a claim", "egress", "reply", prefix + CLAIM.key),
-        _rule("knows who decides claims", "egress", "declare_queryable", prefix + CLAIM.key),
-        _rule("declares a session", "ingress", "liveliness_token", prefix + ALIVE.fill(kind=PresenceKind.SESSION)),
+    section, prefix = access_rules(match, robots), key_prefix(match)
+    claims, sessions = [prefix + CLAIM.key], [prefix + ALIVE.fill(kind=PresenceKind.SESSION)]
+    rules = [
+        *section["rules"],
+        rule(_ANYBODY, "claims a robot", "ingress", ("query",), claims),
+        rule(_ANYBODY, "receives the reply to a claim", "egress", ("reply",), claims),
+        rule(_ANYBODY, "knows who decides claims", "egress", ("declare_queryable",), claims),
+        rule(_ANYBODY, "declares a session", "ingress", ("liveliness_token",), sessions),
     ]
-    rules = [*access_rules(match, robots)["rules"], *extra]
-    return {
-        "enabled": True,
-        "default_permission": "deny",
-        "rules": rules,
-        "subjects": [{"id": _ANYBODY}],
-        "policies": [{"rules": [rule["id"] for rule in rules], "subjects": [_ANYBODY]}],
-    }
-
-
-def _rule(name: str, flow: str, message: str, key: str) -> dict[str, Any]:
-    return {
-        "id": f"{_ANYBODY} {name}",
-        "permission": "allow",
-        "flows": [flow],
-        "messages": [message],
-        "key_exprs": [key],
-    }
+    policies = [{"rules": [one["id"] for one in rules], "subjects": [_ANYBODY]}]
+    return section | {"rules": rules, "subjects": [{"id": _ANYBODY}], "policies": policies}
