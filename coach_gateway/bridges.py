@@ -117,17 +117,17 @@ def services_of(
     live = LiveMatch(bus)
     services: list[Service] = [live]
     if ports.udp is not None:
-        services.append(UdpServer(live, tokens.role_of, log, bound=ports.udp))
+        services.append(UdpServer(live, tokens.role_of, log, ports.udp))
     services += [RefBoxClient(live, box, log) for box in wanted.boxes]
     team_states = None
     if wanted.server_addresses:
         box = RefBoxServer(
             live,
             wanted.server_addresses,
+            ports.servers,
             log,
             lambda token: _side_of(tokens, token),
             addresses=wanted.addresses,
-            bound=ports.servers,
         )
         team_states = box.team_states
         services.append(box)

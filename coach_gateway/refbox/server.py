@@ -15,7 +15,7 @@ from typing import Any
 
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, bound_socket
+from coach_gateway.ports import LOOPBACK
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.commands import BoxCommand
@@ -53,21 +53,21 @@ class RefBoxServer:
         self,
         live: LiveMatch,
         server_addresses: Sequence[ServerAddress],
+        bound: Sequence[socket.socket],
         log: Callable[[str], None],
         of_token: Callable[[str], Side | None] = lambda _token: None,
         addresses: Mapping[Side, str] | None = None,
-        bound: Sequence[socket.socket] = (),
     ) -> None:
         """Serves on these server addresses.
 
         Args:
             live: the match.
             server_addresses: where to listen.
+            bound: the socket of each server address.
             log: called with lines for people.
             of_token: the side whose coach has a token.
             addresses: what the sides are called in commands, unless a base station's hello asks for another address;
                 by default their names.
-            bound: the sockets of the server addresses where they are bound already.
         """
         self._live = live
         self._server_addresses, self._bound = server_addresses, bound
@@ -85,17 +85,9 @@ class RefBoxServer:
         live.on_state(self._send_calls)
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Listen until `stop` is set.
-
-        Raises:
-            TouchlineError: a port is taken.
-        """
+        """Listen until `stop` is set."""
         async with contextlib.AsyncExitStack() as stack:
-            sockets = self._bound or [
-                bound_socket("--refbox-server", address.host, address.port, socket.SOCK_STREAM)
-                for address in self._server_addresses
-            ]
-            for address, bound in zip(self._server_addresses, sockets, strict=True):
+            for address, bound in zip(self._server_addresses, self._bound, strict=True):
                 server = await stack.enter_async_context(await self._open(address, bound))
                 self.ports.append(server.sockets[0].getsockname()[1])
                 whom = f"{address.side}'s base station" if address.side is not None else "base stations"

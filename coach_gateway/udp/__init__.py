@@ -2,6 +2,3 @@
 
 The paper's coach sent datagrams that only one robot could receive; here each order goes to every robot of its side.
 """
-
-DEFAULT_PORT = 28090
-"""Chosen for this project, below the league's ports, which begin at 28097."""

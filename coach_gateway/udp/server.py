@@ -8,10 +8,8 @@ from typing import Any
 from coach_gateway.access.rights import sides_shown
 from coach_gateway.access.roles import Role
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.service import pause
 from coach_gateway.timing import POLL_S, SILENCE_S
-from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
 from coach_gateway.udp.protocol import Ack, BeliefUpdate, BelievedObstacle, EventUpdate, Frame, SessionEnd, SideOrder
@@ -33,17 +31,12 @@ class UdpServer(asyncio.DatagramProtocol):
         live: LiveMatch,
         role_of: Callable[[str], Role | None],
         log: Callable[[str], None],
-        port: int = DEFAULT_PORT,
-        host: str = LOOPBACK,
-        bound: socket.socket | None = None,
+        bound: socket.socket,
     ) -> None:
-        """`role_of` returns the role of a token; `log` is called with lines for people.
-
-        `bound` is the socket where it is bound already, in place of port and host.
-        """
+        """`role_of` returns the role of a token; `log` is called with lines for people; `bound` is the socket."""
         self._live = live
         self._log = log
-        self._at, self._bound = (host, port), bound
+        self._bound = bound
         self._coaches = CoachPrograms(role_of, log)
         self._transport: asyncio.DatagramTransport | None = None
         self._full = False
@@ -53,14 +46,9 @@ class UdpServer(asyncio.DatagramProtocol):
         """Where it listens, once it does."""
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Receive datagrams of coach programs and send them frames until `stop` is set.
-
-        Raises:
-            TouchlineError: the port is taken.
-        """
-        bound = self._bound or bound_socket("--udp", *self._at, socket.SOCK_DGRAM)
+        """Receive datagrams of coach programs and send them frames until `stop` is set."""
         loop = asyncio.get_running_loop()
-        transport, _ = await loop.create_datagram_endpoint(lambda: self, sock=bound)
+        transport, _ = await loop.create_datagram_endpoint(lambda: self, sock=self._bound)
         self._transport = transport
         host, self.port = transport.get_extra_info("sockname")[:2]
         self._log(f"coach programs over UDP on {host}:{self.port}")

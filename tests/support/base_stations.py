@@ -2,10 +2,12 @@
 
 import asyncio
 import json
+import socket
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
 
+from coach_gateway.ports import bound_socket
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from schemas.game import Phase
 from schemas.side import Side
@@ -80,7 +82,9 @@ async def boxed(
 ) -> AsyncIterator[Boxed]:
     """A box that listens at these addresses; `settings` are its own."""
     async with opened(**NAMES | (names or {})) as bench:
-        box = RefBoxServer(bench.live, server_addresses or (ServerAddress(0),), bench.logged.append, **settings)
+        addresses = server_addresses or (ServerAddress(0),)
+        bound = [bound_socket("--refbox-server", one.host, one.port, socket.SOCK_STREAM) for one in addresses]
+        box = RefBoxServer(bench.live, addresses, bound, bench.logged.append, **settings)
         bench.start(box)
         await until(lambda: len(box.ports) == max(1, len(server_addresses)))
         scene = Boxed(bench, box)

@@ -2,12 +2,14 @@
 
 import asyncio
 import json
+import socket
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
 
 import pytest
 
+from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from schemas.game import ActionName, Phase
@@ -124,7 +126,8 @@ async def test_a_team_of_the_league_receives_the_match_that_our_referee_officiat
     """By itself: kick-off, START, and a stall that is dropped."""
 
     async with kicked_off(rules="friendly") as bench:
-        box = RefBoxServer(bench.live, [ServerAddress(0, Side.MAGENTA)], bench.logged.append)
+        bound = bound_socket("--refbox-server", LOOPBACK, 0, socket.SOCK_STREAM)
+        box = RefBoxServer(bench.live, [ServerAddress(0, Side.MAGENTA)], [bound], bench.logged.append)
         bench.start(box)
         await until(lambda: box.ports)
         reader, writer = await asyncio.open_connection("127.0.0.1", box.ports[0])

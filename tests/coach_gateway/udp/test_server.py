@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from coach_gateway.access.tokens import Tokens
+from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.udp import session as session_module
 from coach_gateway.udp.server import UdpServer
 from schemas.game import Phase, Point
@@ -64,7 +65,9 @@ class Program(asyncio.DatagramProtocol):
 async def served(real: bool = False) -> Any:
     """Coach programs beside a host, which is a real one if that is wanted, and a way to have programs come."""
     async with (kicked_off if real else opened)() as bench:
-        server = UdpServer(bench.live, TOKENS.role_of, bench.logged.append, port=0)
+        server = UdpServer(
+            bench.live, TOKENS.role_of, bench.logged.append, bound_socket("--udp", LOOPBACK, 0, socket.SOCK_DGRAM)
+        )
         bench.start(server)
         await until(lambda: server.port)
         programs: list[Program] = []
