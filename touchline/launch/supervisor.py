@@ -7,30 +7,14 @@ import signal
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 from robot_agent.settings import FIRST_SIGHT_FAILED
 from schemas.config.settings_file import WRONG
 from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
+from touchline.launch.child_process import ChildProcess
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.timing import WATCH_S
-
-
-class RunningProcess(Protocol):
-    """A launched process, such as `touchline.launch.child_process.ChildProcess`."""
-
-    def status(self) -> int | None:
-        """Exit status, negative for a signal; None while running."""
-
-    def send(self, number: signal.Signals) -> None:
-        """Send a signal, unless the process has ended."""
-
-    def last_lines(self, count: int = 5) -> list[str]:
-        """The last lines of the log."""
-
-    def breach(self) -> str:
-        """What it did beyond its limits, with the remedy, if it has ended for that; empty if not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,11 +72,11 @@ _LEFT_EARLY = "ended with status 0 before the match was over; a robot's program 
 class Supervisor:
     """The processes of one match, from launch to end."""
 
-    def __init__(self, processes: Sequence[Process], launch: Callable[[Process], RunningProcess], clock: Clock) -> None:
+    def __init__(self, processes: Sequence[Process], launch: Callable[[Process], ChildProcess], clock: Clock) -> None:
         self._processes = {process.name: process for process in processes}
         self._launch = launch
         self._clock = clock
-        self._running: dict[str, RunningProcess] = {}
+        self._running: dict[str, ChildProcess] = {}
         self._restarts: Counter[str] = Counter()
         self.ended: dict[str, int] = {}
         """Name → exit status of the processes that ended and were not restarted, in the order in which they ended."""
