@@ -26,7 +26,7 @@ from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.launch.processes import MatchPlan, client_processes, host_process
-from touchline.launch.recording_outcome import RecordingOutcome, outcome_of
+from touchline.launch.recording_outcome import outcome_of
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
 from touchline.launch.stop_signals import StopSignals
@@ -218,7 +218,8 @@ class MatchRun:
             # this process may have missed the last messages if it was stalled
             self._match_screen.report(follower, follower.merge_recorded(published_by(self._plan)))
         if status == 0 and follower is not None and follower.finished:
-            return self._result(follower)
+            recording = outcome_of(self._plan, *self._supervisor.failure("recorder"))
+            return MatchResult.of(follower, recording, self._names)
         log = self._supervisor.last_lines("host")
         if status == _WRONG_INPUT and log:
             if not self._has_clients:
@@ -234,10 +235,3 @@ class MatchRun:
         shutil.rmtree(self._plan.folder)
         with suppress(OSError):  # of other matches
             self._plan.folder.parent.rmdir()
-
-    def _result(self, follower: MatchFollower) -> MatchResult:
-        """The result, which does not depend on what became of the recording."""
-        return replace(MatchResult.of(follower, self._recording()), names=self._names)
-
-    def _recording(self) -> RecordingOutcome:
-        return outcome_of(self._plan, *self._supervisor.failure("recorder"))

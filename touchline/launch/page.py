@@ -13,7 +13,8 @@ from coach_gateway.web.settings import WebSettings, need_web
 from schemas.process.clock import Clock
 from touchline.cli.option_groups import from_options
 from touchline.launch.child_process import ChildProcess
-from touchline.launch.processes import TOKENS, Page, page_process
+from touchline.launch.process_table import ProcessKind, library_process
+from touchline.launch.processes import TOKENS, Page
 from touchline.launch.supervisor import AT_ONCE, Notice, Supervisor
 
 
@@ -63,7 +64,7 @@ def serve_page_beside(
         settings = GatewaySettings(
             connect=connect, match=match, credentials=credentials, tokens=tokens, web=page.settings
         )
-        process = page_process(settings, page.listener, folder)
+        process = library_process("page", ProcessKind.PAGE, settings, folder, sockets=(page.listener,))
         supervisor = Supervisor([process], lambda process: ChildProcess(process, folder / "page.log"), clock)
         for line in address_lines(page.settings, tokens):
             log(line)

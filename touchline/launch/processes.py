@@ -89,13 +89,6 @@ class MatchPlan:
         return self.folder / ANNOUNCEMENT
 
     @property
-    def recording_files(self) -> list[Path]:
-        """The parts of the recording that are there."""
-        from recordings.container.parts import parts_of
-
-        return parts_of(self.recording) if self.recording is not None else []
-
-    @property
     def outcome(self) -> Path:
         """The file in which the host leaves the result."""
         return self.folder / OUTCOME
@@ -163,16 +156,11 @@ def client_processes(plan: MatchPlan) -> list[Process]:
     gateway = GatewaySettings(connect=connect, match=match, credentials=operator, tokens=plan.tokens)
     if plan.page is not None:
         settings = gateway.model_copy(update={"web": plan.page.settings, "result": plan.result_folder})
-        processes.append(page_process(settings, plan.page.listener, folder))
+        processes.append(library_process("page", ProcessKind.PAGE, settings, folder, sockets=(plan.page.listener,)))
     if plan.bridges.wanted:
         bridges = gateway.model_copy(update={"bridges": plan.bridges})
         processes.append(library_process("bridges", ProcessKind.BRIDGES, bridges, folder, sockets=plan.bridge_sockets))
     return processes
-
-
-def page_process(settings: GatewaySettings, listener: socket.socket, folder: Path) -> Process:
-    """The program that serves the page of a match, or of a replay."""
-    return library_process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
 def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:

@@ -21,12 +21,8 @@ class RecordingOutcome:
     losses: Mapping[str, int]
     """Key → messages that are missing in it; keys without losses are left out."""
     fault: str = ""
-    """Why it is not whole, and the remedy, in one sentence; empty if it is whole, or if none was asked for."""
-
-    @property
-    def is_whole(self) -> bool:
-        """Whether it has all that the host published and received."""
-        return not self.fault
+    """Why it does not have all that the host published and received, and the remedy, in one sentence; empty if it has,
+    or if none was asked for."""
 
 
 NO_RECORDING = RecordingOutcome(None, {})
@@ -35,10 +31,12 @@ NO_RECORDING = RecordingOutcome(None, {})
 
 def outcome_of(plan: MatchPlan, status: int | None, log: Sequence[str]) -> RecordingOutcome:
     """The outcome after the recorder has ended with this exit status and these last lines of its log."""
+    from recordings.container.parts import parts_of
+
     path = plan.recording
     if path is None:
         return NO_RECORDING
-    parts = plan.recording_files
+    parts = parts_of(path)
     reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
     if status is not None and status < 0:
         reason = f"the recorder {ending(status)}"

@@ -63,7 +63,7 @@ class MatchResult:
     """The teams' names."""
 
     @classmethod
-    def of(cls, follower: MatchFollower, recording: RecordingOutcome) -> "MatchResult":
+    def of(cls, follower: MatchFollower, recording: RecordingOutcome, names: TeamNames) -> "MatchResult":
         """The result from the received messages."""
         return cls(
             score=follower.state.score if follower.state is not None else Score(),
@@ -76,6 +76,7 @@ class MatchResult:
             effective_s=follower.state.effective if follower.state is not None else 0.0,
             robots=follower.state.robots if follower.state is not None else {},
             shoot_out=follower.state.shoot_out if follower.state is not None else None,
+            names=names,
         )
 
     @property
@@ -114,7 +115,7 @@ class MatchResult:
         recording = self.recording
         if recording.path is not None:
             parts.append(Text(f"recording  {recording.path}", no_wrap=True, overflow="ignore"))
-        if recording.losses and recording.is_whole:
+        if recording.losses and not recording.fault:
             losses = dict(recording.losses)
             parts.append(Text(f"messages that did not reach the host: {losses}", style="yellow"))
         return Group(*parts)

@@ -11,12 +11,12 @@ PATH, LOG = Path("runs/a/match.mcap"), Path("runs/a/recorder.log")
 
 
 def test_a_finished_recording_without_losses_is_whole() -> None:
-    assert finished_recording(PATH, {}).is_whole
+    assert not finished_recording(PATH, {}).fault
 
 
 def test_messages_that_did_not_reach_the_host_are_no_fault_of_the_recording() -> None:
     outcome = finished_recording(PATH, {"robot/cyan1/command": 3, "team/cyan/order": 1})
-    assert outcome.is_whole
+    assert not outcome.fault
     assert outcome.losses == {"robot/cyan1/command": 3, "team/cyan/order": 1}
 
 
