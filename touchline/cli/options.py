@@ -99,14 +99,6 @@ class MatchOptions:
             typer.echo(f"note: {note}", err=True)
         return config
 
-    def endpoint(self) -> str | None:
-        """The endpoint to listen on; see `endpoint_of`.
-
-        Raises:
-            TouchlineError: open to other machines without credentials and without `--insecure`.
-        """
-        return endpoint_of(self.listening)
-
 
 def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     """The match of a file, with flags that override its keys (`record__sights` is the key `record.sights`).

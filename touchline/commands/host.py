@@ -4,6 +4,7 @@ from typing import Annotated, Any
 
 import typer
 
+from schemas.bus.settings import check_protected
 from schemas.config.match_parts import Patience
 from sim_host import run
 from sim_host.server.settings import HostSettings
@@ -31,6 +32,6 @@ def host(
     config = match.read(**{f"patience__{key}": value for key, value in waiting.items()})
     if "attendance" not in config.patience.model_fields_set:
         config = config.model_copy(update={"patience": config.patience.model_copy(update={"attendance": ATTENDANCE_S})})
-    match.endpoint()  # checked before the host is loaded
+    check_protected(match.listening)  # checked before the host is loaded
     settings = from_options(HostSettings, config=config, **match.listening.model_dump(), **more)
     raise typer.Exit(run(settings))

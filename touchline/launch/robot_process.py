@@ -26,10 +26,7 @@ def robot_process(
     if settings.credentials is not None:
         confinement = replace(confinement, credentials=settings.credentials.absolute())
     found = {"credentials": confinement.readable_credentials, "launch_folder": settings.launch_folder or Path.cwd()}
-    return replace(_robot_process(settings.model_copy(update=found), side, command, folder), confinement=confinement)
-
-
-def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str], folder: Path) -> Process:
+    settings = settings.model_copy(update=found)
     credentials = str(settings.credentials.resolve()) if settings.credentials is not None else None
     environment = {
         **ROBOT_ENVIRONMENT,
@@ -43,5 +40,6 @@ def _robot_process(settings: AgentSettings, side: Side, command: Sequence[str], 
     given = {name: value for name, value in environment.items() if value is not None}
     if command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(settings.robot, ProcessKind.AGENT, tuple(command), given, restarts)
-    return library_process(settings.robot, ProcessKind.AGENT, settings, folder, given)
+        return Process(settings.robot, ProcessKind.AGENT, tuple(command), given, restarts, confinement=confinement)
+    process = library_process(settings.robot, ProcessKind.AGENT, settings, folder, given)
+    return replace(process, confinement=confinement)
