@@ -1,7 +1,8 @@
 """Display of a running match: one live line on a terminal, otherwise plain lines."""
 
-from types import TracebackType
-from typing import Self, TextIO
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TextIO
 
 from rich.live import Live
 from rich.text import Text
@@ -39,22 +40,13 @@ class Screen:
         self._stream.write(line + "\n")
         self._stream.flush()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        return None
-
 
 class LiveScreen(Screen):
     """One line that is rewritten in place; goals and warnings scroll above it."""
 
-    def __init__(self, stream: TextIO, clock: Clock) -> None:
+    def __init__(self, stream: TextIO, clock: Clock, live: Live) -> None:
         super().__init__(stream, clock)
-        self._console = console(stream)
-        self._live = Live(console=self._console, auto_refresh=False, transient=True)
+        self._live = live
 
     def status(self, line: str) -> None:
         """Rewrite the line."""
@@ -66,22 +58,18 @@ class LiveScreen(Screen):
     def event(self, line: str, *, notable: bool) -> None:
         """Print the highlighted events; the line itself shows the others."""
         if notable:
-            self._console.print(Text(line))
+            self._live.console.print(Text(line))
 
     def warn(self, line: str) -> None:
         """Print above the line, in yellow."""
-        self._console.print(Text(line, style="yellow"))
-
-    def __enter__(self) -> Self:
-        self._live.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._live.stop()
+        self._live.console.print(Text(line, style="yellow"))
 
 
-def screen_for(stream: TextIO, clock: Clock) -> Screen:
-    """The screen for a stream."""
-    return LiveScreen(stream, clock) if stream.isatty() else Screen(stream, clock)
+@contextmanager
+def screen_for(stream: TextIO, clock: Clock) -> Iterator[Screen]:
+    """Yields the screen for a stream."""
+    if not stream.isatty():
+        yield Screen(stream, clock)
+        return
+    with Live(console=console(stream), auto_refresh=False, transient=True) as live:
+        yield LiveScreen(stream, clock, live)

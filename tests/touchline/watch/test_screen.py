@@ -1,7 +1,7 @@
 import io
 
 from support.stepped_clock import SteppedClock
-from touchline.watch.screen import LiveScreen, Screen, screen_for
+from touchline.watch.screen import LiveScreen, screen_for
 
 
 class Terminal(io.StringIO):
@@ -10,13 +10,13 @@ class Terminal(io.StringIO):
 
 
 def test_a_pipe_gets_plain_lines_and_a_terminal_a_live_one() -> None:
-    assert isinstance(screen_for(io.StringIO(), SteppedClock()), Screen)
-    assert isinstance(screen_for(Terminal(), SteppedClock()), LiveScreen)
+    with screen_for(io.StringIO(), SteppedClock()) as plain, screen_for(Terminal(), SteppedClock()) as live:
+        assert isinstance(live, LiveScreen) and not isinstance(plain, LiveScreen)
 
 
 def test_plain_status_lines_come_every_five_seconds_and_events_at_once() -> None:
     out, clock = io.StringIO(), SteppedClock()
-    with Screen(out, clock) as screen:
+    with screen_for(out, clock) as screen:
         for second in range(11):
             clock.sleep_until(float(second))
             screen.status(f"status at {second}")
@@ -30,7 +30,7 @@ def test_plain_status_lines_come_every_five_seconds_and_events_at_once() -> None
 
 def test_a_terminal_shows_notable_events_above_the_live_line_and_leaves_no_status_behind() -> None:
     out, clock = Terminal(), SteppedClock()
-    with LiveScreen(out, clock) as screen:
+    with screen_for(out, clock) as screen:
         screen.status("1:00 cyan 0 : 0 magenta")
         screen.event("goal by cyan3", notable=True)
         screen.event("STOP", notable=False)
