@@ -39,7 +39,7 @@ def run(settings: AgentSettings) -> int:
 
     brain: Brain | None = None
     try:
-        client = open_when_there(connect, clock, settings.patience, _report)
+        client = open_when_there(connect, clock, settings.patience, log_line)
         assert client is not None  # a wait that nothing stops
         with client as bus:
 
@@ -62,10 +62,6 @@ def run(settings: AgentSettings) -> int:
         return 0
     finally:
         end_robot(brain)
-
-
-def _report(line: str) -> None:
-    log_line(line)
 
 
 def _end(number: int, frame: FrameType | None) -> None:

@@ -38,18 +38,6 @@ class Runner:
         self._stamp = Stamp(0, 0, 0)
         """Of the last answer."""
 
-    def answer_next(self, timeout: float | None) -> bool:
-        """Answer the newest sight, waiting up to `timeout` s for one (None: for ever); returns whether there was one.
-
-        Raises:
-            BrainError: the brain raised, or returned no command.
-        """
-        sight = self.next_sight(timeout)
-        if sight is None:
-            return False
-        self.answer(sight)
-        return True
-
     def next_sight(self, timeout: float | None) -> Sight | None:
         """The newest sight, waiting up to `timeout` s for one (None: for ever)."""
         payload = self._sights.receive_payload(timeout)

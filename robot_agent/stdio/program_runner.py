@@ -1,18 +1,12 @@
 """Runs one program of lines on the bus, as `robot_agent.runner.Runner` runs a brain."""
 
-from robot_agent.contract import Brain
 from robot_agent.runner import Runner
 from robot_agent.stdio.program import StdioProgram
-from schemas.bus.contract import Bus
 from schemas.messages.sight import Sight
 
 
 class ProgramRunner(Runner):
     """Passes each sight to a program, and its answers to the host. A slow program does not keep the agent waiting."""
-
-    def __init__(self, bus: Bus, brain: Brain, robot: str) -> None:
-        super().__init__(bus, brain, robot)
-        assert isinstance(brain, StdioProgram)
 
     def answer(self, sight: Sight) -> None:
         """Send the commands that the program writes within a while; a repeated sight gets the same

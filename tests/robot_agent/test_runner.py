@@ -11,6 +11,7 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.topics import COMMAND, SETUP, SIGHT
+from support.answers import answer_next
 from support.stepped_clock import SteppedClock
 
 
@@ -48,7 +49,7 @@ def played(seats):
 def test_a_sight_is_answered_with_the_brains_command(played, sight_of):
     sights, commands, runner = played
     sights.put(sight_of(4))
-    assert runner.answer_next(0.0)
+    assert answer_next(runner)
     received = commands.receive()
     assert received.key == "robot/cyan2/command"
     assert received.message() == Command(answers_tick=4, drive=Drive(vx=0.1))
@@ -57,7 +58,7 @@ def test_a_sight_is_answered_with_the_brains_command(played, sight_of):
 def test_a_command_is_stamped_with_the_simulated_time_of_its_sight(played, sight_of):
     sights, commands, runner = played
     sights.put(sight_of(50))
-    runner.answer_next(0.0)
+    answer_next(runner)
     assert commands.receive().stamp.sim_ns == 1_000_000_000
 
 
@@ -65,7 +66,7 @@ def test_a_sight_that_comes_again_gets_the_same_bytes_and_the_brain_is_not_asked
     sights, commands, runner = played
     for _ in range(3):
         sights.put(sight_of(4))
-        assert runner.answer_next(0.0)
+        assert answer_next(runner)
     answers = [commands.receive() for _ in range(3)]
     assert len({(answer.payload, answer.stamp) for answer in answers}) == 1  # copies, none of which counts as lost
     assert runner.brain.seen == [4]
@@ -76,37 +77,37 @@ def test_of_sights_that_wait_only_the_newest_is_answered(played, sight_of):
     sights, _, runner = played
     for tick in (1, 2, 3):
         sights.put(sight_of(tick))
-    assert runner.answer_next(0.0)
-    assert not runner.answer_next(0.0)
+    assert answer_next(runner)
+    assert not answer_next(runner)
     assert runner.brain.seen == [3]
 
 
 def test_the_sights_of_another_robot_are_not_answered(seats, played, sight_of):
     _, _, runner = played
     seats[0].publisher(SIGHT, robot="cyan3").put(sight_of(1, "cyan3"))
-    assert not runner.answer_next(0.0)
+    assert not answer_next(runner)
 
 
 def test_a_payload_that_is_no_sight_is_counted_and_skipped(played, sight_of, capsys):
     sights, commands, runner = played
     for payload in (b"{", b'{"tick":1}', b"\xff"):
         sights.put_payload(payload)
-        assert not runner.answer_next(0.0)
+        assert not answer_next(runner)
     assert runner.invalid == 3
     assert commands.receive() is None
     assert capsys.readouterr().err.count("\n") == 1
     sights.put(sight_of(5))
-    assert runner.answer_next(0.0)
+    assert answer_next(runner)
 
 
 def test_after_forgetting_an_equal_tick_is_a_new_sight(played, sight_of):
     sights, _, runner = played
     sights.put(sight_of(0))
-    runner.answer_next(0.0)
+    answer_next(runner)
     fresh = Counting()
     runner.restart(fresh)
     sights.put(sight_of(0))
-    assert runner.answer_next(0.0)
+    assert answer_next(runner)
     assert (fresh.seen, runner.repeated) == ([0], 0)
 
 

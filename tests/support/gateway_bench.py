@@ -19,6 +19,7 @@ from schemas.side import Side
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
+from support.answers import answer_next
 from support.fake_host import MATCH, FakeHost
 from support.stepped_clock import SteppedClock
 
@@ -69,7 +70,7 @@ class Pitch:
 
     def _answer(self) -> None:
         for runner in self._runners:
-            runner.answer_next(0.0)
+            answer_next(runner)
 
     async def serve(self, stop: asyncio.Event) -> None:
         self.host.wait_for_all()

@@ -20,6 +20,7 @@ from schemas.topic import Topic
 from schemas.topics import APPLIED, EVENT, HEALTH, RECORDER_PROGRESS, WORLD
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
+from support.answers import answer_next
 from support.lossy_medium import LossyMedium
 from support.stepped_clock import SteppedClock
 
@@ -70,7 +71,7 @@ class Agent:
         if self.frozen:
             return
         if self.thinks_s == 0.0:
-            self.runner.answer_next(0.0)
+            answer_next(self.runner)
             return
         if self._thought is None and (sight := self.runner.next_sight(0.0)) is not None:
             self._thought = now + self.thinks_s, sight

@@ -21,6 +21,7 @@ from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import EVENT, Topic
 from sim_host.server.host import Host
+from support.answers import answer_next
 from support.page_gateway import SOON
 from support.process_story import wait_for
 
@@ -134,5 +135,5 @@ class Match:
 
     def _answer(self) -> None:
         while not self._over.is_set():
-            if not [runner for runner in self._runners if runner.answer_next(0.0)]:
+            if not [runner for runner in self._runners if answer_next(runner)]:
                 time.sleep(0.002)
