@@ -84,11 +84,7 @@ class DriveLimits(NamedTuple):
 
     def capped(self, speed: float | None = None, turn_rate: float | None = None) -> "DriveLimits":
         """The same limits with lower speeds."""
-        return DriveLimits(
-            self.speed if speed is None else min(self.speed, speed),
-            self.turn_rate if turn_rate is None else min(self.turn_rate, turn_rate),
-            self.acceleration,
-            self.deceleration,
-            self.turn_acceleration,
-            self.tick,
+        return self._replace(
+            speed=self.speed if speed is None else min(self.speed, speed),
+            turn_rate=self.turn_rate if turn_rate is None else min(self.turn_rate, turn_rate),
         )
