@@ -11,6 +11,7 @@ from robot_agent.skills.keep_out import Area
 from robot_agent.skills.line_up import line_up
 from robot_agent.skills.turn_to import turn_rate
 from schemas.config.rule_book import Restarts
+from schemas.config.sections import Pitch
 from schemas.game import TeamPhase
 from schemas.messages.command import Drive
 from schemas.messages.game import GameView
@@ -35,6 +36,13 @@ def required_distance(phase: TeamPhase, restarts: Restarts) -> float:
     if phase in PENALTIES or phase.theirs:
         return restarts.opponent_distance
     return restarts.teammate_distance if phase.ours else 0.0
+
+
+def before_own_goal(spot: tuple[float, float], pitch: Pitch, distance: float = 1.0) -> tuple[float, float]:
+    """A place `distance` m from the ball toward the own goal; the rules of the phase move it farther away."""
+    dx, dy = -pitch.goal_line - spot[0], -spot[1]
+    away = max(math.hypot(dx, dy), 1e-6)
+    return spot[0] + distance * dx / away, spot[1] + distance * dy / away
 
 
 def legal_place(

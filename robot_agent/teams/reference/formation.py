@@ -7,6 +7,7 @@ from robot_agent.skills.keep_off import inside
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import chance, worth
 from robot_agent.teams.reference.roles import Place, Role
+from robot_agent.teams.set_piece import before_own_goal
 from schemas.config.sections import Pitch
 
 Point = tuple[float, float]
@@ -39,7 +40,8 @@ def places(
     front = front_of(pitch, inset)
     found = [Place(Role.GUARD, _guard(ball, pitch, front, parameters))] if len(robots) > 1 or not attacks else []
     if blocks and not attacks and ball[0] < parameters.blocks_before:
-        place = _before_goal(ball, parameters.block_distance, pitch, front)
+        x, y = before_own_goal(ball, pitch, parameters.block_distance)
+        place = max(-front, x), y
         if all(math.dist(place, other.at) > parameters.defends_apart for other in found):
             found.insert(0, Place(Role.BLOCKER, place))
     if not attacks and ball[0] < parameters.marks_before:
@@ -66,13 +68,6 @@ def _guard(ball: Point, pitch: Pitch, front: float, parameters: Parameters) -> P
     if math.dist((x, y), ball) < room:  # before the penalty area: beside the duel, toward the middle
         y = ball[1] - math.copysign(math.sqrt(room * room - ahead * ahead), ball[1])
     return x, y
-
-
-def _before_goal(ball: Point, distance: float, pitch: Pitch, front: float) -> Point:
-    """`distance` m from the ball toward the own goal."""
-    dx, dy = -pitch.goal_line - ball[0], -ball[1]
-    away = max(math.hypot(dx, dy), 1e-6)
-    return max(-front, ball[0] + distance * dx / away), ball[1] + distance * dy / away
 
 
 def _marks(ball: Point, opponents: Sequence[Point], pitch: Pitch, front: float, parameters: Parameters) -> list[Point]:

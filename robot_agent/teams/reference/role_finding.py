@@ -10,6 +10,7 @@ from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.recovery import home
 from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
+from robot_agent.teams.set_piece import before_own_goal
 from robot_agent.teams.zones import owner_of
 from robot_agent.world_model import WorldBelief
 from schemas.config.rolling import Rolling
@@ -79,7 +80,7 @@ class RoleFinder:
         )
         attacks = self._still_attacks(belief, holder is not None or belief.game.phase.ours or is_first or promised)
         if first == self._me:
-            return Role.ATTACKER, self._before_own_goal(spot)
+            return Role.ATTACKER, before_own_goal(spot, self._setup.pitch)
         others = {name: one for name, one in candidates.items() if name != first}
         shared = share_places(others, self._places(belief, ball, spot, others, attacks=attacks), self._parameters)
         place = shared.get(self._me, Place(Role.GUARD, belief.me[:2]))
@@ -100,7 +101,7 @@ class RoleFinder:
         owner = owner_of(spot, field, self._setup.pitch, self._me if role is Role.ATTACKER else None)
         attacks = self._still_attacks(belief, belief.game.phase.ours)
         if owner == self._me:
-            return Role.ATTACKER, self._before_own_goal(spot)
+            return Role.ATTACKER, before_own_goal(spot, self._setup.pitch)
         numbers = {name: number for number, name in enumerate(self._setup.teams[self._side].robots, 1)}
         others = {
             name: Candidate(Body(*home(numbers[name], self._setup.pitch), 0.0), math.inf, "")
@@ -138,12 +139,6 @@ class RoleFinder:
             inset=self._setup.robot.reach,
             parameters=self._parameters,
         )
-
-    def _before_own_goal(self, spot: Point) -> Point:
-        """A place 1 m from the ball toward the own goal; the rules of the phase move it farther away."""
-        dx, dy = -self._setup.pitch.goal_line - spot[0], -spot[1]
-        away = max(math.hypot(dx, dy), 1e-6)
-        return spot[0] + dx / away, spot[1] + dy / away
 
 
 def _is_away(belief: WorldBelief, name: str) -> bool:

@@ -13,7 +13,7 @@ from robot_agent.teams.action import Action
 from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
-from robot_agent.teams.set_piece import legal_place, stand, step_in, wait_behind
+from robot_agent.teams.set_piece import before_own_goal, legal_place, stand, step_in, wait_behind
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
 from robot_agent.teams.simple.striker import SHOT_ERROR, StrikerSituation, is_pressed, play_ball
@@ -90,7 +90,7 @@ class Simple(Player):
         else:
             striker = striker_of(candidates, ball, self.rolling, self._gap, self.limits)
         if striker == me:
-            return Role.STRIKER, self._before_own_goal(spot)
+            return Role.STRIKER, before_own_goal(spot, self.setup.pitch)
         del candidates[striker]
         formation = places(spot, self.setup.pitch, self._reach, max(1, len(candidates)))
         role = share_places(candidates, formation).get(me, Role.DEFENDER)
@@ -101,7 +101,7 @@ class Simple(Player):
         me, plays = self.briefing.robot, self.briefing.robot if self._role is Role.STRIKER else None
         owner = owner_of(spot, field, self.setup.pitch, plays)
         if owner == me:
-            return Role.STRIKER, self._before_own_goal(spot)
+            return Role.STRIKER, before_own_goal(spot, self.setup.pitch)
         others = [name for name in field if name != owner]
         return places(spot, self.setup.pitch, self._reach, len(others))[others.index(me)]
 
@@ -135,10 +135,10 @@ class Simple(Player):
     def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
         """Hold the role's place; the defender leaves it for an opponent with the ball."""
         if self._role is Role.DEFENDER and self._is_threat(belief, spot):
-            return Action(self._role, "block", self._stand(belief, self._before_own_goal(spot), spot))
+            return Action(self._role, "block", self._stand(belief, before_own_goal(spot, self.setup.pitch), spot))
         taken = []
         if self._role is not Role.STRIKER and belief.game.phase.theirs:
-            taken = [legal_place(*self._before_own_goal(spot), belief.game, spot, self.setup)]
+            taken = [legal_place(*before_own_goal(spot, self.setup.pitch), belief.game, spot, self.setup)]
         return Action(self._role, "hold", self._stand(belief, place, spot, taken))
 
     def _is_threat(self, belief: WorldBelief, ball: Point) -> bool:
@@ -147,13 +147,9 @@ class Simple(Player):
         return in_play and any(math.dist(ball, opponent) < HAS_IT for opponent in belief.opponents)
 
     def _wait_for_drop(self, belief: WorldBelief, spot: Point) -> Action:
-        return Action(Role.STRIKER, "wait for the drop", self._stand(belief, self._before_own_goal(spot), spot))
-
-    def _before_own_goal(self, spot: Point) -> Point:
-        """A place 1 m from the ball toward the own goal; the rules of the phase move it farther away."""
-        dx, dy = -self.setup.pitch.goal_line - spot[0], -spot[1]
-        away = max(math.hypot(dx, dy), 1e-6)
-        return spot[0] + dx / away, spot[1] + dy / away
+        return Action(
+            Role.STRIKER, "wait for the drop", self._stand(belief, before_own_goal(spot, self.setup.pitch), spot)
+        )
 
     def _stand(self, belief: WorldBelief, place: Point, spot: Point, taken: Sequence[Point] = ()) -> Drive:
         return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits, taken)
