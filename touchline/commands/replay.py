@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from recordings.container.key_selection import KeySelection
 from schemas.access.accounts import Account
 from schemas.access.credentials import account_file, read_host_credentials
 from schemas.access.protection import Protection
@@ -139,7 +138,7 @@ def replay(
         loop=loop,
         paused=paused,
         stay=stay or web or foxglove,
-        selection=KeySelection(tuple(include or ()), tuple(exclude or ())),
+        selection=options.selection(include, exclude),
         follow=follow,
         behind=behind,
     )
