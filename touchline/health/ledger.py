@@ -95,33 +95,32 @@ class Ledger:
 
 def ledger_of(last: Health, sides: Mapping[str, Side], first: Health | None = None) -> Ledger:
     """The ledger from the report `first`, or from the beginning of the match, to the report `last`."""
-    before = first.robots if first is not None else {}
-    start, tick = (first.time, first.tick) if first is not None else (0.0, 0)
+    first = first or Health(tick=0, time=0.0, pace=last.pace, real_time_factor=0.0)
     budgets = {side: use.budget for side, use in last.radio.items()}
     return Ledger(
-        start=start,
+        start=first.time,
         end=last.time,
-        ticks=last.tick - tick,
+        ticks=last.tick - first.tick,
         pace=last.pace,
         real_time_factor=last.real_time_factor,
-        late_ticks=last.late_ticks - (first.late_ticks if first is not None else 0),
+        late_ticks=last.late_ticks - first.late_ticks,
         worst_tick_ms=last.worst_tick_ms,
         robots=[
             _robot_ledger(
                 name,
                 robot,
-                before.get(name, _NEVER),
-                last.time - start,
+                first.robots.get(name, _NEVER),
+                last.time - first.time,
                 budgets.get(sides[name]) if name in sides else None,
             )
             for name, robot in last.robots.items()
         ],
         accounts=[
-            _account_ledger(name, account, first.accounts.get(name, _NO_ACCOUNT) if first is not None else _NO_ACCOUNT)
+            _account_ledger(name, account, first.accounts.get(name, _NO_ACCOUNT))
             for name, account in last.accounts.items()
         ],
         radio_busiest={side.value: _share(use.busiest, use.budget) for side, use in last.radio.items()},
-        strangers=_increase(last.strangers, first.strangers if first is not None else {}),
+        strangers=_increase(last.strangers, first.strangers),
         recorders=dict(last.recorders),
     )
 
