@@ -20,6 +20,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
+from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -135,7 +136,7 @@ def in_one_process(rounds: int, seconds: float) -> tuple[float, float]:
     with tempfile.TemporaryDirectory() as name, TimedProcesses(1, Path(name)) as executor:
         for planned in planned_matches(rounds + 1, seconds):
             log = Log()
-            with tempfile.TemporaryDirectory() as folder, RunStore(Path(folder)) as store:
+            with tempfile.TemporaryDirectory() as folder, closing(RunStore(Path(folder))) as store:
                 here, began = time.process_time(), time.time()
                 run_plan(ListPlan((planned,)), executor, store, log)
                 here = time.process_time() - here
@@ -180,7 +181,7 @@ def tree_timed(play_planned: Callable[..., Any], folder: str, planned: PlannedMa
 
 def _over_zenoh(config: MatchConfig, executor: TimedProcesses) -> tuple[float, float, float, float, float]:
     """CPU time of all processes of a match; when it began, its first tick and its last, and when it ended."""
-    with tempfile.TemporaryDirectory() as name, RunStore(Path(name)) as store:
+    with tempfile.TemporaryDirectory() as name, closing(RunStore(Path(name))) as store:
         recording = Path(name) / "match.mcap"
         planned = PlannedMatch(config, way=Way.PROCESSES, recording=recording)
         log, began = Log(), time.time()
@@ -208,7 +209,7 @@ def run(matches: list[PlannedMatch], jobs: int) -> tuple[float, Log, list[Timing
         tempfile.TemporaryDirectory() as folder,
         tempfile.TemporaryDirectory() as instants,
         TimedProcesses(jobs, Path(instants)) as executor,
-        RunStore(Path(folder)) as store,
+        closing(RunStore(Path(folder))) as store,
     ):
         began = time.perf_counter()
         run_plan(ListPlan(tuple(matches)), executor, store, log)
@@ -253,11 +254,11 @@ def resume(matches: int, seconds: float) -> None:
     """Print how long it takes to read the outcomes of a run that is resumed."""
     played = play(PlannedMatch(match_of(1, seconds)))
     with tempfile.TemporaryDirectory() as folder:
-        with RunStore(Path(folder)) as store:
+        with closing(RunStore(Path(folder))) as store:
             for number in range(matches):
                 store.add(replace(played, identity=hashlib.sha256(bytes(str(number), "ascii")).hexdigest()[:32]))
         began, used = time.perf_counter(), time.process_time()
-        with RunStore(Path(folder)) as store:
+        with closing(RunStore(Path(folder))) as store:
             outcomes = store.outcomes()
             read, cpu = time.perf_counter() - began, time.process_time() - used
             began = time.perf_counter()

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator
 from concurrent.futures import Executor
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -57,7 +58,7 @@ def verify_cup(
         TouchlineError: the folder has no cup.
     """
     folder = folder.absolute()
-    with RunStore(folder, read_only=True) as store:
+    with closing(RunStore(folder, read_only=True)) as store:
         plan, outcomes = stored_plan(store), store.outcomes()
     if plan is None:
         raise TouchlineError(f"{folder}: its cup has not begun; nothing can be verified")

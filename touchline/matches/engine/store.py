@@ -4,8 +4,6 @@ import fcntl
 import os
 import sqlite3
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from schemas.errors import TouchlineError
 from touchline.matches.engine.outcome import FailureKind, Outcome, from_json, to_json
@@ -82,11 +80,3 @@ class RunStore:
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()

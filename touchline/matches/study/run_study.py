@@ -4,6 +4,7 @@ import json
 import shutil
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -58,7 +59,7 @@ def run_study(
         (folder / FILE).unlink(missing_ok=True)
     write_plan(folder, plan)
     (folder / VERSIONS).write_text(as_text(versions(engine)), "utf-8")
-    with RunStore(folder) as store:
+    with closing(RunStore(folder)) as store:
         _check_code(store, code)
 
         def told(planned: PlannedMatch, outcome: Outcome) -> str:

@@ -47,7 +47,7 @@ def test_a_cup_whose_folder_was_moved_is_verified(cup: Path) -> None:
 
 
 def test_a_stored_result_that_was_changed_is_named_with_its_match_and_the_table(cup: Path, undisturbed: Path) -> None:
-    with RunStore(cup) as store:
+    with closing(RunStore(cup)) as store:
         outcome = store.outcomes()[identity_of(cup, "league 3", undisturbed)]
         assert isinstance(outcome, Played)
         sides = {side: replace(figures, goals=7) for side, figures in outcome.figures.sides.items()}
@@ -97,6 +97,6 @@ def test_files_of_a_team_that_have_changed_are_a_fault_and_absent_ones_a_note(tm
 def test_a_failed_match_whose_evidence_is_gone_is_named(tmp_path: Path) -> None:
     with closing(mini_cup(tmp_path)) as run:
         (first, *_) = run.plan.due({})
-    with RunStore(tmp_path / "out") as store:
+    with closing(RunStore(tmp_path / "out")) as store:
         store.add(Failed(first.identity, FailureKind.CRASHED, "no ball", Side.CYAN, "logs/league_1/traceback.txt"))
     assert "league 1: its evidence logs/league_1/traceback.txt is gone" in verified(tmp_path / "out").faults

@@ -7,6 +7,7 @@ import signal
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -70,7 +71,7 @@ def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_
         (ThreadPoolExecutor(2), True),
     ]
     for number, (executor, is_remote) in enumerate(executors):
-        with executor, RunStore(tmp_path / str(number)) as store:
+        with executor, closing(RunStore(tmp_path / str(number))) as store:
             results.append(bytes_of(run_plan(plan, executor, store, Log(), is_remote=is_remote)))
     assert all(result == results[0] for result in results)
     assert len(results[0]) == 2
@@ -78,7 +79,7 @@ def test_all_executors_give_the_same_bytes(match_of: MatchOf, folder: Path, tmp_
 
 def test_recordings_of_other_machines_come_back(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     plan = ListPlan(tuple(matches(match_of, folder, 1, tmp_path / "recordings")))
-    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path) as store:
+    with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path)) as store:
         (outcome,) = run_plan(plan, executor, store, Log(), is_remote=True).values()
     assert isinstance(outcome, Played)
     assert outcome.recording == "recordings/1.mcap"
@@ -109,9 +110,9 @@ def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, t
     few, all_of_them = (ListPlan(tuple(matches(match_of, folder, number))) for number in (2, 4))
     log = Log()
     with ThreadPoolExecutor(1) as executor:
-        with RunStore(tmp_path) as store:
+        with closing(RunStore(tmp_path)) as store:
             run_plan(few, executor, store, Log())
-        with RunStore(tmp_path) as store:
+        with closing(RunStore(tmp_path)) as store:
             outcomes = run_plan(all_of_them, executor, store, log)
     assert log.ended_labels == ["seed 3", "seed 4"]
     assert len(outcomes) == 4
@@ -140,7 +141,7 @@ def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
     one, other = matches(match_of, folder, 2)
-    with RunStore(tmp_path) as store:
+    with closing(RunStore(tmp_path)) as store:
         store.add(Failed(one.identity, FailureKind.WORKER, "no disk"))
         store.add(Failed(other.identity, FailureKind.CRASHED, "no idea", Side.CYAN))
         log = Log()
@@ -213,14 +214,14 @@ def test_equal_matches_in_a_plan_are_refused(match_of: MatchOf, folder: Path) ->
 
 
 def test_two_processes_do_not_play_the_same_run(tmp_path: Path) -> None:
-    with RunStore(tmp_path), pytest.raises(TouchlineError, match="another process plays this run"):
+    with closing(RunStore(tmp_path)), pytest.raises(TouchlineError, match="another process plays this run"):
         RunStore(tmp_path)
     RunStore(tmp_path).close()
 
 
 def _play_in_child(plan: ListPlan, folder: Path) -> None:
     os.setpgrp()
-    with ThreadPoolExecutor(1) as executor, RunStore(folder) as store:
+    with ThreadPoolExecutor(1) as executor, closing(RunStore(folder)) as store:
         run_plan(plan, executor, store, Log())
 
 
@@ -229,7 +230,7 @@ def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
 ) -> None:
     """Killed 8 times, each time a random while after it has begun, and resumed."""
     plan = ListPlan(tuple(matches(match_of, folder, 4)))
-    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path / "undisturbed") as store:
+    with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path / "undisturbed")) as store:
         wanted = bytes_of(run_plan(plan, executor, store, Log()))
     draw = random.Random(7)
     context = multiprocessing.get_context("fork")
@@ -240,7 +241,7 @@ def test_a_run_that_is_killed_at_any_instant_ends_as_an_undisturbed_one(
         if child.pid is not None and child.is_alive():
             os.kill(child.pid, signal.SIGKILL)
         child.join()
-    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path / "killed") as store:
+    with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path / "killed")) as store:
         assert bytes_of(run_plan(plan, executor, store, Log())) == wanted
 
 
@@ -248,7 +249,7 @@ def test_a_run_is_verified_and_the_match_that_does_not_fit_is_named(
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
     planned = matches(match_of, folder, 3, tmp_path / "recordings")
-    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path) as store:
+    with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path)) as store:
         outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
         assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
         (tmp_path / "recordings" / "2.mcap").write_bytes((tmp_path / "recordings" / "3.mcap").read_bytes())
@@ -261,7 +262,7 @@ def test_a_match_without_a_recording_is_verified_by_playing_it_again(
     match_of: MatchOf, folder: Path, tmp_path: Path
 ) -> None:
     planned = matches(match_of, folder, 1)
-    with ThreadPoolExecutor(1) as executor, RunStore(tmp_path) as store:
+    with ThreadPoolExecutor(1) as executor, closing(RunStore(tmp_path)) as store:
         outcomes = run_plan(ListPlan(tuple(planned)), executor, store, Log())
         assert not [check for check in verify_run(planned, outcomes, tmp_path, executor) if check.faults]
         (identity, played) = next(iter(outcomes.items()))
