@@ -87,18 +87,10 @@ def winner_of_level(result: FixtureResult, earlier: Sequence[FixtureResult], ran
     if result.leader is not None:
         return result.leader
     teams = result.fixture.teams
-    rows = {team: Standing(team) for team in teams}
-    for one in (*earlier, result):
-        both = sums(one.fixture.teams, [one], ranking.points)
-        for team in set(teams) & both.keys():
-            _add(rows[team], both[team])
+    known = (*earlier, result)
+    rows = sums([team for one in known for team in one.fixture.teams], known, ranking.points)
     order = tuple(name for name in ranking.order if name not in (FEWEST_MATCHES, DIRECT))
     return _separated(_Tied(teams, rows, (), ranking), order)[0].team
-
-
-def _add(row: Standing, more: Standing) -> None:
-    for name in ("played", "goals_for", "goals_against", "reds", "yellows"):
-        setattr(row, name, getattr(row, name) + getattr(more, name))
 
 
 def _separated(tied: _Tied, order: Sequence[str]) -> list[Standing]:
