@@ -18,7 +18,7 @@ from schemas.errors import MatchFailedError, TouchlineError
 from schemas.topics import APPLIED
 from touchline.debugger.agent_report import AgentReport
 from touchline.debugger.step_debugger import StepDebugger, examine
-from touchline.verify.compare_brain import BrainComparison, ComparisonSettings, compare_brain, plainly
+from touchline.verify.compare_brain import ComparisonSettings, FirstDifference, compare_brain, plainly
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,16 +84,16 @@ class AgentReplay:
         if verdict.first is None:
             return 0
         if self.pdb and self.start is None:
-            self._stop_before(recording, verdict)
+            self._stop_before(recording, verdict.first)
         elif not self.json:
-            report.print_next_steps(verdict, is_first_only=settings.first_only)
+            more = "; --every-difference goes on after it" if settings.first_only else ""
+            typer.echo(f"--from tick:{verdict.first.tick} --pdb stops before it{more}")
         return 1
 
-    def _stop_before(self, recording: Recording, verdict: BrainComparison) -> None:
+    def _stop_before(self, recording: Recording, first: FirstDifference) -> None:
         """Give the same sights to a new brain, and stop before its first different command."""
-        assert verdict.first is not None
-        tick, moment = verdict.first.tick, verdict.first.time
-        typer.echo(f"a new brain receives the same sights; stopped before tick {tick}")
+        moment = first.time
+        typer.echo(f"a new brain receives the same sights; stopped before tick {first.tick}")
         with self._brain_output():
             again = compare_brain(
                 recording,

@@ -56,12 +56,6 @@ class AgentReport:
             typer.echo(f"{verdict.earlier} earlier sights were given to the brain for its state, without its output")
         typer.echo(verdict.sentence())
 
-    def print_next_steps(self, verdict: BrainComparison, *, is_first_only: bool) -> None:
-        """Print the options that look closer at the first difference."""
-        if verdict.first is not None:
-            more = "; --every-difference goes on after it" if is_first_only else ""
-            typer.echo(f"--from tick:{verdict.first.tick} --pdb stops before it{more}")
-
     def show_tick(self, tick: "TickResult") -> None:
         """Print the events of a live tick."""
         if not self._is_json:
