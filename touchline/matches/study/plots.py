@@ -3,7 +3,7 @@
 import io
 import re
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -78,12 +78,10 @@ def plot_of_comparisons(comparisons: Sequence[Comparison], response: str) -> str
 
 def _draw(axes: Axes, at: Sequence[float], estimates: Sequence[Estimate], colour: str, marker: str, label: str) -> None:
     values = [one.value for one in estimates]
-    bars: Mapping[str, list[float]] = {
-        "low": [one.value - one.low if one.low is not None else 0.0 for one in estimates],
-        "high": [one.high - one.value if one.high is not None else 0.0 for one in estimates],
-    }
+    low = [one.value - one.low if one.low is not None else 0.0 for one in estimates]
+    high = [one.high - one.value if one.high is not None else 0.0 for one in estimates]
     axes.errorbar(
-        at, values, yerr=[bars["low"], bars["high"]], color=colour, marker=marker, capsize=4, linewidth=1.2,
+        at, values, yerr=[low, high], color=colour, marker=marker, capsize=4, linewidth=1.2,
         label=label or None,
     )  # fmt: skip
 
