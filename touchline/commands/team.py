@@ -2,13 +2,14 @@
 
 import shlex
 import sys
+from functools import partial
 from typing import Annotated, Any
 
 import typer
 
 from robot_agent.settings import AgentSettings
 from schemas.access.accounts import Account
-from schemas.config.confinement import Isolation, Limits
+from schemas.config.confinement import Limits
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
@@ -60,11 +61,10 @@ def team(
     settings = from_options(AgentSettings, robot=f"{side}1", brain=brain or "", stdio=program, side=side, **agent)
     own_program = shlex.split(command) if command is not None else None
     own = from_options(TeamConfig, brain=brain, command=own_program, stdio=program or None, **passed)
-    isolate = Isolation(isolation.get("isolate", Isolation.NONE))
-    limited = from_options(Limits, **limits)
+    teams = TeamConfigs(**{side.value: own, side.opponent.value: TeamConfig(remote=True)})
+    config = MatchConfig(teams=teams, limits=from_options(Limits, **limits), **isolation)
     if settings.reload:
-        teams = TeamConfigs(**{side.value: own, side.opponent.value: TeamConfig(remote=True)})
-        check_reload(MatchConfig(teams=teams, isolate=isolate))
+        check_reload(config)
     clock = WallClock()
 
     def connect(patience: float) -> ZenohBus:
@@ -78,10 +78,7 @@ def team(
             any_match=True,
         )
 
-    def report(line: str) -> None:
-        typer.echo(line, err=True)
-
-    bus = open_when_there(connect, clock, settings.patience, report)
+    bus = open_when_there(connect, clock, settings.patience, partial(typer.echo, err=True))
     assert bus is not None  # a wait that nothing stops
     with bus, screen_for(sys.stdout, clock) as screen:
         credentials = settings.credentials or announced_credentials(bus.endpoint, Account.of_team(side))
@@ -89,9 +86,7 @@ def team(
             side=side,
             robots=robot or [],
             agent=settings.model_copy(update={"connect": bus.endpoint, "credentials": credentials}),
-            team=own,
+            config=config,
             folder=new_run_folder(f"{bus.match}-{side}", clock),
-            isolate=isolate,
-            limits=limited,
         )
         TeamRun(plan, bus, screen, clock).play()

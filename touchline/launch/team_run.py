@@ -9,9 +9,8 @@ from robot_agent.claim import Membership
 from robot_agent.runner import ask_setup
 from robot_agent.settings import AgentSettings
 from schemas.bus.contract import Bus
-from schemas.config.confinement import Isolation, Limits
+from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
-from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
 from schemas.process.clock import Clock
 from schemas.side import Side
@@ -38,14 +37,10 @@ class TeamPlan:
     """Robots to launch; empty for all of the side."""
     agent: AgentSettings
     """Settings of each robot, but for its name."""
-    team: TeamConfig
-    """The brain, or the team's own program in place of it, and what its programs get of the environment."""
+    config: MatchConfig
+    """The match as this machine launches it, without its name and the robots: the team, its limits, its isolation."""
     folder: Path
     """Holds settings, logs and working folders of the robots."""
-    isolate: Isolation
-    """What separates the robots from other programs of this machine."""
-    limits: Limits
-    """What each robot may use of this machine."""
 
 
 class TeamRun:
@@ -80,7 +75,7 @@ class TeamRun:
         follower = MatchFollower(self._bus)
         with StopSignals() as stop:
             try:
-                if self._plan.isolate is Isolation.NONE:
+                if self._plan.config.isolate is Isolation.NONE:
                     ROBOTS.prepare()
                 if self._note:
                     self._screen.warn(self._note)
@@ -125,7 +120,9 @@ class TeamRun:
     def _process(self, robot: str) -> Process:
         agent = self._plan.agent.model_copy(update={"robot": robot, "match": self._bus.match, "side": self._plan.side})
         confinement = self._confinement.in_folder(self._plan.folder / robot)
-        program = team_program(self._config, self._plan.side, None) if self._plan.team.command else ()
+        program = (
+            team_program(self._config, self._plan.side, None) if self._config.team(self._plan.side).command else ()
+        )
         return robot_process(agent, self._plan.side, program, self._plan.folder, confinement)
 
     def _log_of(self, robot: str) -> Path:
@@ -136,10 +133,10 @@ class TeamRun:
 
 
 def _config_of(plan: TeamPlan, match: str, robots: Sequence[str]) -> MatchConfig:
-    """The match as this machine launches it: one team, with its limits."""
-    own = plan.team.model_copy(update={"robots": list(robots)})
-    teams = {plan.side.value: own, plan.side.opponent.value: TeamConfig(remote=True)}
-    return MatchConfig(name=match, teams=TeamConfigs(**teams), isolate=plan.isolate, limits=plan.limits)
+    """The match as this machine launches it."""
+    own = plan.config.team(plan.side).model_copy(update={"robots": list(robots)})
+    teams = plan.config.teams.model_copy(update={plan.side.value: own})
+    return plan.config.model_copy(update={"name": match, "teams": teams})
 
 
 def _chosen(plan: TeamPlan, robots: list[str]) -> list[str]:
