@@ -157,11 +157,10 @@ def replay(
         stop = stack.enter_context(StopSignals())  # before any address is printed
         look_after: Callable[[], list[Notice]] = list
         if opened_page is not None:
-            log = partial(typer.echo, err=True)
+            log, credentials = partial(typer.echo, err=True), listening.credentials
+            operator = account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
             look_after = stack.enter_context(
-                serve_page_beside(
-                    name, local_endpoint(bus.endpoint), opened_page, clock, log, _operator_of(listening.credentials)
-                )
+                serve_page_beside(name, local_endpoint(bus.endpoint), opened_page, clock, log, operator)
             )
         view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
         began = clock.now()
@@ -184,12 +183,6 @@ def _protection(opened: "Replay", match: str, credentials: Path | None) -> Prote
     setup = opened.recording.manifest.setup
     robots = {side: setup.teams[side].robots if setup is not None else [] for side in Side}
     return Protection.of(read_host_credentials(credentials), match, robots)
-
-
-def _operator_of(credentials: Path | None) -> Path | None:
-    """The operator's file in the folder of the host's."""
-
-    return account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
 
 
 @contextmanager

@@ -57,8 +57,9 @@ def finished_recording(path: Path, losses: Mapping[str, int]) -> RecordingOutcom
     of_host = {key: count for key, count in losses.items() if _is_of_host(key)}
     if not of_host:
         return RecordingOutcome(path, losses)
+    counts = ", ".join(f"{key} {count}" for key, count in losses.items())
     fault = (
-        f"the recording misses {sum(losses.values())} messages ({_counts(losses)}): "
+        f"the recording misses {sum(losses.values())} messages ({counts}): "
         f"the host no longer kept them when the recorder asked; {path} has all others"
     )
     return RecordingOutcome(path, losses, fault)
@@ -74,7 +75,3 @@ def unfinished_recording(path: Path, left: Sequence[Path], reason: str, log: Pat
 
 def _is_of_host(key: str) -> bool:
     return any(topic.writer is Party.HOST and topic.match(key) is not None for topic in TOPICS.values())
-
-
-def _counts(losses: Mapping[str, int]) -> str:
-    return ", ".join(f"{key} {count}" for key, count in losses.items())

@@ -202,13 +202,10 @@ class NuBot(Player):
 
     def _facing(self, belief: WorldBelief, vx: float, vy: float) -> float | None:
         """The heading with the ball: to the goal on the last metres; before, ahead if driving backward is limited."""
-        if self._is_nearly_there(belief):
+        if math.dist(self._machine.points.dribble, belief.me[:2]) < _TURNS:
             x, y = self._points.goal
             return math.atan2(y - belief.me.y, x - belief.me.x)
         return math.atan2(vy, vx) if self.is_bound_forward else None
-
-    def _is_nearly_there(self, belief: WorldBelief) -> bool:
-        return math.dist(self._machine.points.dribble, belief.me[:2]) < _TURNS
 
     def _take_restart(self, belief: WorldBelief, ball: SeenBall, spot: tuple[float, float]) -> Action:
         """Kick to a teammate that a pass reaches, else ahead, and follow; a penalty with the machine's own kick."""

@@ -64,7 +64,8 @@ class SharedEstimate(WorldModel):
 
     def _with_reports(self, belief: WorldBelief, sight: Sight) -> list[Point]:
         """The own opponents, and those that only teammates see."""
-        same, most = self._parameters.same_robot, len(self._their_robots())
+        theirs = self._briefing.setup.teams[self._briefing.side.opponent].robots
+        same, most = self._parameters.same_robot, len(theirs)
         known = list(belief.opponents)
         ours = [belief.me[:2], *[mate.body[:2] for mate in belief.mates.values()]]
         for received in sorted(sight.radio.values(), key=lambda received: received.age):
@@ -81,9 +82,6 @@ class SharedEstimate(WorldModel):
         """Whether a robot can be there; a teammate of another author may use the same names otherwise."""
         pitch = self._briefing.setup.pitch
         return abs(place[0]) <= pitch.goal_line + pitch.border and abs(place[1]) <= pitch.touch_line + pitch.border
-
-    def _their_robots(self) -> list[str]:
-        return self._briefing.setup.teams[self._briefing.side.opponent].robots
 
 
 def report(opponents: list[Point], me: Point, arrival: float) -> dict[str, float]:

@@ -64,7 +64,7 @@ class Simple(Player):
         if phase.ours:
             return self._take_restart(belief, ball, spot)
         if phase is TeamPhase.DROP_BALL and not belief.game.running:
-            return self._wait_for_drop(belief, spot)
+            return Action(Role.STRIKER, "wait for the drop", self._stand(belief, place, spot))
         if any(mate.intention == CLEAR for mate in belief.mates.values()):
             return self._support(belief, place, spot)
         return self._strike(belief, ball)
@@ -145,11 +145,6 @@ class Simple(Player):
         """Whether an opponent has the ball near our goal."""
         in_play = belief.game.phase is TeamPhase.PLAY and ball[0] < -THREAT * self.setup.pitch.goal_line
         return in_play and any(math.dist(ball, opponent) < HAS_IT for opponent in belief.opponents)
-
-    def _wait_for_drop(self, belief: WorldBelief, spot: Point) -> Action:
-        return Action(
-            Role.STRIKER, "wait for the drop", self._stand(belief, before_own_goal(spot, self.setup.pitch), spot)
-        )
 
     def _stand(self, belief: WorldBelief, place: Point, spot: Point, taken: Sequence[Point] = ()) -> Drive:
         return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits, taken)
