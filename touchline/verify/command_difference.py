@@ -9,8 +9,6 @@ import msgspec
 from schemas.messages.command import Command
 from schemas.wire.faults import hints_of
 
-_WITHOUT_EFFECT = ("debug",)
-"""Fields that a brain under examination may add: no other robot and no host acts on them."""
 _DECIMALS = range(3, 17)
 _LONGEST = 60
 
@@ -34,12 +32,11 @@ class FieldDifference(NamedTuple):
 
 
 def differences(recorded: Command, answered: Command) -> list[FieldDifference]:
-    """The fields in which a command differs from the recorded one; a part that only one of them has is one field."""
-    before, now = recorded.plain(), answered.plain()
-    for name in _WITHOUT_EFFECT:
-        before.pop(name, None)
-        now.pop(name, None)
-    return list(field_differences(before, now))
+    """The fields in which a command differs from the recorded one; a part that only one of them has is one field.
+
+    What a brain under examination draws is left out: no other robot and no host acts on it.
+    """
+    return list(field_differences(recorded.plain("debug"), answered.plain("debug")))
 
 
 def field_differences(recorded: Any, answered: Any, path: str = "") -> Iterator[FieldDifference]:

@@ -1,12 +1,12 @@
 """What a command plays its matches with: an executor that its options ask for, progress on stderr, and Ctrl-C."""
 
+import signal
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import dataclass
 
 from schemas.errors import TouchlineError
-from touchline.cli.interrupts import sigterm_interrupts
 from touchline.matches.engine.dask_cluster import dask_cluster
 from touchline.matches.engine.fresh_process import FreshProcesses, cores
 from touchline.matches.engine.progress import Progress, progress_of
@@ -26,11 +26,13 @@ class Session:
     @contextmanager
     def interruptible(self) -> Iterator[None]:
         """Ctrl-C or SIGTERM ends the block without an exception, and is noted."""
+        before = signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:
-            with sigterm_interrupts():
-                yield
+            yield
         except KeyboardInterrupt:
             self.is_interrupted = True
+        finally:
+            signal.signal(signal.SIGTERM, before)
 
 
 @contextmanager
