@@ -13,6 +13,7 @@ from coach_gateway.match.team_names import TeamNames
 from schemas.access.accounts import Account
 from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError
+from schemas.bus.outcome_file import read_outcome
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
@@ -21,7 +22,6 @@ from schemas.side import Side
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.fork_server import ROBOTS
 from touchline.launch.log_notes import LogWatch
-from touchline.launch.match_files import published_by
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.process_table import Process, ProcessKind
@@ -216,7 +216,7 @@ class MatchRun:
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
             # this process may have missed the last messages if it was stalled
-            self._match_screen.report(follower, follower.merge_recorded(published_by(self._plan)))
+            self._match_screen.report(follower, follower.merge_recorded(read_outcome(self._plan.outcome)))
         if status == 0 and follower is not None and follower.finished:
             recording = outcome_of(self._plan, *self._supervisor.failure("recorder"))
             return MatchResult.of(follower, recording, self._names)

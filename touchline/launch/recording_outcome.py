@@ -4,10 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from schemas.bus.outcome_file import read_outcome
 from schemas.errors import TouchlineError
 from schemas.topic import Party
 from schemas.topics import TOPICS
-from touchline.launch.match_files import losses_of
 from touchline.launch.processes import MatchPlan
 from touchline.launch.supervisor import ending
 
@@ -42,10 +42,26 @@ def outcome_of(plan: MatchPlan, status: int | None, log: Sequence[str]) -> Recor
         reason = f"the recorder {ending(status)}"
     if status == 0 and parts:
         try:
-            return finished_recording(path, losses_of(plan))
+            return finished_recording(path, losses_of(path, plan))
         except TouchlineError as error:
             reason = str(error)
     return unfinished_recording(path, parts, reason, plan.folder / "recorder.log")
+
+
+def losses_of(path: Path, plan: MatchPlan) -> dict[str, int]:
+    """Key → number of messages missing in the recording; keys without loss are left out.
+
+    Raises:
+        TouchlineError: the recording cannot be read, or is not that of the whole match.
+    """
+    from recordings.inspection.recording_facts import facts_of
+    from recordings.reading.recording import open_recording
+
+    facts = facts_of(open_recording(path))
+    last = max((one.message().tick for one in read_outcome(plan.outcome)), default=-1)
+    if facts.tick < last:
+        raise TouchlineError(f"it ends with tick {facts.tick}, the match with tick {last} or a later one")
+    return {key.key: key.lost for key in facts.keys if key.lost}
 
 
 def finished_recording(path: Path, losses: Mapping[str, int]) -> RecordingOutcome:

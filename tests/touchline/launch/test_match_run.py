@@ -96,7 +96,7 @@ class Stage:
         ]
         monkeypatch.setattr(match_run, "host_process", lambda plan: host)
         monkeypatch.setattr(match_run, "client_processes", lambda plan: clients)
-        monkeypatch.setattr(recording_outcome, "losses_of", lambda plan: {"world": 2})
+        monkeypatch.setattr(recording_outcome, "losses_of", lambda *_: {"world": 2})
 
     def play(self, awaited: str = "") -> MatchResult:
         clock = WallClock()
@@ -183,7 +183,7 @@ def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_what_the_ho
         for number, (topic, message) in enumerate([(EVENT, goal), (EVENT, end), (STATE, over)])
     ]
     match = stage(tmp_path, monkeypatch, CUT_SHORT)
-    monkeypatch.setattr(match_run, "published_by", lambda plan: published)
+    monkeypatch.setattr(match_run, "read_outcome", lambda path: published)
     result = match.play()
     assert (result.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
     assert [event.text for event in result.events] == ["goal by cyan3", "full time"]
