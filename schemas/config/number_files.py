@@ -41,10 +41,7 @@ class NumberFiles:
         """
         if name in below:
             raise TouchlineError(f"{name}: extends itself through {' → '.join(below)}; break the circle")
-        try:
-            tables = tomllib.loads(self.text(name))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise TouchlineError(f"{name}: not TOML: {error}") from None
+        tables = self.read(name)
         parent = tables.pop("extends", None)
         if parent is None:
             return tables
@@ -52,12 +49,18 @@ class NumberFiles:
         inherited = {key: value for key, value in base.items() if key not in HEADER}
         return merge_tables(inherited, tables)
 
-    def text(self, name: str) -> str:
-        """The TOML text of one file.
+    def read(self, name: str) -> dict[str, Any]:
+        """The content of one file: of a shipped one by name, or of one from a path that ends in `.toml`.
 
         Raises:
-            TouchlineError: there is no such file.
+            TouchlineError: there is no such file, or it is not TOML.
         """
+        try:
+            return tomllib.loads(self._text(name))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise TouchlineError(f"{name}: not TOML: {error}") from None
+
+    def _text(self, name: str) -> str:
         if name in self.shipped:
             return (resources.files("schemas") / self.folder / f"{name}.toml").read_text("utf-8")
         if not name.endswith(".toml"):

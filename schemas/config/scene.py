@@ -3,19 +3,19 @@
 Everything is in the field frame: m, rad, m/s, rad/s. A scene begins in the first half, with cyan attacking +x.
 """
 
-import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field, StringConstraints, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.drill import Drill, Variation
+from schemas.config.number_files import NumberFiles
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.config.toml_file import validate_tables
-from schemas.errors import TouchlineError, did_you_mean
+from schemas.errors import did_you_mean
 from schemas.game import RESTARTS, SIDED, Phase
 from schemas.side import Side
 from schemas.wire.message import Name
@@ -212,21 +212,6 @@ def load_scene(name: str) -> Scene:
     Raises:
         TouchlineError: there is no such scene, or it is invalid; names file, key, value and remedy.
     """
-    try:
-        content: dict[str, Any] = tomllib.loads(_text(name))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise TouchlineError(f"{name}: not TOML: {error}") from None
+    content = NumberFiles("scene", "scenes", tuple(shipped_scenes())).read(name)
     content.setdefault("name", Path(name).stem)
     return validate_tables(Scene, content, name, REMEDIES)
-
-
-def _text(name: str) -> str:
-    shipped = shipped_scenes()
-    if name in shipped:
-        return (resources.files("schemas") / "scenes" / f"{name}.toml").read_text("utf-8")
-    if not name.endswith(".toml"):
-        raise TouchlineError(f'scene is "{name}"; {did_you_mean(name, shipped)} Or give a path that ends in .toml')
-    try:
-        return Path(name).read_text("utf-8")
-    except OSError as error:
-        raise TouchlineError(f'scene is "{name}": {error.strerror}; give one of {", ".join(shipped)}') from None
