@@ -85,11 +85,12 @@ class MatchFollower:
         self.host_present = False
         """The host is present."""
         self.host_changes = 0
-        """How often another host has taken the place of the one before."""
+        """How often another host has taken the place of the one before; the events begin anew with each."""
         self.state: GameState | None = None
         """The newest state. That of an earlier host stays until the next one has published its own."""
         self.health: Health | None = None
         self.events: list[GameEvent] = []
+        """The events that the host keeps, in order."""
         self.recorders: dict[str, RecorderProgress] = {}
         """Recorder → its newest progress."""
         self.orders = OrderBook()

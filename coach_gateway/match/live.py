@@ -10,7 +10,6 @@ from typing import Any, TypeVar
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
-from coach_gateway.match.orders import OrderBook
 from coach_gateway.match.team_obstacles import TeamObstacle, team_obstacles
 from coach_gateway.service import pause
 from coach_gateway.timing import CATCH_UP_S, HOST_RETRY_S, POLL_S
@@ -18,7 +17,7 @@ from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
 from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachOrder
-from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.radio import Belief
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
@@ -68,7 +67,7 @@ class LiveMatch:
         """Process received messages, without waiting; query the setup where it is not known or has changed."""
         episode = self.state.episode if self.state is not None else None
         news = self.follower.update()
-        came = news.presence_changed and self.host_present  # another host may play another match
+        came = news.presence_changed and self.follower.host_present  # another host may play another match
         if came or news.new_host or news.rewound:
             self._stale = True
         for state in news.states:
@@ -84,29 +83,9 @@ class LiveMatch:
         return self._bus.clock.now()
 
     @property
-    def host_present(self) -> bool:
-        """The host is present."""
-        return self.follower.host_present
-
-    @property
-    def host_changes(self) -> int:
-        """How often another host has taken the place of the one before; the events begin anew with each."""
-        return self.follower.host_changes
-
-    @property
     def state(self) -> GameState | None:
         """The newest state of the game; None before the first."""
         return self.follower.state
-
-    @property
-    def events(self) -> list[GameEvent]:
-        """The events that the host keeps, in order."""
-        return self.follower.events
-
-    @property
-    def orders(self) -> OrderBook:
-        """The active order of each side."""
-        return self.follower.orders
 
     @property
     def world(self) -> World | None:

@@ -242,7 +242,7 @@ class RefBoxClient:
         reason = ""
         while (
             not self._signals.changes_game
-            and self._live.host_present
+            and self._live.follower.host_present
             and self._live.time < until
             and self._waits_for_start()
         ):

@@ -72,7 +72,7 @@ class UdpServer(asyncio.DatagramProtocol):
                 self._log(f"{result.ack.role} program from {addr[0]}:{addr[1]}")
         if result.events_since is not None:
             for number in range(
-                result.events_since, min(len(self._live.events), result.events_since + _EVENTS_AT_ONCE)
+                result.events_since, min(len(self._live.follower.events), result.events_since + _EVENTS_AT_ONCE)
             ):
                 self._send_event(number, addr)
         if result.request is not None:
@@ -110,7 +110,7 @@ class UdpServer(asyncio.DatagramProtocol):
                 number = order.sequence
         except TouchlineError as error:
             return Ack(**ack, accepted=False, reason=str(error))
-        receipts = [self._live.orders.receipt(side, number or 0) for side in request.sides]
+        receipts = [self._live.follower.orders.receipt(side, number or 0) for side in request.sides]
         had = [name for receipt in receipts for name in receipt.acknowledged]
         robots = [name for name, its in self._live.sides.items() if its in request.sides]
         missing = [name for name in robots if name not in had]
@@ -140,11 +140,10 @@ class UdpServer(asyncio.DatagramProtocol):
                 if session.beliefs_sent.get(robot) != belief.time:
                     session.beliefs_sent[robot] = belief.time
                     self._send(BeliefUpdate(number=session.frames, side=side, belief=belief), address)
-        sent = (
-            min(session.events_sent, len(self._live.events)) if session.host_changes == self._live.host_changes else 0
-        )
-        session.host_changes = self._live.host_changes
-        session.events_sent = min(len(self._live.events), sent + _EVENTS_AT_ONCE)
+        match = self._live.follower
+        sent = min(session.events_sent, len(match.events)) if session.host_changes == match.host_changes else 0
+        session.host_changes = match.host_changes
+        session.events_sent = min(len(match.events), sent + _EVENTS_AT_ONCE)
         for number in range(sent, session.events_sent):
             self._send_event(number, address)
 
@@ -156,7 +155,7 @@ class UdpServer(asyncio.DatagramProtocol):
             modes = {side: MatchMode.of_game(phase, running=state.running) for side, phase in phases.items()}
         orders = {}
         for side in own:
-            active = live.orders.active(side)
+            active = live.follower.orders.active(side)
             if active is not None:
                 orders[side] = SideOrder(
                     order=active.order.sequence, acknowledged=active.acknowledged, refused=active.refused
@@ -164,16 +163,16 @@ class UdpServer(asyncio.DatagramProtocol):
         obstacles = {side: [BelievedObstacle(**one._asdict()) for one in live.obstacles(side)] for side in own}
         return Frame(
             number=session.frames,
-            host=live.host_present,
+            host=live.follower.host_present,
             match_mode=modes,
             state=state,
-            events=len(live.events),
+            events=len(live.follower.events),
             orders=orders,
             obstacles=obstacles,
         )
 
     def _send_event(self, number: int, address: Address) -> None:
-        self._send(EventUpdate(number=number, event=self._live.events[number]), address)
+        self._send(EventUpdate(number=number, event=self._live.follower.events[number]), address)
 
     def _send(self, message: Part, address: Address) -> None:
         if self._transport is not None and not self._transport.is_closing():

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.anyio
 async def test_without_a_host_the_reply_is_a_refusal_with_the_reason() -> None:
     async with opened() as bench:
         bench.stage.bus.close()
-        await until(lambda: not bench.live.host_present)
+        await until(lambda: not bench.live.follower.host_present)
         reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
         assert not reply.accepted and "no process answers game/action" in reply.reason
 
@@ -51,17 +51,17 @@ async def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_
         for _ in range(100):
             bench.stage.say(phase=Phase.STOPPED, score=Score(cyan=2))
         bench.stage.tell("of the old match")
-        await until(lambda: bench.live.events and bench.live.state.score.cyan == 2)
+        await until(lambda: bench.live.follower.events and bench.live.state.score.cyan == 2)
         assert len(bench.live.sides) == 6
         bench.stage.bus.close()
-        await until(lambda: not bench.live.host_present)
+        await until(lambda: not bench.live.follower.host_present)
         another = type(bench.stage)(bench.stage.medium, load_match(None, {f"teams.{side}.size": 1 for side in Side}))
         bench.start(another)
         await until(lambda: len(bench.live.sides) == 2)
         told.clear()
         another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
         await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
-        assert bench.live.events == []
+        assert bench.live.follower.events == []
         assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
 
 

@@ -196,7 +196,7 @@ async def test_many_past_events_are_sent_frame_by_frame_and_completely() -> None
     async with served() as (bench, _, come):
         for number in range(170):
             bench.stage.tell(f"event {number}")
-        await until(lambda: len(bench.live.events) == 170)
+        await until(lambda: len(bench.live.follower.events) == 170)
         program = await come("cyan", rate=50)
         await until(lambda: len(program.of("event")) == 170)
         assert [one["number"] for one in program.of("event")] == list(range(170))
