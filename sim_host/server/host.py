@@ -127,7 +127,7 @@ class Host:
             self._reports.publish(self.simulation.now)
             self._report(self.simulation.now)
             self._batches.send_if_due()
-            if self._services.actions:
+            if self._services.requests.actions:
                 return
 
     def begin(self) -> None:
@@ -150,13 +150,13 @@ class Host:
         self._set_sim_time(self.simulation.now.tick + 1)
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
-        requested = self._services.actions
+        requested = self._services.requests.actions
         tick = self.simulation.step(
             commands, [*requested, *self._forfeits()], self._send_sight, silent, self.presence.has_referee_box()
         )
         self._outbox.publish_tick(tick, self.simulation.state)
         self._active_orders.publish(tick.tick, tick.time, self.simulation.roster)
-        self._services.reply(tick.replies[: len(requested)])
+        self._services.requests.reply(tick.replies[: len(requested)])
         self._update_stats(tick)
         self._report(tick)
         self._batches.end_tick(tick.tick)
@@ -171,7 +171,7 @@ class Host:
         while self._clock.now() < deadline:
             self.presence.update(timeout=0.005)
             self._services.process()
-            self._services.refuse("the match is over")
+            self._services.requests.refuse("the match is over")
             self._batches.send_if_due()
             if not any(self.presence.recorder_lags(last).values()):
                 break
@@ -183,7 +183,7 @@ class Host:
         while self._clock.now() < until and not self.stopping:
             self._clock.sleep_until(min(until, self._clock.now() + 0.05))
             self._services.process()
-            self._services.refuse("the match is over")
+            self._services.requests.refuse("the match is over")
 
     def _process_requests(self) -> None:
         """Process requests, and apply a roster that an operator has changed."""
@@ -265,7 +265,7 @@ class Host:
         self._update_accounts()
         invalid = self._invalid_log.pop(tick.tick, tick.time)
         if invalid is not None:
-            self._outbox.publish_invalid(invalid)
+            self._outbox.invalid.put(invalid)
         if self._health.end_tick(tick.time):
             self._publish_health(tick)
 
@@ -282,7 +282,7 @@ class Host:
             simulation.radio_use,
             budget,
         )
-        self._outbox.publish_health(report)
+        self._outbox.health.put(report)
 
 
 def _pace(

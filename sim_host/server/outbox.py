@@ -5,7 +5,6 @@ from typing import Any
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Publisher, ReceivedMessage, Stamp
 from schemas.messages.game import GameEvent, GameState
-from schemas.messages.health import Health, Invalid
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from sim_host.match.simulation import TickResult
@@ -28,8 +27,8 @@ class Outbox:
         self._applied = batches.publisher(APPLIED)
         self._state = batches.publisher(STATE)
         self._event = batches.publisher(EVENT)
-        self._health = batches.publisher(HEALTH)
-        self._invalid = batches.publisher(INVALID)
+        self.health = batches.publisher(HEALTH)
+        self.invalid = batches.publisher(INVALID)
         self._ball = batches.publisher(WORLD_BALL)
         self._events: list[tuple[GameEvent, Stamp]] = []
         self._newest_state: tuple[GameState, Stamp] | None = None
@@ -88,14 +87,6 @@ class Outbox:
             state, stamp = self._newest_state
             messages.append(ReceivedMessage(STATE, STATE.key, state.encode(), stamp))
         return messages
-
-    def publish_health(self, health: Health) -> None:
-        """Publish the health of the host."""
-        self._health.put(health)
-
-    def publish_invalid(self, invalid: Invalid) -> None:
-        """Publish a report on an invalid payload."""
-        self._invalid.put(invalid)
 
     def _put_sight(self, robot: str, sight: bytes) -> None:
         writer = self._sights[robot]

@@ -1,10 +1,9 @@
 """The services of the host on the bus: one handler for each kind of request, all processed between two ticks."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
-from schemas.messages.game import ActionReply, RefereeAction
 from schemas.topics import ADMISSION, PARAMETERS, REFEREE_SEAT, SCENE, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.account_limits import AccountLimits
@@ -46,12 +45,8 @@ class Services:
             bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches, accounts
         )
         self._admission = QueryHandler(bus, ADMISSION, admission.handle, invalid_log)
-        self._actions = ActionHandler(bus, invalid_log, seat)
-
-    @property
-    def actions(self) -> Sequence[RefereeAction]:
-        """Requested actions, which the referee decides on in the next tick."""
-        return self._actions.actions
+        self.requests = ActionHandler(bus, invalid_log, seat)
+        """The requested actions, which the referee decides on in the next tick."""
 
     def process(self) -> None:
         """Receive orders, reply to queries, and queue the requested actions.
@@ -65,7 +60,7 @@ class Services:
             self._setup,
             self._seat,
             self._admission,
-            self._actions,
+            self.requests,
         ):
             handler.process()
         self._batches.process()
@@ -78,11 +73,3 @@ class Services:
         self._setup.process()
         self._admission.process()
         self._batches.process()
-
-    def reply(self, replies: Sequence[ActionReply]) -> None:
-        """Reply to the queued actions, in order, and clear the queue."""
-        self._actions.reply(replies)
-
-    def refuse(self, reason: str) -> None:
-        """Refuse the queued actions, and clear the queue."""
-        self._actions.refuse(reason)
