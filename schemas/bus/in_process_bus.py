@@ -23,7 +23,7 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
-from schemas.bus.mailbox import FifoMailbox, Mailbox, NewestMailbox
+from schemas.bus.mailbox import FifoMailbox, NewestMailbox
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.wire.message import Message
@@ -99,7 +99,8 @@ class _Subscription(Subscription):
         self._topic = topic
         self._bus = bus
         one = newest or topic.delivery is Delivery.NEWEST
-        self._mailbox: Mailbox[ReceivedMessage] = NewestMailbox() if one else FifoMailbox()
+        self._mailbox: FifoMailbox[ReceivedMessage] | NewestMailbox[ReceivedMessage]
+        self._mailbox = NewestMailbox() if one else FifoMailbox()
 
     def wants(self, key: str) -> bool:
         chunks = self._topic.match(key) or {}

@@ -5,22 +5,9 @@ delivering thread, so that one slow subscription does not stall a Zenoh session.
 """
 
 from queue import Empty, SimpleQueue
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, TypeVar
 
 T = TypeVar("T")
-
-
-class Mailbox(Protocol[T]):
-    """The interface of mailboxes."""
-
-    def put(self, key: str, item: T) -> None:
-        """Add an item."""
-
-    def get(self, timeout: float | None) -> T | None:
-        """The next item, waiting up to `timeout` s (None: without limit); None without an item, and at the end."""
-
-    def close(self) -> None:
-        """End the mailbox and wake its reader."""
 
 
 class _End:
@@ -47,7 +34,7 @@ class FifoMailbox(Generic[T]):
         self._queue.put(item)
 
     def get(self, timeout: float | None) -> T | None:
-        """The oldest item."""
+        """The oldest item, waiting up to `timeout` s (None: without limit); None without an item, and at the end."""
         item = _get_from(self._queue, timeout)
         if isinstance(item, _End):
             self._queue.put(item)
@@ -72,7 +59,7 @@ class NewestMailbox(Generic[T]):
         self._keys.put(key)
 
     def get(self, timeout: float | None) -> T | None:
-        """The newest item of the key that has waited longest."""
+        """The newest item of the key that has waited longest; otherwise as `FifoMailbox.get`."""
         while True:
             key = _get_from(self._keys, timeout)
             if key is None:
