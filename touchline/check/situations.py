@@ -52,10 +52,11 @@ def ball_unseen(sight: Sight, setup: Setup) -> Iterator[Situation]:
 def stopped(sight: Sight, setup: Setup) -> Iterator[Situation]:
     """The game does not run: before it, after it, between halves, after STOP."""
     del setup
+    at_feet = BallSight(x=sight.self.x + 0.3, y=sight.self.y, vx=0.0, vy=0.0)
     for phase in _OUTSIDE_PLAY:
         for holding in (False, True):
             game = replace(sight.game, phase=phase, running=False, spot=None, left=None)
-            yield Situation(phase.value, replace(sight, game=game, holding=holding, ball=_at_feet(sight)))
+            yield Situation(phase.value, replace(sight, game=game, holding=holding, ball=at_feet))
 
 
 def sent_off(sight: Sight, setup: Setup) -> Iterator[Situation]:
@@ -121,8 +122,3 @@ def repeated(sight: Sight, setup: Setup) -> Iterator[Situation]:
     game = replace(sight.game, phase=TeamPhase.PLAY, running=True)
     yield Situation("a sight twice", replace(sight, game=game))
     yield Situation("a new episode", replace(sight, game=replace(game, episode=game.episode + 1), ball=None))
-
-
-def _at_feet(sight: Sight) -> BallSight:
-    """The ball right before the robot."""
-    return BallSight(x=sight.self.x + 0.3, y=sight.self.y, vx=0.0, vy=0.0)

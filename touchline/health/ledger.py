@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from itertools import zip_longest
 from typing import Any
 
 from schemas.messages.health import AccountHealth, Health, RobotHealth
@@ -130,7 +131,7 @@ def _robot_ledger(
 ) -> RobotLedger:
     late, lost_commands = last.late - first.late, last.lost_commands - first.lost_commands
     invalid, unanswered = last.invalid - first.invalid, last.unanswered - first.unanswered
-    latencies = [now - then for now, then in zip(last.latencies, _padded(first.latencies, last.latencies), strict=True)]
+    latencies = [now - then for now, then in zip_longest(last.latencies, first.latencies, fillvalue=0)]
     radio_bytes = last.radio_bytes - first.radio_bytes
     return RobotLedger(
         robot=name,
@@ -169,10 +170,6 @@ def _state(robot: RobotHealth) -> str:
     if not robot.alive:
         return "absent"
     return "answers" if robot.answering else "silent"
-
-
-def _padded(counts: list[int], like: list[int]) -> list[int]:
-    return [*counts, *[0] * (len(like) - len(counts))]
 
 
 def _share(used: float, budget: float) -> float:

@@ -138,7 +138,7 @@ class MatchRun:
         while self._poll_processes(stop):
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
-                self._match_screen.begin(announcement, (self._plan.isolation_note,))
+                self._match_screen.begin(announcement)
                 if self._plan.page is not None:
                     for line in address_lines(self._plan.page.settings, self._plan.tokens):
                         self._screen.event(line, notable=False)

@@ -1,6 +1,6 @@
 """What a match shows in the terminal while it runs: events, slow agents, remote teams, and the status line."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import event_line
@@ -33,8 +33,8 @@ class MatchScreen:
         self._slow_agents = SlowAgents()
         self._invalid_agents = InvalidAgents()
 
-    def begin(self, announcement: Announcement, notes: Iterable[str]) -> None:
-        """Print where the host listens, who plays, how a remote team joins, and these notes."""
+    def begin(self, announcement: Announcement) -> None:
+        """Print where the host listens, who plays, how a remote team joins, and what teams are not isolated from."""
         expected = local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
         is_unexpected = parse_endpoint(announcement.endpoint)[1:] != parse_endpoint(expected)[1:]
         self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
@@ -43,8 +43,8 @@ class MatchScreen:
         plan = self._plan
         for line in join_lines(plan.config, plan.listen, announcement.endpoint, plan.credentials):
             self._screen.event(line, notable=True)
-        for note in filter(None, notes):
-            self._screen.event(note, notable=False)
+        if plan.isolation_note:
+            self._screen.event(plan.isolation_note, notable=False)
 
     def update(self, follower: MatchFollower) -> None:
         """Print what has arrived since the last call."""

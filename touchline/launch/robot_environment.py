@@ -33,7 +33,8 @@ def robot_environment(
         kept.setdefault("PYTHONUSERBASE", site.getuserbase())  # with another home, packages of the user are found
     environment = {**kept, **own, "HOME": str(folder)}
     if environment.get("PYTHONPATH"):
-        environment["PYTHONPATH"] = _absolute(environment["PYTHONPATH"])
+        folders = environment["PYTHONPATH"].split(os.pathsep)  # the robot has another working folder
+        environment["PYTHONPATH"] = os.pathsep.join(str(Path(folder).absolute()) for folder in folders)
     return environment
 
 
@@ -41,8 +42,3 @@ def server_environment(own: Mapping[str, str]) -> dict[str, str]:
     """The environment of the fork server: each robot can read it as the one its process began with."""
     environment = robot_environment(os.environ, own, Path("/"))
     return {name: value for name, value in environment.items() if not name.startswith(_OF_ONE_ROBOT)}
-
-
-def _absolute(folders: str) -> str:
-    """A module path that names the same folders from another working folder."""
-    return os.pathsep.join(str(Path(folder).absolute()) for folder in folders.split(os.pathsep))

@@ -4,7 +4,7 @@ from collections import Counter
 from typing import NamedTuple
 
 from schemas.config.match_config import LOCKSTEP
-from schemas.messages.health import Health, RobotHealth
+from schemas.messages.health import Health
 
 _SLOW_MS = 100.0
 """Lockstep: longest time from sight to command that is not reported; brains that ship need a few milliseconds."""
@@ -27,9 +27,9 @@ class AgentFault(NamedTuple):
 
 def agent_faults(health: Health) -> list[AgentFault]:
     """The agents with faults: those whose messages are no answers, then the slow ones, slowest first."""
-    robots = [(name, robot) for name, robot in health.robots.items() if robot.alive and not _is_idle(robot)]
+    robots = [(name, one) for name, one in health.robots.items() if one.alive and not (one.removed or one.still)]
     faulty = [AgentFault(name, robot.fault, is_slow=False) for name, robot in robots if robot.fault]
-    limit = _longest_ms(health)
+    limit = _SLOW_MS if health.pace == LOCKSTEP else _tick_ms(health)
     slow = [(robot.latency_ms, name) for name, robot in robots if robot.latency_ms is not None and not robot.fault]
     late = sorted(((took, name) for took, name in slow if took > limit), reverse=True)
     return faulty + [AgentFault(name, f"takes {took:.0f} ms a tick", is_slow=True) for took, name in late]
@@ -67,15 +67,6 @@ class InvalidAgents:
             "its log names them, and touchline health counts them"
             for name in new
         ]
-
-
-def _is_idle(robot: RobotHealth) -> bool:
-    return robot.removed or robot.still
-
-
-def _longest_ms(health: Health) -> float:
-    """The longest time from sight to command that is not reported, in ms."""
-    return _SLOW_MS if health.pace == LOCKSTEP else _tick_ms(health)
 
 
 def _tick_ms(health: Health) -> float:

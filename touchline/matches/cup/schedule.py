@@ -12,7 +12,8 @@ from touchline.matches.cup.formats.swiss import most_rounds, swiss
 from touchline.matches.cup.match_result import Fixture, FixtureResult
 from touchline.matches.cup.standings import Standing
 from touchline.matches.cup.tie_breaks import table, winner_of_level
-from touchline.matches.statistics.ratings import LEVEL, rate
+from touchline.matches.statistics.estimates import LEVEL
+from touchline.matches.statistics.ratings import rate
 
 LEAGUE = "league"
 KNOCK_OUT = "knock-out"

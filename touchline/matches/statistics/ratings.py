@@ -17,13 +17,12 @@ from scipy.special import ndtri
 from scipy.stats import chi2
 
 from touchline.matches.cup.match_result import MatchResult
+from touchline.matches.statistics.estimates import LEVEL
 
 SCALE = 400 / math.log(10)
 """Elo points of one unit of strength."""
 PRIOR = 3.0
 """Standard deviation of the prior of strengths and of ln ν: ± 1,000 points for 95 % of teams."""
-LEVEL = 0.95
-"""Share of intervals that contain the true rating, and one less the chance of a false significant order."""
 
 
 Array = npt.NDArray[np.float64]
