@@ -2,7 +2,6 @@
 
 import argparse
 import json
-import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -12,6 +11,7 @@ from schemas.config.settings import Settings
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError
 from schemas.process.process_log import Level, log_line
+from schemas.process.whole_file import written_whole
 
 S = TypeVar("S", bound=Settings)
 
@@ -27,10 +27,8 @@ def write_settings(settings: Settings, path: Path) -> None:
     Raises:
         OSError: the file cannot be written.
     """
-    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
-    with os.fdopen(handle, "w", encoding="utf-8") as file:
-        path.chmod(0o600)  # of an existing file
-        file.write(settings.model_dump_json(indent=2) + "\n")
+    with written_whole(path, private=True) as draft:
+        draft.write_text(settings.model_dump_json(indent=2) + "\n", "utf-8")
 
 
 def read_settings(model: type[S], source: str) -> S:
