@@ -31,7 +31,8 @@ class MatchProgress:
         self.unreadable: Counter[str] = Counter()
         """Key → payloads that could not be read."""
         self._newest_applied: ReceivedMessage | None = None
-        self._roster_changed: Callable[[list[RosterEntry]], None] = _ignore_roster
+        self.roster_changed: Callable[[list[RosterEntry]], None] = lambda _: None
+        """Called with the new roster at each change."""
         self._handlers = {
             APPLIED.key: self._on_applied,
             STATE.key: self._on_state,
@@ -42,10 +43,6 @@ class MatchProgress:
     def finished(self) -> bool:
         """The match was played to its end."""
         return self.state is not None and self.state.phase is Phase.FULL_TIME
-
-    def on_roster_change(self, callback: Callable[[list[RosterEntry]], None]) -> None:
-        """Call `callback` with the new roster at each change."""
-        self._roster_changed = callback
 
     def update(self, messages: Iterable[ReceivedMessage]) -> None:
         """Process messages; most are of other topics."""
@@ -87,7 +84,7 @@ class MatchProgress:
         self._newest_applied = received
         if changes_in(received.payload).robots is not None:
             applied: Applied | None = self.read(received)
-            self._roster_changed(applied.robots or [] if applied is not None else [])
+            self.roster_changed(applied.robots or [] if applied is not None else [])
 
     def _on_state(self, received: ReceivedMessage) -> None:
         self.state = self.read(received) or self.state
@@ -96,10 +93,6 @@ class MatchProgress:
         event: GameEvent | None = self.read(received)
         if event is not None and event.kind is EventKind.GOAL:
             self.goals += 1
-
-
-def _ignore_roster(robots: list[RosterEntry]) -> None:
-    """Do nothing with the new roster."""
 
 
 class LatchedMessages:

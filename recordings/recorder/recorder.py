@@ -233,7 +233,7 @@ class Recorder:
 
     def _begin(self, setup: Setup | None) -> None:
         self._begun, self._setup, self._roster = True, setup, RosterMetadata(setup)
-        self._match.on_roster_change(self._roster.update)
+        self._match.roster_changed = self._roster.update
         self._sink.begin(self._make_header, self._make_result, self._roster)
         self._bus.declare_alive(PresenceKind.RECORDER, self._name)  # from now on a lockstep host waits for it
         if self._sights:

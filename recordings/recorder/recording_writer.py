@@ -36,8 +36,6 @@ _BACKLOG = 64
 _SEQUENCES = 0xFFFF_FFFF
 """MCAP has sequence numbers of 32 bits."""
 
-LoggedMessages = list[LoggedMessage]
-
 
 class RecordingWriter:
     """One file that is being written. Any method may raise `TouchlineError` if the disk cannot be written."""
@@ -79,7 +77,7 @@ class RecordingWriter:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
         self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
 
-    def write(self, batch: LoggedMessages) -> None:
+    def write(self, batch: list[LoggedMessage]) -> None:
         """Add messages in the order of the file; blocks while the thread is far behind."""
         self._hand_over(partial(self._write_batch, batch))
 
@@ -154,7 +152,7 @@ class RecordingWriter:
         self._mcap.add_metadata(MANIFEST, manifest)  # again: without a manifest nothing of the file can be read
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
-    def _write_batch(self, batch: LoggedMessages) -> None:
+    def _write_batch(self, batch: list[LoggedMessage]) -> None:
         add, channels, viz_channels = self._mcap.add_message, self._channels, self._viz_channels
         for log_ns, received in batch:
             channel = channels.get(received.key) or self._open_channel(received)
