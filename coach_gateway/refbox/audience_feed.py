@@ -82,14 +82,9 @@ class AudienceFeed:
         live, view = self._live, self._team_states.get(side)
         if view is not None and view.newest is not None and live.now - view.newest_at < WORLD_STATE_S:
             return view.newest
-        return self._own(side)
-
-    def _own(self, side: Side) -> Mapping[str, Any]:
-        live = self._live
-        world, setup = live.world, live.setup
-        if world is None or setup is None:
+        if live.world is None or live.setup is None:
             return {}
-        return own_world_state(side, setup, live.sides, live.state, world, live.beliefs([side]))
+        return own_world_state(side, live.setup, live.sides, live.state, live.world, live.beliefs([side]))
 
     def _send(self, content: Mapping[str, Any]) -> None:
         """Send an object to all addresses; it fits into a datagram, as do the world states of both teams."""

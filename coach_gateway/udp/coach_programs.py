@@ -135,7 +135,8 @@ class CoachPrograms:
     def _dispatch(self, session: Session, ask: Any, address: Address, robots: Mapping[str, Side]) -> DatagramResult:
         status = session.check(ask.sequence)
         if status is SequenceStatus.LATE:
-            return DatagramResult(_late(ask))
+            reason = "late: a datagram with a larger number has been received; send it again with a new number"
+            return DatagramResult(_refused(ask, reason))
         if status is SequenceStatus.UNANSWERED:
             return _NOTHING
         if status is SequenceStatus.ANSWERED:
@@ -193,10 +194,6 @@ def _object(data: bytes) -> dict[str, Any]:
 
 def _refused(ask: Any, reason: str) -> Ack:
     return Ack(sequence=ask.sequence, of=ask.kind, accepted=False, reason=reason)
-
-
-def _late(ask: Any) -> Ack:
-    return _refused(ask, "late: a datagram with a larger number has been received; send it again with a new number")
 
 
 def _act(

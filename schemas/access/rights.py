@@ -6,7 +6,7 @@ from functools import cached_property
 
 from schemas.access.accounts import ACCOUNTS, Account
 from schemas.side import Side
-from schemas.tokens import TOKENS, PresenceKind
+from schemas.tokens import TOKENS
 from schemas.topic import Delivery, Party, Topic
 from schemas.topics import ALIVE, TOPICS
 
@@ -61,12 +61,7 @@ class Rights:
     @cached_property
     def sees(self) -> list[str]:
         """Liveliness tokens that it sees."""
-        return [ALIVE.fill(kind=kind) for kind in self.sees_kinds]
-
-    @cached_property
-    def sees_kinds(self) -> list[PresenceKind]:
-        """Kinds of liveliness tokens that it sees."""
-        return [kind for kind, row in TOKENS.items() if not self._parties.isdisjoint(row.readers)]
+        return [ALIVE.fill(kind=kind) for kind, row in TOKENS.items() if not self._parties.isdisjoint(row.readers)]
 
     @property
     def _parties(self) -> frozenset[Party]:
