@@ -47,10 +47,8 @@ def replay(
     loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
     paused: Annotated[bool, typer.Option("--paused", help="Start paused.")] = False,
     stay: Annotated[bool, typer.Option("--stay", help="Pause at the end instead of exiting.")] = False,
-    include: Annotated[
-        list[str] | None, typer.Option(help="Keys to play, as key expressions: world, robot/*/command, team/**.")
-    ] = None,
-    exclude: Annotated[list[str] | None, typer.Option(help="Keys to leave out, as key expressions.")] = None,
+    include: options.Include = None,
+    exclude: options.Exclude = None,
     follow: Annotated[
         bool, typer.Option("--follow", help="The file is still being written: continue with appended messages.")
     ] = False,

@@ -83,7 +83,8 @@ def csv_bytes(table: pd.DataFrame) -> bytes:
 
 def write_digests(folder: Path, seeds: Sequence[int], code: Mapping[str, object]) -> None:
     """Write the digests of all files of the folder and of the code, with the seeds that were played."""
-    names = [PLAN, VERSIONS, CSV, PARQUET, REPORT, *sorted(_recordings(folder))]
+    recordings = sorted(f"{RECORDINGS}/{path.name}" for path in (folder / RECORDINGS).glob("*.mcap"))
+    names = [PLAN, VERSIONS, CSV, PARQUET, REPORT, *recordings]
     files = {name: file_digest(folder / name) for name in names if (folder / name).exists()}
     (folder / DIGESTS).write_text(as_text({"seeds": list(seeds), "code": code, "files": files}), "utf-8")
 
@@ -101,10 +102,6 @@ def read_study(folder: Path) -> StoredStudy:
     except (OSError, ValueError) as error:
         raise TouchlineError(f"{folder / CSV}: {error}; the study has no results yet: run it to its end") from None
     return StoredStudy(folder, plan, digests["seeds"], table, _json(folder / VERSIONS), digests)
-
-
-def _recordings(folder: Path) -> list[str]:
-    return [f"{RECORDINGS}/{path.name}" for path in (folder / RECORDINGS).glob("*.mcap")]
 
 
 def _json(path: Path) -> dict[str, Any]:
