@@ -1,7 +1,7 @@
 """Computes all figures of a recording in one pass."""
 
-from collections.abc import Iterator
-from typing import Any, Protocol
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from recordings.reading.recording import Recording
 from recordings.stats.ball_control import BallControl
@@ -38,11 +38,8 @@ def _messages(recording: Recording) -> Iterator[tuple[int, Any]]:
             yield recorded.log_ns, message
 
 
-class TickObserver(Protocol):
-    """An object that is updated with each tick."""
-
-    def update(self, match_tick: MatchTick) -> None:
-        """Add a tick."""
+TickObserver = Callable[[MatchTick], None]
+"""Is called with each tick."""
 
 
 class MatchStatistics:
@@ -58,12 +55,12 @@ class MatchStatistics:
         self._kicks = KickTracker(setup)
         self._calls = RefereeCalls()
         self._observers: tuple[TickObserver, ...] = (
-            self._control,
-            self._crowding,
-            self._motions,
-            self._dribbles,
-            self._kicks,
-            self._calls,
+            self._control.update,
+            self._crowding.update,
+            self._motions.update,
+            self._dribbles.update,
+            self._kicks.update,
+            self._calls.update,
         )
         self._momentum = Momentum(start, end, setup.pitch.goal_line)
         self._worlds = self._touched = self._held = self._states = 0
@@ -74,8 +71,8 @@ class MatchStatistics:
     def update(self, match_tick: MatchTick) -> None:
         """Add a tick."""
         self._momentum.update(match_tick, self._control.side)
-        for figure in self._observers:
-            figure.update(match_tick)
+        for observe in self._observers:
+            observe(match_tick)
         world = match_tick.world
         self._worlds += 1
         self._touched += bool(world.touches)
@@ -132,5 +129,5 @@ def figures_of_recording(recording: Recording, *observers: TickObserver) -> Matc
     for match_tick in match_ticks_of(recording):
         statistics.update(match_tick)
         for other in observers:
-            other.update(match_tick)
+            other(match_tick)
     return statistics.figures(recording.unreadable.total() - before)

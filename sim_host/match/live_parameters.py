@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, get_type_hints
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.noise import PRESETS, sensing_of
-from schemas.config.profile import Changes, Profile, check_consistent
+from schemas.config.profile import Profile, check_consistent
 from schemas.config.quantity import Choice, Quantity, check_value, meanings
 from schemas.config.robot_model import RobotModel, types_of
 from schemas.config.sections import SECTIONS, TYPE_SECTIONS, Sensing
@@ -189,7 +189,8 @@ class LiveParameters:
         """
         sections: dict[str, dict[str, Any]] = {}
         types = {
-            name: {section: dict(override) for section, override in changes.items()} for name, changes in self._types()
+            name: {section: dict(override) for section, override in changes.items()}
+            for name, changes in self.profile.types.items()
         }
         for name, setting in settings.items():
             if name == PRESET:
@@ -216,9 +217,6 @@ class LiveParameters:
     @property
     def _paths(self) -> Mapping[str, _ParameterPath]:
         return _paths(tuple(self.profile.types))
-
-    def _types(self) -> Iterable[tuple[str, Changes]]:
-        return self.profile.types.items()
 
     def _names(self) -> list[str]:
         return [*self._paths, PRESET]

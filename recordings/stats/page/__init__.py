@@ -50,7 +50,7 @@ def page_of(recording: Recording, navigation: str = "") -> tuple[MatchFigures, s
     """
     setup = recording.setup
     tracks, history = Tracks(setup, *recording.extent_of_worlds()), GameHistory()
-    figures = figures_of_recording(recording, tracks, history)
+    figures = figures_of_recording(recording, tracks.update, history.update)
     return figures, page(content_of(recording.manifest, setup, figures, tracks, history), navigation)
 
 
