@@ -94,7 +94,8 @@ class McapFile:
         wanted = {number: channel.key for number, channel in self.channels.items() if channel.key in keys}
         for index in summary.chunk_indexes if summary is not None else ():
             is_in_time = index.message_start_time < end_ns and index.message_end_time >= start_ns
-            if not is_in_time or wanted.keys().isdisjoint(index.message_index_offsets):
+            places = index.message_index_offsets  # MCAP lets a writer leave them out; then the chunk is read
+            if not is_in_time or (places and wanted.keys().isdisjoint(places)):
                 continue
             data = read_chunk(file, index.chunk_start_offset)
             for opcode, begin, end in records_in(data):
@@ -196,7 +197,11 @@ def stream_of(content: bytes) -> ReadDataStream:
 
 def _extent(file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]) -> tuple[int, int]:
     """Times of a channel's first and last message, from its first and last chunk; `read` caches chunks."""
-    chunks = [index for index in summary.chunk_indexes if channel in index.message_index_offsets]
+    chunks = [
+        index
+        for index in summary.chunk_indexes
+        if channel in (index.message_index_offsets or _times(file, index, read))
+    ]
     if not chunks:
         return 0, 0
     return min(_times(file, chunks[0], read)[channel]), max(_times(file, chunks[-1], read)[channel])
