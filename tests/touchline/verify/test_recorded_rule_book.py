@@ -21,21 +21,23 @@ from touchline.verify import resimulate
 from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
 
-SHORTER_STOP = ("stop_to_signal = { value = 2.0", "stop_to_signal = { value = 0.3")
-FRIENDLY_STOP = ("stop_to_signal = { value = 0.5", "stop_to_signal = { value = 0.1")
+SHORTER_STOP = {2.0: 0.3, 0.5: 0.1}
+"""Pause of a shipped rule book → that of its next version, s."""
 TWO_A_SIDE = {"teams.cyan.size": 2, "teams.magenta.size": 2}
 
 
 @pytest.fixture
 def later_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """A later program: its shipped files have another version, and its rule books a shorter pause after STOP."""
-    read = NumberFiles.text
+    read = NumberFiles.read
 
-    def changed(files: NumberFiles, name: str) -> str:
-        text = read(files, name)
-        return text.replace(*SHORTER_STOP).replace(*FRIENDLY_STOP).replace("version = ", "version = 9")
+    def changed(files: NumberFiles, name: str) -> dict[str, Any]:
+        tables = read(files, name)
+        pause = tables.get("restarts", {}).get("stop_to_signal", {"value": 2.0})
+        pause["value"] = SHORTER_STOP[pause["value"]]
+        return tables | {"version": tables["version"] + 90}
 
-    monkeypatch.setattr(NumberFiles, "text", changed)
+    monkeypatch.setattr(NumberFiles, "read", changed)
     assert load_rule_book("msl").restarts.stop_to_signal == 0.3
     assert load_rule_book("friendly").restarts.stop_to_signal == 0.1
 
