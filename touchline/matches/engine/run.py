@@ -2,12 +2,14 @@
 
 from collections import Counter
 from collections.abc import Callable, Mapping
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import Executor, Future
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from schemas.errors import TouchlineError
+from touchline.launch.stop_signals import StopSignals
+from touchline.matches.engine.completions import Completions
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.in_process import outcome_of_death
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, relative_to
@@ -34,7 +36,7 @@ def run_plan(
     """Play due matches until none is left; returns all outcomes, including earlier ones.
 
     An interruption leaves what is stored: the next call goes on from there. It plays matches again that have failed
-    because their workers were lost.
+    because their workers were lost. The main thread calls it.
 
     Args:
         plan: which matches are due.
@@ -43,6 +45,9 @@ def run_plan(
         sentence_of: is called with each match that has ended, and returns what is shown of it.
         progress: shows how far the run is.
         is_remote: the workers do not see the folder of the run.
+
+    Raises:
+        KeyboardInterrupt: SIGINT or SIGTERM has come.
     """
     if store is not None:
         store.forget_lost()
@@ -50,19 +55,22 @@ def run_plan(
     folder = store.folder if store is not None else Path.cwd()
     running: dict[Future[Any], PlannedMatch] = {}
     lost: Counter[str] = Counter()
-    while True:
-        begun = {one.identity for one in running.values()}
-        due = plan.due(outcomes)
-        if progress is not None:
-            failed = sum(isinstance(one, Failed) for one in outcomes.values())
-            progress.planned(len(outcomes), len(due), failed)
-        for planned in due:
-            if planned.identity not in begun:
-                running[_submitted(planned, executor, folder if is_remote else None)] = planned
-        if not running:
-            return outcomes
-        done = wait(running, return_when=FIRST_COMPLETED).done
-        for future in [one for one in running if one in done]:
+    with StopSignals() as stop:
+        ended = Completions(stop)
+        while True:
+            begun = {one.identity for one in running.values()}
+            due = plan.due(outcomes)
+            if progress is not None:
+                failed = sum(isinstance(one, Failed) for one in outcomes.values())
+                progress.planned(len(outcomes), len(due), failed)
+            for planned in due:
+                if planned.identity not in begun:
+                    future = _submitted(planned, executor, folder if is_remote else None)
+                    running[future] = planned
+                    ended.add(future)
+            if not running:
+                return outcomes
+            future = ended.next()
             planned = running.pop(future)
             outcome, files = _delivered(future, planned)
             if isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER:

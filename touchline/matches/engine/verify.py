@@ -2,7 +2,7 @@
 
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, as_completed
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,9 @@ from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.side import Side
 from schemas.topics import APPLIED
+from touchline.launch.stop_signals import StopSignals
 from touchline.matches.engine.code_digest import code_digest
+from touchline.matches.engine.completions import Completions
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.inputs_only import has_inputs_only
 from touchline.matches.engine.measurement import measured
@@ -87,20 +89,24 @@ def verify_run(
     """
     if progress is not None:
         progress.planned(0, len(matches))
-    futures = {
-        executor.submit(check_match, one, outcomes.get(one.identity), folder, depth_of(one)): one for one in matches
-    }
-    for future in as_completed(futures):
-        planned = futures[future]
-        try:
-            check: MatchCheck = future.result()
-        except DiedProcessError as error:
-            fails_again = depth_of(planned).failures and planned.identity not in outcomes
-            faults = () if fails_again else (f"it could not be checked: {error}",)
-            check = MatchCheck(planned.identity, planned.label, faults)
-        if progress is not None:
-            progress.ended("; ".join((check.label, *check.faults)), failed=bool(check.faults))
-        yield check
+    with StopSignals() as stop:
+        ended = Completions(stop)
+        futures = {
+            executor.submit(check_match, one, outcomes.get(one.identity), folder, depth_of(one)): one for one in matches
+        }
+        for future in futures:
+            ended.add(future)
+        for _ in matches:
+            planned = futures[future := ended.next()]
+            try:
+                check: MatchCheck = future.result()
+            except DiedProcessError as error:
+                fails_again = depth_of(planned).failures and planned.identity not in outcomes
+                faults = () if fails_again else (f"it could not be checked: {error}",)
+                check = MatchCheck(planned.identity, planned.label, faults)
+            if progress is not None:
+                progress.ended("; ".join((check.label, *check.faults)), failed=bool(check.faults))
+            yield check
 
 
 def check_match(

@@ -5,6 +5,8 @@ import os
 import random
 import signal
 import sys
+import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import closing
@@ -104,6 +106,47 @@ def test_a_plan_may_depend_on_outcomes(match_of: MatchOf, folder: Path, tmp_path
     with ThreadPoolExecutor(1) as executor:
         run_plan(Final(first, second), executor, None, log)
     assert log.ended_labels == ["seed 1", "seed 2"]
+
+
+class Interrupted(Executor):
+    """Ends the first of 1,500 matches when all have begun, and signals this process a while later."""
+
+    def __init__(self, after: float) -> None:
+        self.futures: list[Future[Outcome]] = []
+        self._after = after
+        self._signal: threading.Thread | None = None
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        self.futures.append(Future())
+        if len(self.futures) == 1500:
+            self.futures[0].set_result(Failed("0", FailureKind.CRASHED, "no ball"))
+            self._signal = threading.Thread(target=self._interrupt)
+            self._signal.start()
+        return self.futures[-1]
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        if self._signal is not None:
+            self._signal.join()
+
+    def _interrupt(self) -> None:
+        time.sleep(self._after)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+
+def test_an_interrupt_at_any_moment_leaves_no_match_that_cannot_be_ended(match_of: MatchOf, folder: Path) -> None:
+    (one,) = matches(match_of, folder, 1)
+    plan = ListPlan(tuple(replace(one, code={Side.CYAN: f"{number}"}) for number in range(1500)))
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        for moment in range(20):
+            with Interrupted(0.0002 * moment) as executor, pytest.raises(KeyboardInterrupt):
+                run_plan(plan, executor, None, Log())
+            ended = threading.Thread(target=lambda: [one.cancel() for one in executor.futures], daemon=True)
+            ended.start()
+            ended.join(10.0)
+            assert not ended.is_alive()
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
