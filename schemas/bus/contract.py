@@ -243,7 +243,8 @@ class Bus(ABC):
 
         A topic with the delivery `newest`, or any topic with `newest`, yields only the newest message of each key;
         others yield every message that arrives. With `history`, a `recovered` topic first yields the messages in its
-        publishers' caches.
+        publishers' caches. A publisher that comes while the host learns of the subscription may be heard from a later
+        message on: Zenoh then drops what its cache yields after that.
         """
 
     @abstractmethod

@@ -156,7 +156,7 @@ async def test_a_program_receives_the_obstacles_that_its_own_team_believes() -> 
         (seen,) = cyan.frame()["obstacles"]["cyan"]
         assert (seen["x"], seen["y"], seen["seen_by"]) == (3.0, 1.0, ["cyan2"])
         assert list(cyan.frame()["obstacles"]) == ["cyan"]
-        assert any(one["belief"]["radio"]["obstacles"] for one in cyan.of("belief"))
+        await until(lambda: any(one["belief"]["radio"]["obstacles"] for one in cyan.of("belief")))
 
 
 async def test_a_program_receives_a_bye_when_the_gateway_ends() -> None:

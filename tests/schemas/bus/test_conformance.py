@@ -136,7 +136,9 @@ def test_a_reader_of_the_past_is_given_what_was_sent_before_it_came(buses: Buses
 
 
 def test_the_past_of_a_writer_that_comes_later_is_given_too(buses: Buses) -> None:
-    reader = buses.join().subscribe(STATE, history=True)
+    bus = buses.join()
+    reader = bus.subscribe(STATE, history=True)
+    wait_for_all(buses, bus)  # the host knows the subscription then
     writer = buses.host.publisher(STATE)
     for tick in range(5):
         writer.put(state(tick))
