@@ -3,6 +3,7 @@
 import mmap
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import chain, count
 from pathlib import Path
 from typing import IO, cast
 
@@ -69,11 +70,17 @@ def _recover(path: Path, content: mmap.mmap) -> RecoverySummary:
             found = copy.fill(content, summary)
         if copy.is_empty:
             raise TouchlineError(f"{path}: truncated within its first record; nothing in it can be recovered")
-        cut = 0 if found.finished else size - found.end
         original = None
-        if found.damaged or cut > CHUNK_BYTES:
-            original = path.rename(path.with_name(path.name + ".damaged"))
-    return RecoverySummary(path, True, copy.messages, cut, found.damaged, original)
+        if found.damaged or copy.cut > CHUNK_BYTES:
+            original = path.rename(_free_name(path))
+    return RecoverySummary(path, True, copy.messages, copy.cut, found.damaged, original)
+
+
+def _free_name(path: Path) -> Path:
+    """The name of a damaged file after its repair, which no file has: `x.mcap.damaged`, `x.mcap.damaged-2`, …"""
+    name = path.with_name(f"{path.name}.damaged")
+    numbered = (name.with_name(f"{name.name}-{number}") for number in count(2))
+    return next(free for free in chain([name], numbered) if not free.exists())
 
 
 def _is_intact(content: mmap.mmap) -> bool:
@@ -99,6 +106,8 @@ class _Copy:
         """Number in the damaged file → number in this one; 0 stands for no schema."""
         self._opened: dict[int, int] = {}
         self.messages = 0
+        self.cut = 0
+        """Bytes at the end of the damaged file that hold no complete record."""
         self.is_empty = True
 
     def fill(self, content: mmap.mmap, summary: Summary | None) -> Findings:
@@ -117,8 +126,8 @@ class _Copy:
             elif not self._add_chunk(record):
                 found.damaged += 1
                 found.lost_messages = True
-        cut = 0 if found.finished else len(content) - found.end
-        note = {"cut_bytes": str(cut), DAMAGED_RECORDS: str(found.damaged), "library": library()}
+        self.cut = 0 if found.finished else len(content) - found.end
+        note = {"cut_bytes": str(self.cut), DAMAGED_RECORDS: str(found.damaged), "library": library()}
         self._add_metadata(Metadata(RECOVERED, sealed(note)), found)
         self._mcap.finish()  # type: ignore[no-untyped-call]
         return found

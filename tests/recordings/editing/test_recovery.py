@@ -313,6 +313,23 @@ def test_a_file_of_which_more_than_a_chunk_is_left_out_is_kept_beside_its_repair
     assert done.original.read_bytes() == content
 
 
+def test_a_damaged_file_of_an_earlier_repair_is_never_overwritten(several_chunks):
+    earlier = several_chunks.with_name(several_chunks.name + ".damaged")
+    earlier.write_bytes(b"of an earlier repair")
+    taken = several_chunks.with_name(several_chunks.name + ".damaged-2")
+    taken.write_bytes(b"of another one")
+    with several_chunks.open("rb") as file:
+        chunk = make_reader(file).get_summary().chunk_indexes[1]
+    data = bytearray(several_chunks.read_bytes())
+    data[chunk.chunk_start_offset + 100] ^= 1
+    several_chunks.write_bytes(data)
+
+    done = recover(several_chunks)
+    assert done.original == several_chunks.with_name(several_chunks.name + ".damaged-3")
+    assert done.original.read_bytes() == bytes(data)
+    assert (earlier.read_bytes(), taken.read_bytes()) == (b"of an earlier repair", b"of another one")
+
+
 @pytest.mark.parametrize("content", [b"", b"tick,x,y\n1,2,3\n", b"\x89MCAP0\r\n", b"\x89MCAP0\r\n" + bytes(5000)])
 def test_what_is_no_recording_cannot_be_recovered(tmp_path, content):
     path = tmp_path / "table.mcap"
