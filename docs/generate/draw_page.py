@@ -19,13 +19,13 @@ CONTAINS = (
 )
 
 
-def main(address: str, picture: str, width: int = 1440, height: int = 900, words: str = "") -> None:
+def main(address: str, picture: str, width: str = "1440", height: str = "900", words: str = "") -> None:
     """Open the page, wait for the words, take the screenshot."""
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     with sync_playwright() as playwright:
         root = ["--no-sandbox"] if os.geteuid() == 0 else []
         browser = playwright.chromium.launch(executable_path=chromium, args=root)
-        page = browser.new_page(viewport={"width": width, "height": height})
+        page = browser.new_page(viewport={"width": int(width), "height": int(height)})
         page.goto(address)
         deadline = time.monotonic() + PATIENCE_S
         while not (page.evaluate(DRAWN) and page.evaluate(CONTAINS, words)):
@@ -40,4 +40,4 @@ def main(address: str, picture: str, width: int = 1440, height: int = 900, words
 if __name__ == "__main__":
     if len(sys.argv) not in (3, 5, 6):
         sys.exit(__doc__)
-    main(*sys.argv[1:3], *map(int, sys.argv[3:5]), *sys.argv[5:])
+    main(*sys.argv[1:])

@@ -109,7 +109,7 @@ def _speed_after(profile: str, distance: float) -> float:
     start = -9.0
     bodies = {"cyan1": (start - loaded.dribble.gap, 0.0, 0.0), "ball": (start, 0.0, 0.0)}
     kick = {"cyan1": runs.told(kick=Kick(mode=KickMode.GROUND, speed=10.0))}
-    run = runs.play(loaded, bodies, lambda time: kick if time == 0.0 else {}, 5.0)
+    run = runs.play(loaded, bodies, runs.at_first(kick), 5.0)
     x, speed = run.ball("x", "vx").T
     return float(speed[np.argmax(x > start + distance)])
 
@@ -132,9 +132,7 @@ def kick_scatter() -> str:
         y = -4.0 + 0.8 * number
         bodies = {"cyan1": (0.0, y, 0.0), "ball": (loaded.dribble.gap, y, 0.0)}
         kick = {"cyan1": runs.told(kick=Kick(mode=KickMode.GROUND, speed=6.0))}
-        vx, vy = runs.play(loaded, bodies, lambda time, kick=kick: kick if time == 0.0 else {}, 0.2).ball("vx", "vy")[
-            -1
-        ]
+        vx, vy = runs.play(loaded, bodies, runs.at_first(kick), 0.2).ball("vx", "vy")[-1]
         ends.append(math.degrees(math.atan2(vy, vx)))
     return f"{np.std(ends):.2f}°"
 

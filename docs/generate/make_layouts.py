@@ -35,12 +35,14 @@ PLOTTED = (("x", "ball x, m", "#4e98e2"), ("y", "ball y, m", "#f5774d"), ("z", "
 
 def foxglove() -> str:
     """For Foxglove: layouts, import from file."""
-    camera = {key: tuple(value) if isinstance(value, list) else value for key, value in CAMERA.items()}
     names = {"thetaOffset": "theta_offset", "targetOffset": "target_offset", "targetOrientation": "target_orientation"}
+    camera: dict[str, Any] = {
+        names.get(key, key): tuple(value) if isinstance(value, list) else value for key, value in CAMERA.items()
+    }
     scene = fl.ThreeDeePanel(
         title="Pitch",
         config=fl.ThreeDeeConfig(
-            camera_state=fl.ThreeDeeCameraState(**{names.get(key, key): value for key, value in camera.items()}),
+            camera_state=fl.ThreeDeeCameraState(**camera),
             follow_mode="follow-none",
             follow_tf=MAP,
             scene=fl.BaseRendererSceneSettings(

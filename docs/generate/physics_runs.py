@@ -56,6 +56,16 @@ def told(
     return AppliedInput(Drive(vx=vx, vy=vy, omega=omega), dribble, kick)
 
 
+def always(inputs: Mapping[str, AppliedInput]) -> Told:
+    """The same inputs at all times."""
+    return lambda _: inputs
+
+
+def at_first(inputs: Mapping[str, AppliedInput]) -> Told:
+    """Inputs at the beginning, then rest."""
+    return lambda time: inputs if time == 0.0 else {}
+
+
 def play(
     profile: Profile,
     bodies: Mapping[str, Pose],
@@ -109,7 +119,7 @@ def top_speeds(profile_name: str, directions: int) -> tuple[Floats, Floats]:
     angles, speeds = np.linspace(0.0, 2.0 * math.pi, directions + 1), []
     for angle in angles:
         demand = {"cyan1": told(20.0 * math.cos(angle), 20.0 * math.sin(angle))}
-        run = play(profile, {"cyan1": (-8.0, 0.0, -angle)}, lambda _time, demand=demand: demand, 3.4)
+        run = play(profile, {"cyan1": (-8.0, 0.0, -angle)}, always(demand), 3.4)
         speeds.append(math.hypot(*run.robot("cyan1", "vx", "vy")[-1]))
     return angles, np.array(speeds)
 
@@ -120,7 +130,7 @@ def ball_roll(kick_spin: float, speed: float = 4.0) -> Run:
     profile = replace(profile, kicker=replace(profile.kicker, kick_spin=kick_spin))
     kick = Kick(mode=KickMode.GROUND, speed=speed)
     bodies = {"cyan1": (-8.0, 0.0, 0.0), "ball": (-8.0 + profile.dribble.gap, 0.0, 0.0)}
-    return play(profile, bodies, lambda time: {"cyan1": told(kick=kick)} if time == 0.0 else {}, 8.0)
+    return play(profile, bodies, at_first({"cyan1": told(kick=kick)}), 8.0)
 
 
 def bounce(height: float = 1.0) -> Run:
@@ -133,7 +143,7 @@ def kick(mode: KickMode, speed: float, distance: float, profile: Profile, second
     x, gap = profile.field.goal_line - distance, profile.dribble.gap
     told_once = told(kick=Kick(mode=mode, speed=speed))
     bodies = {"cyan1": (x - gap, 0.0, 0.0), "ball": (x, 0.0, 0.0)}
-    return play(profile, bodies, lambda time: {"cyan1": told_once} if time == 0.0 else {}, seconds)
+    return play(profile, bodies, at_first({"cyan1": told_once}), seconds)
 
 
 def without_air(profile: Profile) -> Profile:
@@ -152,7 +162,7 @@ def duel(change: Mapping[str, Mapping[str, float]], seconds: float = 3.0) -> Run
     apart = profile.robot.radius + 0.05
     bodies = {"cyan1": (-apart, 0.0, 0.0), "magenta1": (apart, 0.0, math.pi), "ball": (0.0, 5.0, 0.0)}
     push = {"cyan1": told(2.0), "magenta1": told(2.0)}
-    return play(profile, bodies, lambda _time: push, seconds, models=(standard, other))
+    return play(profile, bodies, always(push), seconds, models=(standard, other))
 
 
 def dribble(method: str, speed: float = 2.0, turn_gain: float = 1.5, seconds: float = 4.0) -> Run:
