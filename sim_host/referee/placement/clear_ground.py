@@ -7,9 +7,11 @@ inside the lines, and out of penalty areas that it was not in. If possible, a ro
 
 import math
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from typing import Final
 
 from schemas.config.obstacle import Shape
+from schemas.config.sections import Pitch
 from schemas.frames import rotate
 from schemas.game import Phase
 from sim_host.referee.areas import in_a_penalty_area
@@ -46,23 +48,48 @@ def clear_restart(match: MatchConstants, state: RefereeState, snapshot: Snapshot
     if has_room(match, snapshot, restart.spot):
         return restart
     forward = math.pi if state.attack(restart.side or state.kick_off) < 0 else 0.0
-    lines = tuple([bearing + forward for bearing in _LINES.get(restart.phase, ())])
-    for room in (match.ball.radius + 2.0 * max(match.reaches, default=0.0), match.ball.radius):
-        for bearings in (lines, _all_bearings(restart.spot, forward)):
-            for spot in _around(match, restart.spot, bearings):
-                if clearance(snapshot, spot) >= room:
-                    return restart._replace(spot=spot)
-    return restart
+    spot = _clear_spot(
+        match.pitch,
+        match.book.restarts.field_inset,
+        (match.ball.radius + 2.0 * max(match.reaches, default=0.0), match.ball.radius),
+        snapshot.obstacles,
+        restart.spot,
+        tuple([bearing + forward for bearing in _LINES.get(restart.phase, ())]),
+        forward,
+    )
+    return restart._replace(spot=spot)
 
 
 def has_room(match: MatchConstants, snapshot: Snapshot, spot: Spot) -> bool:
     """Whether obstacles leave room for the ball at a spot."""
-    return clearance(snapshot, spot) >= match.ball.radius - _TOUCHES
+    return clearance(snapshot.obstacles, spot) >= match.ball.radius - _TOUCHES
 
 
-def clearance(snapshot: Snapshot, spot: Spot) -> float:
+def clearance(obstacles: tuple[ObstacleState, ...], spot: Spot) -> float:
     """m between a point on the ground and the nearest obstacle; 0 or less on an obstacle, infinite without any."""
-    return min((_to_hull(obstacle, spot) for obstacle in snapshot.obstacles), default=math.inf)
+    return min((_to_hull(obstacle, spot) for obstacle in obstacles), default=math.inf)
+
+
+@lru_cache(8)
+def _clear_spot(
+    pitch: Pitch,
+    inset: float,
+    rooms: tuple[float, ...],
+    obstacles: tuple[ObstacleState, ...],
+    spot: Spot,
+    lines: tuple[float, ...],
+    forward: float,
+) -> Spot:
+    """The nearest legal place with the first of these rooms that any has, in m; the spot itself if none has.
+
+    Cached: obstacles rarely move, a search without success takes longer than a tick, and it is repeated in each tick.
+    """
+    for room in rooms:
+        for bearings in (lines, _all_bearings(spot, forward)):
+            for place in _around(pitch, inset, spot, bearings):
+                if clearance(obstacles, place) >= room:
+                    return place
+    return spot
 
 
 def _to_hull(obstacle: ObstacleState, spot: Spot) -> float:
@@ -84,9 +111,8 @@ def _all_bearings(spot: Spot, forward: float) -> tuple[float, ...]:
     return tuple([inward + turn * math.tau / _BEARINGS for turn in turns])
 
 
-def _around(match: MatchConstants, spot: Spot, bearings: tuple[float, ...]) -> Iterator[Spot]:
+def _around(pitch: Pitch, inset: float, spot: Spot, bearings: tuple[float, ...]) -> Iterator[Spot]:
     """Legal places of the ball around a spot, the nearest first."""
-    pitch, inset = match.pitch, match.book.restarts.field_inset
     most_x, most_y = max(abs(spot[0]), pitch.goal_line - inset), max(abs(spot[1]), pitch.touch_line - inset)
     was_in_area = in_a_penalty_area(pitch, *spot)
     for ring in range(1, round(_FARTHEST / _STEP) + 1):

@@ -71,7 +71,7 @@ def _is_timed(line_up: LineUp, place: Spot) -> bool:
 def _has_room(line_up: LineUp, index: int) -> bool:
     robots, reaches = line_up.snapshot.robots, line_up.match.reaches
     here = robots[index].x, robots[index].y
-    if clearance(line_up.snapshot, here) <= reaches[index] + _ROOM:
+    if clearance(line_up.snapshot.obstacles, here) <= reaches[index] + _ROOM:
         return False
     return all(
         math.dist(here, (robots[other].x, robots[other].y)) > reaches[index] + reaches[other] + _ROOM

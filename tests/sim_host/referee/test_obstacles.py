@@ -7,6 +7,8 @@ import pytest
 from schemas.config.obstacle import Shape
 from schemas.game import EventKind, OfficiatingMode, Phase
 from schemas.side import Side
+from sim_host.referee.placement import clear_ground
+from sim_host.referee.placement.clear_ground import clearance
 from sim_host.snapshot import ObstacleState
 
 
@@ -114,6 +116,22 @@ def test_a_pitch_without_free_ground_leaves_the_ball_where_the_rules_have_it(new
     rig.tick((3.0, 3.0))
     assert rig.state.spot == (0.0, 0.0)
     rig.until(lambda state: state.running)
+
+
+def test_a_pitch_without_free_ground_is_searched_once_and_not_in_each_tick(new_rig, monkeypatch):
+    measured = []
+
+    def counted(obstacles, spot):
+        measured.append(spot)
+        return clearance(obstacles, spot)
+
+    monkeypatch.setattr(clear_ground, "clearance", counted)
+    rig = new_rig()
+    rig.obstacles = (block(0.0, 0.0, 0.0, 39.0, 39.0),)
+    rig.tick((0.0, 0.0))
+    first = len(measured)
+    rig.tick((0.0, 0.0))
+    assert len(measured) - first < 10 < first
 
 
 def test_placing_the_ball_on_an_occupied_place_is_refused(new_rig):
