@@ -9,10 +9,9 @@ from typing import NamedTuple
 from robot_agent.bodies import Body
 from robot_agent.skills.take_ball import HAS_IT
 from robot_agent.world_model import WorldBelief
+from schemas.frames import Point
 from schemas.game import TeamPhase
 from schemas.messages.setup import Setup
-
-Point = tuple[float, float]
 
 SHORT_STAY = 2.0
 """s; a shorter time is too short to leave an area."""

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-Point = tuple[float, float]
+from schemas.frames import Point
 
 REMEMBERED = 0.6
 """s; an opponent that was not seen for longer is forgotten."""

@@ -10,10 +10,9 @@ from typing import NamedTuple
 
 from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.go_to import drive
+from schemas.frames import Point
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup
-
-Point = tuple[float, float]
 
 TOUCH = 0.1
 """m of air within which the opponent may be touched: noise of localisation and camera."""

@@ -9,6 +9,8 @@ import math
 from dataclasses import dataclass
 
 TAU = 2.0 * math.pi
+Point = tuple[float, float]
+"""x and y of a point on the ground, in m."""
 
 
 def wrap(angle: float) -> float:

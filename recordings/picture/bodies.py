@@ -13,6 +13,7 @@ from matplotlib.transforms import Affine2D
 
 from schemas.config.obstacle import Shape
 from schemas.config.sections import RobotBody
+from schemas.frames import Point
 from schemas.messages.setup import Setup
 from schemas.messages.world import ObstacleTruth, World
 from schemas.side import Side
@@ -26,8 +27,6 @@ _ROBOT_SCALE = 1.9
 _BALL_SCALE = 1.6
 _JUMP_M = 1.0
 """A body that moves farther in one tick was placed by hand: its trail is interrupted."""
-
-Place = tuple[float, float]
 
 
 def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float) -> None:
@@ -48,12 +47,12 @@ def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float)
     _ball(axes, now, setup.ball.radius, scale)
 
 
-def jumps(before: Place, after: Place) -> bool:
+def jumps(before: Point, after: Point) -> bool:
     """Whether a body was placed by hand, because it cannot have moved that far in one tick."""
     return math.dist(before, after) > _JUMP_M
 
 
-def _trail(axes: Axes, way: Sequence[Place], colour: str, width: float) -> None:
+def _trail(axes: Axes, way: Sequence[Point], colour: str, width: float) -> None:
     """Draw a line that fades toward the past."""
     steps = list(pairwise(way))
     kept = [(number, step) for number, step in enumerate(steps, 1) if not jumps(*step)]
@@ -83,7 +82,7 @@ def _obstacle(axes: Axes, obstacle: ObstacleTruth, scale: float) -> None:
     axes.add_patch(Rectangle(corner, obstacle.size_x, obstacle.size_y, angle=turned, rotation_point="center", **look))
 
 
-def _robot(axes: Axes, place: Place, heading: float, body: RobotBody, side: Side, number: str, scale: float) -> None:
+def _robot(axes: Axes, place: Point, heading: float, body: RobotBody, side: Side, number: str, scale: float) -> None:
     """Draw a disc with its number, a nose in the kicking direction, and a frame if the body has one."""
     (x, y), radius = place, _ROBOT_SCALE * body.radius
     if body.frame_width:

@@ -6,9 +6,8 @@ from collections.abc import Iterable
 from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
+from schemas.frames import Point
 from schemas.messages.command import Drive
-
-Point = tuple[float, float]
 
 BUMP = 1.0
 """m/s at which a robot may touch an opponent: less than what referees call a charge, to press for the ball."""

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from robot_agent.bodies import Moving
 from robot_agent.skills.keep_off import inside
 from robot_agent.skills.shoot import lane_width
+from schemas.frames import Point
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.setup import Setup
-
-Point = tuple[float, float]
 
 AIR = 0.2
 """m by which the ball gets away from a robot that accelerates after it. The rule book asks for 0.1 m of air, and a held

@@ -7,11 +7,9 @@ from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.shoot import lane_width
 from schemas.config.kicked import Kicked
-from schemas.frames import wrap
+from schemas.frames import Point, wrap
 from schemas.messages.command import Drive, Kick
 from schemas.messages.setup import Setup
-
-Point = tuple[float, float]
 
 OPEN = 0.5
 """m of free lane that make a pass worth it."""

@@ -7,8 +7,7 @@ import math
 from collections.abc import Sequence
 
 from schemas.config.sections import Pitch
-
-Point = tuple[float, float]
+from schemas.frames import Point
 
 MIDDLES = (
     (-0.5, 0.0),

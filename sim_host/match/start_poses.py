@@ -5,13 +5,11 @@ from collections.abc import Iterator, Sequence
 
 from schemas.config.rule_book import Restarts
 from schemas.config.sections import Pitch
-from schemas.frames import Pose
+from schemas.frames import Point, Pose
 from schemas.side import Side
 from sim_host.snapshot import Roster
 
-Spot = tuple[float, float]
-
-_FORMATION: Sequence[Spot] = (
+_FORMATION: Sequence[Point] = (
     (-10.5, 0.0),
     (-2.0, 1.0),
     (-2.0, -1.0),
@@ -65,7 +63,7 @@ class _Half:
         self.taken: list[tuple[float, float, float]] = []
         """x, y and reach of the robots that have a place, m."""
 
-    def place(self, number: int, reach: float) -> tuple[Spot, bool]:
+    def place(self, number: int, reach: float) -> tuple[Point, bool]:
         """The place of the robot with this index in its team's list, and whether it is legal."""
         wanted = self._wanted(number, reach)
         if self._is_legal(wanted, reach) and self._is_free(wanted, reach, 0.0):
@@ -77,7 +75,7 @@ class _Half:
         )
         return best, bool(legal)
 
-    def _wanted(self, number: int, reach: float) -> Spot:
+    def _wanted(self, number: int, reach: float) -> Point:
         """The place in the formation, moved away from the centre mark, but not beyond the goal line."""
         x, y = _FORMATION[number % len(_FORMATION)]
         x, y = x * self._pitch.length / 22.0, y * self._pitch.width / 14.0
@@ -85,7 +83,7 @@ class _Half:
         out = max(1.0, min((self._distance + reach) / math.hypot(x, y), goal_line / abs(x)))
         return x * out, y * out
 
-    def _is_legal(self, spot: Spot, reach: float) -> bool:
+    def _is_legal(self, spot: Point, reach: float) -> bool:
         """Whether a robot may stand there at a kick-off of either side."""
         x, y = spot
         return (
@@ -95,15 +93,15 @@ class _Half:
             and math.hypot(x, y) - reach > self._distance - _MARGIN
         )
 
-    def _is_free(self, spot: Spot, reach: float, air: float) -> bool:
+    def _is_free(self, spot: Point, reach: float, air: float) -> bool:
         """Whether there are `air` m or more between the robot and each other one."""
         return all(math.dist(spot, (x, y)) >= reach + other + air for x, y, other in self.taken)
 
-    def _in_penalty_area(self, spot: Spot) -> bool:
+    def _in_penalty_area(self, spot: Point) -> bool:
         pitch = self._pitch
         return spot[0] < pitch.penalty_area_depth - pitch.goal_line and abs(spot[1]) < pitch.penalty_area_width / 2
 
-    def _grid(self, reach: float) -> Iterator[Spot]:
+    def _grid(self, reach: float) -> Iterator[Point]:
         """Places of the half outside the goal area, without regard to other robots."""
         pitch = self._pitch
         rows = int((pitch.touch_line - reach) / _STEP)

@@ -5,14 +5,13 @@ from itertools import pairwise
 
 from recordings.stats.kicks import KickRecord
 from recordings.stats.tracks import Tracks
+from schemas.frames import Point
 
 _CM = 0.01
 _AFTER_S = 0.4
 """s after the outcome of a shot was clear in which the ball is still followed: a goal is a goal behind the line."""
 _JUMP_M, _FASTEST = 0.5, 25.0
 """m, m/s: a ball that moves farther between two samples than this and its speed allow was placed there."""
-
-Point = tuple[float, float]
 
 
 def end_of_shot(kick: KickRecord, tracks: Tracks, half_length: float) -> Point:

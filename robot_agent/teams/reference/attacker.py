@@ -16,10 +16,9 @@ from robot_agent.teams.reference.passing import Pass, chance, cost_of_loss, pass
 from robot_agent.teams.reference.roles import Role
 from robot_agent.teams.reference.shooting import Shot, best_shot
 from schemas.config.sections import Pitch
+from schemas.frames import Point
 from schemas.messages.command import KickMode
 from schemas.messages.setup import Setup
-
-Point = tuple[float, float]
 
 _WAYS = tuple(math.radians(angle) for angle in (0, 25, -25, 50, -50, 80, -80))
 """Directions of a dribble, from the kick axis's way to the goal."""

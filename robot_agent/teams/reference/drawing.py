@@ -4,9 +4,8 @@ from collections.abc import Mapping, Sequence
 
 from robot_agent.bodies import Body
 from robot_agent.teams.reference.passing import Pass
+from schemas.frames import Point
 from schemas.messages.debug import Debug, DebugCircle, DebugLine, DebugPoint, DebugText
-
-Point = tuple[float, float]
 
 _PLACE, _PASS, _OPPONENT = "cyan", "lime", "red"
 _BESIDE = 0.45

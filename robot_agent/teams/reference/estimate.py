@@ -11,9 +11,8 @@ from typing import NamedTuple
 from robot_agent.contract import Briefing
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.world_model import STALE, WorldBelief, WorldModel
+from schemas.frames import Point
 from schemas.messages.sight import Sight
-
-Point = tuple[float, float]
 
 HOLDS = -1.0
 """s until a robot that holds the ball could be at it: less than for any other."""

@@ -9,8 +9,7 @@ from robot_agent.teams.reference.passing import chance, worth
 from robot_agent.teams.reference.roles import Place, Role
 from robot_agent.teams.set_piece import before_own_goal
 from schemas.config.sections import Pitch
-
-Point = tuple[float, float]
+from schemas.frames import Point
 
 _DIRECTIONS = tuple(math.radians(angle) for angle in (-150, -110, -75, -40, 0, 40, 75, 110, 150))
 """Where supporters may stand around the ball, from the direction of the attack."""

@@ -9,8 +9,7 @@ from robot_agent.skills.keep_off import inside
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import chance
 from schemas.config.sections import Pitch
-
-Point = tuple[float, float]
+from schemas.frames import Point
 
 ARRIVED = 0.3
 """m from the end of a run, where it has ended."""

@@ -7,9 +7,8 @@ from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import chance
 from robot_agent.teams.reference.roles import Role
 from robot_agent.world_model import WorldBelief
+from schemas.frames import Point
 from schemas.game import TeamPhase
-
-Point = tuple[float, float]
 
 DEFENDS = (Role.BLOCKER, Role.MARKER)
 """Roles that follow their place closely, at full speed."""

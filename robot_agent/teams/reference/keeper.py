@@ -15,9 +15,8 @@ from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.rolling import Rolling
 from schemas.config.sections import Pitch
+from schemas.frames import Point
 from schemas.messages.command import Drive
-
-Point = tuple[float, float]
 
 
 def guard(me: Body, ball: Ball, pitch: Pitch, reach: float, limits: DriveLimits, parameters: Parameters) -> Drive:

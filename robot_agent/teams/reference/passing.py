@@ -8,9 +8,7 @@ from robot_agent.bodies import Body
 from robot_agent.skills.keep_off import inside
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
-from schemas.frames import wrap
-
-Point = tuple[float, float]
+from schemas.frames import Point, wrap
 
 
 class Pass(NamedTuple):

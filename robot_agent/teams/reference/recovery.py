@@ -7,9 +7,8 @@ from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.go_to import drive
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
+from schemas.frames import Point
 from schemas.messages.command import Drive
-
-Point = tuple[float, float]
 
 HOMES = ((-0.95, 0.0), (0.15, 0.25), (0.15, -0.25), (-0.45, 0.0), (-0.1, 0.0))
 """Where each number is at home, as shares of the pitch's half length and width; further numbers share these."""

@@ -14,9 +14,8 @@ from robot_agent.teams.set_piece import before_own_goal
 from robot_agent.teams.zones import owner_of
 from robot_agent.world_model import WorldBelief
 from schemas.config.rolling import Rolling
+from schemas.frames import Point
 from schemas.game import TeamPhase
-
-Point = tuple[float, float]
 
 
 class RoleFinder:

@@ -8,8 +8,7 @@ from typing import NamedTuple
 from robot_agent.bodies import Body
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.simple.assignment import cheapest_assignment
-
-Point = tuple[float, float]
+from schemas.frames import Point
 
 
 class Role(StrEnum):

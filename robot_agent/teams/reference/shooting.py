@@ -7,10 +7,8 @@ from typing import NamedTuple
 from robot_agent.skills.shoot import lane_width
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
-from schemas.frames import wrap
+from schemas.frames import Point, wrap
 from schemas.messages.command import KickMode
-
-Point = tuple[float, float]
 
 _GROUND_PLACES = (0.0, -0.5, 0.5, -0.83, 0.83)
 """Where a ground shot may aim, as shares of half the goal's width: the ball's edge 0.1 m inside the posts at most."""

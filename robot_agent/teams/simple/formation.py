@@ -8,8 +8,7 @@ from robot_agent.skills.keep_off import APART, inside, keep_off
 from robot_agent.skills.keep_out import Area
 from robot_agent.teams.simple.roles import Role
 from schemas.config.sections import Pitch
-
-Point = tuple[float, float]
+from schemas.frames import Point
 
 CLEAR = 2.4
 """m between a robot and a ball that a teammate plays."""

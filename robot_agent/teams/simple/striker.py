@@ -16,10 +16,9 @@ from robot_agent.teams.action import Action
 from robot_agent.teams.simple.roles import Role
 from robot_agent.world_model import Teammate, places_of
 from schemas.config.sections import Pitch
+from schemas.frames import Point
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.setup import Setup
-
-Point = tuple[float, float]
 
 RANGE = 8.0
 """m from the goal's middle; no shots from farther away."""
