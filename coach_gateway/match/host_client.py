@@ -10,14 +10,11 @@ from schemas.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
 from schemas.messages.game import ActionReply, RefereeAction
-from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
-from schemas.messages.replay import ReplayReply, ReplayRequest
-from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.side import Side
 from schemas.topic import Topic
-from schemas.topics import ACTION, ORDER, PARAMETERS, REFEREE_SEAT, REPLAY_CONTROL, SCENE, SETUP
+from schemas.topics import ACTION, ORDER, REFEREE_SEAT, SETUP
 from schemas.wire.faults import FaultError
 from schemas.wire.message import BadMessageError, Message
 from schemas.wire.part_faults import validated
@@ -42,13 +39,28 @@ class HostClient:
         self._sequence = 0
         self._watch: OrderFollower | None = None
 
+    def ask(self, topic: Topic, request: Message) -> Any:
+        """The reply to a query; of a request that changes something, it has whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no host answers for this match, or on the topic of replays no replay.
+        """
+        try:
+            return self._bus.query(topic, request, self._patience).result(self._patience)
+        except NoReplyError as error:
+            raise TouchlineError(
+                f'match "{self._bus.match}": {error}; name the match that the host plays with --match'
+            ) from None
+        except BadMessageError as error:
+            raise TouchlineError(f"{topic.key}: the host's reply cannot be read: {error}") from None
+
     def setup(self) -> Setup:
         """How the match is set up.
 
         Raises:
             TouchlineError: no host answers for this match.
         """
-        setup: Setup = self._ask(SETUP, SetupRequest())
+        setup: Setup = self.ask(SETUP, SetupRequest())
         return setup
 
     def team_names(self) -> TeamNames:
@@ -64,7 +76,7 @@ class HostClient:
         Raises:
             TouchlineError: no host answers for this match.
         """
-        reply: ActionReply = self._ask(ACTION, action if action.referee else self._named(action))
+        reply: ActionReply = self.ask(ACTION, action if action.referee else self._named(action))
         return reply
 
     def referee_seat(self, operation: SeatOperation, source: str = "coach") -> SeatReply:
@@ -73,7 +85,7 @@ class HostClient:
         Raises:
             TouchlineError: no host answers for this match.
         """
-        reply: SeatReply = self._ask(REFEREE_SEAT, self._named(SeatRequest(operation=operation, source=source)))
+        reply: SeatReply = self.ask(REFEREE_SEAT, self._named(SeatRequest(operation=operation, source=source)))
         return reply
 
     def _named(self, request: M) -> M:
@@ -81,33 +93,6 @@ class HostClient:
         if self._stays:
             self._bus.declare_alive(PresenceKind.REFEREE, self._referee)
         return request.replace(referee=self._referee)
-
-    def parameters(self, request: ParametersRequest) -> ParametersReply:
-        """Ask for live parameters, or change them; the reply has whether it was accepted, and why not.
-
-        Raises:
-            TouchlineError: no host answers for this match.
-        """
-        reply: ParametersReply = self._ask(PARAMETERS, request)
-        return reply
-
-    def scene(self, request: SceneRequest) -> SceneReply:
-        """Place, add or remove bodies, or start over; the reply has whether it was accepted, and why not.
-
-        Raises:
-            TouchlineError: no host answers for this match.
-        """
-        reply: SceneReply = self._ask(SCENE, request)
-        return reply
-
-    def replay(self, request: ReplayRequest) -> ReplayReply:
-        """Read the status of a replay, or control it; the reply has whether it was accepted, and why not.
-
-        Raises:
-            TouchlineError: no replay answers, as in a match.
-        """
-        reply: ReplayReply = self._ask(REPLAY_CONTROL, request)
-        return reply
 
     @property
     def orders(self) -> OrderFollower:
@@ -162,13 +147,3 @@ class HostClient:
         active = self.orders.book.active(side)
         after = max(active.order.sequence if active is not None else 0, setup.orders.get(side, 0))
         return max(self._sequence + 1, after + 1, self._bus.clock.unix_ns() // 1_000_000)
-
-    def _ask(self, topic: Topic, request: Message) -> Any:
-        try:
-            return self._bus.query(topic, request, self._patience).result(self._patience)
-        except NoReplyError as error:
-            raise TouchlineError(
-                f'match "{self._bus.match}": {error}; name the match that the host plays with --match'
-            ) from None
-        except BadMessageError as error:
-            raise TouchlineError(f"{topic.key}: the host's reply cannot be read: {error}") from None

@@ -25,6 +25,7 @@ from schemas.config.scene import load_scene, shipped_scenes
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.side import Side
+from schemas.topics import REPLAY_CONTROL
 
 _BEGINNING_S = 1.0
 """s of simulated time from a recording's start in which its first tick is looked for."""
@@ -191,7 +192,8 @@ class PageBroadcaster:
         client = self.requests.client
         setup = await asyncio.to_thread(client.setup)
         try:
-            recorded = await asyncio.to_thread(client.replay, ReplayRequest(operation=ReplayOperation.EVENTS))
+            request = ReplayRequest(operation=ReplayOperation.EVENTS)
+            recorded: ReplayReply = await asyncio.to_thread(client.ask, REPLAY_CONTROL, request)
         except TouchlineError:
             self.feed.begin(setup, live=True)
         else:
@@ -213,9 +215,10 @@ class PageBroadcaster:
         Raises:
             TouchlineError: the replay does not answer.
         """
-        status = self.requests.client.replay(ReplayRequest())
+        client = self.requests.client
+        status: ReplayReply = client.ask(REPLAY_CONTROL, ReplayRequest())
         if status.paused and not self.feed.has_picture and status.time <= status.start + _BEGINNING_S:
-            return self.requests.client.replay(ReplayRequest(operation=ReplayOperation.STEP))
+            status = client.ask(REPLAY_CONTROL, ReplayRequest(operation=ReplayOperation.STEP))
         return status
 
     async def _follow_result(self) -> None:

@@ -25,7 +25,7 @@ from schemas.game import ActionName
 from schemas.messages.coach import CoachOrder
 from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
-from schemas.topics import MANUAL
+from schemas.topics import MANUAL, PARAMETERS, REPLAY_CONTROL, SCENE
 from schemas.wire.message import Message
 
 SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
@@ -80,15 +80,13 @@ class RequestHandler:
             case PageAction():
                 action = request.action.replace(**source)
                 return lambda: self.client.act(action)
-            case PageScene():
-                scene = request.request.replace(**source)
-                return lambda: self.client.scene(scene)
-            case PageParameters():
-                parameters = request.request.replace(**source)
-                return lambda: self.client.parameters(parameters)
+            case PageScene() | PageParameters():
+                topic = SCENE if isinstance(request, PageScene) else PARAMETERS
+                named = request.request.replace(**source)
+                return lambda: self.client.ask(topic, named)
             case PageReplay():
                 replay = request.request
-                return lambda: self.client.replay(replay)
+                return lambda: self.client.ask(REPLAY_CONTROL, replay)
             case PageSeat():
                 operation = request.operation
                 return lambda: self.client.referee_seat(operation, **source)

@@ -31,6 +31,7 @@ from schemas.messages.game import RefereeAction
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
+from schemas.topics import SCENE
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
 from support.stepped_clock import SteppedClock
@@ -270,7 +271,7 @@ def test_two_after_the_world_is_reset_the_machine_runs_again(static: Experiment)
     """Gazebo's Reset World."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
     assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)
-    reply = static.client.scene(SceneRequest(operation=SceneOperation.RESET))
+    reply = static.client.ask(SCENE, SceneRequest(operation=SceneOperation.RESET))
     assert reply.accepted and reply.episode == 2
     assert static.play(lambda: static.machine("cyan2") is State.CHASE_BALL, 1.0)
     assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)

@@ -11,6 +11,7 @@ from schemas.access.accounts import Account
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest, Value
+from schemas.topics import PARAMETERS
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import validated
 from touchline.cli import options
@@ -125,7 +126,7 @@ def _request(**content: object) -> ParametersRequest:
 def _query(connection: ClientSettings, request: ParametersRequest) -> ParametersReply:
 
     with bus_client(connection, Account.OPERATOR) as bus:
-        reply = HostClient(bus).parameters(request)
+        reply: ParametersReply = HostClient(bus).ask(PARAMETERS, request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")
     return reply

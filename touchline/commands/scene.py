@@ -11,8 +11,9 @@ from schemas.bus.settings import ClientSettings
 from schemas.config.scene import REMEDIES, load_scene
 from schemas.config.toml_file import table_error
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.messages.scene import SceneRequest
+from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.side import Side
+from schemas.topics import SCENE
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import validated
 from touchline.cli.bus_client import bus_client
@@ -156,7 +157,7 @@ def _send(connection: ClientSettings, **content: Any) -> None:
 
     request = _request(**content)
     with bus_client(connection, Account.OPERATOR) as bus:
-        reply = HostClient(bus).scene(request)
+        reply: SceneReply = HostClient(bus).ask(SCENE, request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")
     typer.echo(f"{request.operation.value} accepted, episode {reply.episode}")
