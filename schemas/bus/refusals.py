@@ -3,6 +3,8 @@
 import threading
 from typing import NamedTuple
 
+NO_KEY = "its key is no key of a topic"
+"""Why a message on a key with wildcards, or on one that no topic has, is refused."""
 _MAX_KEY = 60
 """Most characters of a key that are kept for display."""
 _MAX_KEYS = 20

@@ -11,7 +11,7 @@ from message_examples import examples
 from protocol import page
 from protocol_fields import is_part, parts_of, rows, type_text
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
-from schemas.bus.zenoh import sample, session
+from schemas.bus.zenoh import reader, session
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.messages.command import Command
@@ -88,7 +88,7 @@ def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> 
 
 
 def test_the_attachment_is_the_one_that_is_sent(text: str) -> None:
-    assert (sample.STAMP.format, sample.STAMP.size) == ("<QQq", 24)
+    assert (reader.STAMP.format, reader.STAMP.size) == ("<QQq", 24)
     assert "sends 24 bytes" in text and "| 16–23 | signed |" in text
 
 

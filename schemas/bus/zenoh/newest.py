@@ -7,8 +7,7 @@ key nor stamp unless the caller needs them.
 import zenoh
 
 from schemas.bus.contract import ReceivedMessage
-from schemas.bus.zenoh.reader import NO_WAIT, ZenohReader
-from schemas.bus.zenoh.sample import is_wake_up, message_in
+from schemas.bus.zenoh.reader import NO_WAIT, ZenohReader, is_wake_up
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 
@@ -29,7 +28,7 @@ class ZenohNewest(ZenohReader):
         if newest is None:
             return None
         sample, payload = newest
-        return message_in(sample, self._topic, self._key, payload, self._has_arrival_time)
+        return self._message(sample, self._key, payload)
 
     def receive_payload(self, timeout: float | None = 0.0) -> bytes | None:
         newest = self._newest(timeout)

@@ -11,7 +11,7 @@ from schemas.bus.contract import (
     RefusedQueryError,
     Server,
 )
-from schemas.bus.zenoh.sample import NO_KEY
+from schemas.bus.refusals import NO_KEY
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 from schemas.wire.message import Message

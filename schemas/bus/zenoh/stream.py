@@ -6,8 +6,8 @@ import zenoh
 from zenoh import ext
 
 from schemas.bus.contract import BusError, Publisher, ReceivedMessage, Stamp
-from schemas.bus.zenoh.reader import ZenohReader
-from schemas.bus.zenoh.sample import NO_KEY, STAMP, is_wake_up, message_in
+from schemas.bus.refusals import NO_KEY
+from schemas.bus.zenoh.reader import STAMP, ZenohReader, is_wake_up
 from schemas.bus.zenoh.session import SessionContext, first_line
 from schemas.process.timing import HEARTBEAT_S
 from schemas.topic import Delivery, Topic
@@ -127,7 +127,7 @@ class ZenohSubscription(ZenohReader):
                 return None
         elif not payload and is_wake_up(sample):
             return None
-        return message_in(sample, self._topic, key, payload, self._has_arrival_time)
+        return self._message(sample, key, payload)
 
     def _learn(self, key: str, size: int) -> bool:
         """Whether a key is one of this topic; others are refused, except those of a topic with a narrower key."""

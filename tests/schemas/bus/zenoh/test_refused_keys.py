@@ -7,11 +7,10 @@ import zenoh
 
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.bus.endpoint import with_free_port
-from schemas.bus.refusals import Refusal
+from schemas.bus.refusals import NO_KEY, Refusal
 from schemas.bus.zenoh.bus import open_host
 from schemas.bus.zenoh.presence import NO_NAME
 from schemas.bus.zenoh.queries import MAX_WAITING, TOO_MANY
-from schemas.bus.zenoh.sample import NO_KEY
 from schemas.messages.command import Command
 from schemas.messages.setup import SetupRequest
 from schemas.process.clock import WallClock
