@@ -9,8 +9,7 @@ from typing import NamedTuple
 
 from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.container.parts import NotWritableError
-from recordings.recorder.match_progress import LoggedMessage
-from recordings.recorder.recording_writer import RecordingWriter
+from recordings.recorder.recording_writer import LoggedMessage, RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sequence_tracker import LossCounts
 from schemas.bus.contract import ReceivedMessage, Stamp

@@ -7,7 +7,8 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import Manifest
 from recordings.editing.compose import composition
 from recordings.reading.recording import RecordedMessage, Recording
-from recordings.recorder.match_progress import LatchedMessages, LoggedMessage
+from recordings.recorder.latched_messages import LATCHED, LatchedMessages
+from recordings.recorder.recording_writer import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from schemas.errors import TouchlineError
 
@@ -75,7 +76,9 @@ def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start_ns: int
 def _latched_at(recording: Recording, selection: KeySelection, start: float) -> list[LoggedMessage]:
     """The latched messages at a time."""
     latched = LatchedMessages()
-    latched.update((recorded.log_ns, recorded.received()) for recorded in recording.messages(end=start))
+    for recorded in recording.messages(end=start):
+        if recorded.topic.key in LATCHED:
+            latched.update((recorded.log_ns, recorded.received()))
     return [logged for logged in latched.messages() if selection.includes(logged[1].key)]
 
 

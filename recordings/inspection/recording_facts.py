@@ -8,7 +8,7 @@ from typing import Any
 from recordings.container.manifest import EndReason, KeyCount, Result
 from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
-from recordings.recorder.match_progress import MatchProgress
+from recordings.recorder.match_progress import FOLLOWED, MatchProgress
 from recordings.recorder.sequence_tracker import LossCounts
 from schemas.config.number_files import UNVERSIONED
 
@@ -152,10 +152,10 @@ def _ending(recording: Recording) -> tuple[str, Result]:
     progress = MatchProgress()
     counts = LossCounts()
     for recorded in recording.messages():
-        received = recorded.received()
-        progress.update([received])
+        if recorded.key in FOLLOWED:
+            progress.update(recorded.received())
         if recorded.log_ns >= recording.manifest.begins_ns:
-            counts.add([received])
+            counts.add([recorded])
     progress.catch_up()
     if result is not None:  # of a repaired file, or a later part
         return result.ended.value, result.counted(counts.counts())

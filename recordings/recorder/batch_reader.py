@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
-from recordings.recorder.match_progress import LoggedMessage
+from recordings.recorder.recording_writer import LoggedMessage
 from recordings.timing import QUIET_S, REPEAT_S, REPLY_S
 from schemas.bus.contract import Bus, NoReplyError, PendingReply, ReceivedMessage, Stamp
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest

@@ -8,7 +8,8 @@ from recordings.container.mcap_file import open_mcap_file
 from recordings.container.parts import locked, parts_of
 from recordings.container.sealed_metadata import from_metadata
 from recordings.reading.recording import open_recording
-from recordings.recorder.match_progress import LatchedMessages, MatchProgress
+from recordings.recorder.latched_messages import LATCHED, LatchedMessages
+from recordings.recorder.match_progress import FOLLOWED, MatchProgress
 from recordings.recorder.sequence_tracker import LossCounts
 from schemas.errors import TouchlineError
 from schemas.topic import Party
@@ -54,8 +55,10 @@ def read_earlier_parts(path: Path, host: int) -> EarlierParts:
     for recorded in recording.messages(end=earlier.begins_ns / 1e9):
         received = recorded.received()
         earlier.loss_counts.add([received])
-        earlier.latched.update([(recorded.log_ns, received)])
-        earlier.match.update([received])
+        if received.topic.key in LATCHED:
+            earlier.latched.update((recorded.log_ns, received))
+        if received.key in FOLLOWED:
+            earlier.match.update(received)
         earlier.messages += 1
         if recorded.topic.writer is Party.HOST:
             earlier.host_ns = max(earlier.host_ns, recorded.sent_ns)

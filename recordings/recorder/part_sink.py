@@ -6,8 +6,8 @@ from pathlib import Path
 from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.container.parts import part_path
 from recordings.recorder.earlier_parts import EarlierParts
-from recordings.recorder.match_progress import LatchedMessages, LoggedMessage
-from recordings.recorder.recording_writer import RecordingWriter
+from recordings.recorder.latched_messages import LATCHED, LatchedMessages
+from recordings.recorder.recording_writer import LoggedMessage, RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sequence_tracker import LossCounts
 from schemas.config.settings import RecordOptions
@@ -101,7 +101,9 @@ class PartSink:
     def _write_batch(self, batch: list[LoggedMessage]) -> None:
         if batch:
             self.loss_counts.add(received for _, received in batch)
-            self._latched.update(batch)
+            for logged in batch:
+                if logged[1].topic.key in LATCHED:
+                    self._latched.update(logged)
             self._writer.write(batch)
 
     def _is_full(self, log_ns: int) -> bool:

@@ -10,10 +10,11 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
 from recordings.recorder.batch_reader import BatchReader, Unbatcher
 from recordings.recorder.earlier_parts import EarlierParts
-from recordings.recorder.match_progress import LoggedMessage
+from recordings.recorder.match_progress import FOLLOWED
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.poll_interval import PollInterval
 from recordings.recorder.recording_summary import RecordingSummary
+from recordings.recorder.recording_writer import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
 from recordings.timing import DRAINED_S, HOST_PATIENCE_S, RECOVERY_POLL_S, REPORT_S
@@ -179,7 +180,9 @@ class Recorder:
             except BadMessageError:
                 self._match.unreadable[RECORD_BATCH.key] += 1
                 continue
-            self._match.update(received for _, received in logged)
+            for _, received in logged:
+                if received.key in FOLLOWED:
+                    self._match.update(received)
             if self._selection:
                 logged = [one for one in logged if self._includes(one[1].key)]
             self._waiting += logged

@@ -18,7 +18,6 @@ from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError, create_part
 from recordings.container.sealed_metadata import digest, to_metadata
-from recordings.recorder.match_progress import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.timing import FLUSH_S
 from recordings.viz.drawing import READS
@@ -30,6 +29,8 @@ from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 
+LoggedMessage = tuple[int, ReceivedMessage]
+"""Log time in ns, and message."""
 _BACKLOG = 64
 """Batches that may wait for the thread; adding another one blocks."""
 
