@@ -21,7 +21,8 @@ CONTAINS = (
 
 def main(address: str, picture: str, width: str = "1440", height: str = "900", words: str = "") -> None:
     """Open the page, wait for the words, take the screenshot."""
-    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    names = ("chromium-headless-shell", "chromium", "google-chrome")
+    chromium = next(filter(None, map(shutil.which, names)), None)
     with sync_playwright() as playwright:
         root = ["--no-sandbox"] if os.geteuid() == 0 else []
         browser = playwright.chromium.launch(executable_path=chromium, args=root)

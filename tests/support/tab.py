@@ -47,6 +47,12 @@ class Tab:
         there = f"window.touchline.pitchCanvas.world.{body}"
         self.until(f"Math.hypot({there}.x - {x}, {there}.y - {y}) < 0.05")
 
+    def wait_until_laid_out(self) -> None:
+        """Until the field stays where it is for two frames: a press on another place may have scrolled the page."""
+        place = "document.getElementById('moving').getBoundingClientRect().y"
+        later = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        self.until(f"(async () => {{ const y = {place}; await {later}; return {place} === y; }})()")
+
     def ask(self, what: str) -> Any:
         return self.page.evaluate(what)
 

@@ -39,6 +39,8 @@ def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(resting, v
     match = resting
     tab = visit(match, "referee", **PHONE)
     stop(tab)
+    tab.until_seen("robots.cyan1", *match.where("cyan1"))
+    tab.wait_until_laid_out()
     begin, end, elsewhere = tab.at(*match.where("cyan1")), tab.at(-6.0, 5.0), tab.at(8.0, -4.0)
     tab.touch("Start", begin)
     for share in (0.3, 0.7, 1.0):
@@ -57,6 +59,7 @@ def test_a_finger_beside_all_bodies_scrolls_the_page(resting, visit) -> None:
     match = resting
     tab = visit(match, "referee", width=390, height=500, has_touch=True, is_mobile=True)
     stop(tab)
+    tab.wait_until_laid_out()
     x, y = tab.at(0.0, 6.9)
     tab.touch("Start", (x, y + 20))
     for step in range(1, 8):

@@ -52,7 +52,7 @@ def test_the_end_of_a_match_is_held_for_a_second(match, visit, way: str) -> None
     assert box is not None
     place = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
-    def hold(ms: int) -> None:
+    def press() -> None:
         if way == "mouse":
             tab.page.mouse.move(*place)
             tab.page.mouse.down()
@@ -61,7 +61,8 @@ def test_the_end_of_a_match_is_held_for_a_second(match, visit, way: str) -> None
         else:
             button.focus()
             tab.page.keyboard.down("Enter")
-        tab.page.wait_for_timeout(ms)
+
+    def release() -> None:
         if way == "mouse":
             tab.page.mouse.up()
         elif way == "finger":
@@ -70,12 +71,15 @@ def test_the_end_of_a_match_is_held_for_a_second(match, visit, way: str) -> None
             tab.page.keyboard.up("Enter")
 
     for _ in range(2):
-        hold(300)
-    assert button.inner_text() == "End match"
+        press()
+        assert button.inner_text() == "Keep holding"
+        release()
+        assert button.inner_text() == "End match"
     assert tab.page.locator("#log li").count() == 0
     assert match.state.phase is not Phase.FULL_TIME
-    hold(1300)
+    press()
     match.until(lambda: match.host.simulation.over)
+    release()
 
 
 def test_a_space_in_a_text_is_typed_and_stops_nothing(match, visit) -> None:
