@@ -177,15 +177,15 @@ def _comparisons(tree: ast.Module) -> Iterator[tuple[str, str]]:
 def _mentions(tree: ast.Module) -> Iterator[tuple[str, str]]:
     """Name of a test, and the strings in what it compares or in the definitions of its file that it uses."""
     tests = [one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name.startswith("test_")]
+    used = [{one.id for one in ast.walk(test) if isinstance(one, ast.Name)} for test in tests]
     for definition in tree.body:
         if isinstance(definition, ast.FunctionDef):
             names = {definition.name} if definition not in tests else set()
         else:
             names = {one.id for one in ast.walk(definition) if isinstance(one, ast.Name) and _is_stored(one)}
-        for test in tests:
-            if names & {one.id for one in ast.walk(test) if isinstance(one, ast.Name)}:
-                yield from ((test.name, string) for string in _strings([definition]))
-                break
+        test = next((test for test, its in zip(tests, used, strict=True) if names & its), None)
+        if test is not None:
+            yield from ((test.name, string) for string in _strings([definition]))
     for test in tests:
         compared = [node for node in ast.walk(test) if isinstance(node, ast.Compare)]
         yield from ((test.name, string) for string in _strings(compared))

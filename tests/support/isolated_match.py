@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -102,6 +103,7 @@ class PlayedMatch:
         return self.status == 0 and "full time" in self.printed
 
 
+@cache
 def needs_bubblewrap() -> pytest.MarkDecorator:
     """Skips where bwrap is missing, or the kernel forbids what it needs."""
     probe = ["bwrap", "--ro-bind", "/", "/", "--unshare-pid", "--proc", "/proc", "--dev", "/dev", "true"]

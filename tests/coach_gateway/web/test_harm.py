@@ -111,14 +111,14 @@ def test_a_broken_message_is_answered_under_its_number_where_it_has_one(visit: V
     assert page.hear("reply")["id"] is None
 
 
-BROKEN = {
-    "a message beyond all measure": frame(b"x" * 1_000_000),
-    "a message that inflates beyond all measure": frame(deflated(bytes(100_000_000)), compressed=True),
-    "a text that is none": frame(b"\xff\xfe"),
-    "a continuation of nothing": frame(b"", CONTINUED),
-    "an unknown frame": frame(b"x", 3),
-    "a frame without a mask": b"\x81\x00",
-    "no frame": b"GET / HTTP/1.1\r\n\r\n",
+BROKEN: dict[str, Callable[[], bytes]] = {
+    "a message beyond all measure": lambda: frame(b"x" * 1_000_000),
+    "a message that inflates beyond all measure": lambda: frame(deflated(bytes(100_000_000)), compressed=True),
+    "a text that is none": lambda: frame(b"\xff\xfe"),
+    "a continuation of nothing": lambda: frame(b"", CONTINUED),
+    "an unknown frame": lambda: frame(b"x", 3),
+    "a frame without a mask": lambda: b"\x81\x00",
+    "no frame": lambda: b"GET / HTTP/1.1\r\n\r\n",
 }
 
 
@@ -129,7 +129,7 @@ def test_what_breaks_the_protocol_ends_its_own_connection_alone(
     gateway, other = gateway_of(), visit()
     client = RawClient(gateway.port)
     assert b"permessage-deflate" in client.upgrade(gateway.origin, Sec_WebSocket_Extensions="permessage-deflate")
-    client.send(BROKEN[broken])
+    client.send(BROKEN[broken]())
     wait_for(lambda: client.is_closed and len(gateway.pages) == 0)
     client.close()
     assert other.ask("token")["accepted"]
