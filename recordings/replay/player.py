@@ -147,7 +147,7 @@ class Player:
     def control(self, request: ReplayRequest) -> ReplayReply:
         """Carry out a request, or return the reason for its refusal."""
         try:
-            _ACTIONS[request.operation](self, request)
+            self._carry_out(request)
         except TouchlineError as error:
             return self.status(accepted=False, reason=str(error))
         events = self._events() if request.operation is ReplayOperation.EVENTS else []
@@ -223,18 +223,25 @@ class Player:
         self._playback = self._playback.changed(here, now, rate=rate, paused=paused)
         self._position_ns = here
 
-    def _play(self, request: ReplayRequest) -> None:
-        del request
-        self._steps = 0
-        self._change(paused=False)
-
-    def _pause(self, request: ReplayRequest) -> None:
-        del request
-        self._change(paused=True)
-
-    def _step(self, request: ReplayRequest) -> None:
-        self._change(paused=True)
-        self._steps = request.ticks
+    def _carry_out(self, request: ReplayRequest) -> None:
+        """Carry out a request; `status` and `events` change nothing."""
+        match request.operation:
+            case ReplayOperation.PLAY:
+                self._steps = 0
+                self._change(paused=False)
+            case ReplayOperation.PAUSE:
+                self._change(paused=True)
+            case ReplayOperation.STEP:
+                self._change(paused=True)
+                self._steps = request.ticks
+            case ReplayOperation.SEEK:
+                self._seek(request)
+            case ReplayOperation.RATE:
+                self._change(rate=AS_FAST_AS_POSSIBLE if request.rate is None else request.rate)
+            case ReplayOperation.LOOP:
+                self._loop = not self._loop
+            case ReplayOperation.LEAVE:
+                self.ended = True
 
     def _seek(self, request: ReplayRequest) -> None:
         if (request.to is None) == (request.by is None):
@@ -245,31 +252,3 @@ class Player:
             ns = self.position_ns + round((request.by or 0.0) * 1e9)
         self._has_begun = True
         self._jump_to(max(self._span.start_ns, min(ns, self.end_ns)))
-
-    def _rate(self, request: ReplayRequest) -> None:
-        self._change(rate=AS_FAST_AS_POSSIBLE if request.rate is None else request.rate)
-
-    def _switch_loop(self, request: ReplayRequest) -> None:
-        del request
-        self._loop = not self._loop
-
-    def _leave(self, request: ReplayRequest) -> None:
-        del request
-        self.ended = True
-
-    def _do_nothing(self, request: ReplayRequest) -> None:
-        """The reply is the same for all requests."""
-
-
-_ACTIONS: dict[ReplayOperation, Callable[[Player, ReplayRequest], None]] = {
-    ReplayOperation.STATUS: Player._do_nothing,
-    ReplayOperation.EVENTS: Player._do_nothing,
-    ReplayOperation.PLAY: Player._play,
-    ReplayOperation.PAUSE: Player._pause,
-    ReplayOperation.STEP: Player._step,
-    ReplayOperation.SEEK: Player._seek,
-    ReplayOperation.RATE: Player._rate,
-    ReplayOperation.LOOP: Player._switch_loop,
-    ReplayOperation.LEAVE: Player._leave,
-}
-"""Operation → method of the player."""
