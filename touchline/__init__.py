@@ -10,76 +10,49 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from robot_agent.contract import Brain, Briefing
-    from robot_agent.teams.action import Action
-    from robot_agent.teams.player import Player
-    from robot_agent.world_model import SeenBall, Teammate, WorldBelief, WorldModel
-    from schemas.config.match_config import MatchConfig, load_match
-    from schemas.game import TeamPhase
-    from schemas.messages.coach import CoachOrder
-    from schemas.messages.command import Command, Drive, Kick, KickMode
-    from schemas.messages.debug import Debug
-    from schemas.messages.drawing import Drawing
-    from schemas.messages.radio import BallBelief, Motion, Radio
-    from schemas.messages.sight import Sight
-    from touchline import skills
-    from touchline.play import MatchOutcome, play_match
+    from robot_agent.contract import Brain as Brain
+    from robot_agent.contract import Briefing as Briefing
+    from robot_agent.teams.action import Action as Action
+    from robot_agent.teams.player import Player as Player
+    from robot_agent.world_model import SeenBall as SeenBall
+    from robot_agent.world_model import Teammate as Teammate
+    from robot_agent.world_model import WorldBelief as WorldBelief
+    from robot_agent.world_model import WorldModel as WorldModel
+    from schemas.config.match_config import MatchConfig as MatchConfig
+    from schemas.config.match_config import load_match as load_match
+    from schemas.game import TeamPhase as TeamPhase
+    from schemas.messages.coach import CoachOrder as CoachOrder
+    from schemas.messages.command import Command as Command
+    from schemas.messages.command import Drive as Drive
+    from schemas.messages.command import Kick as Kick
+    from schemas.messages.command import KickMode as KickMode
+    from schemas.messages.debug import Debug as Debug
+    from schemas.messages.drawing import Drawing as Drawing
+    from schemas.messages.radio import BallBelief as BallBelief
+    from schemas.messages.radio import Motion as Motion
+    from schemas.messages.radio import Radio as Radio
+    from schemas.messages.sight import Sight as Sight
+    from touchline import skills as skills
+    from touchline.play import MatchOutcome as MatchOutcome
+    from touchline.play import play_match as play_match
 
-_HOMES = {
-    "Action": "robot_agent.teams.action",
-    "BallBelief": "schemas.messages.radio",
-    "Brain": "robot_agent.contract",
-    "Briefing": "robot_agent.contract",
-    "CoachOrder": "schemas.messages.coach",
-    "Command": "schemas.messages.command",
-    "Debug": "schemas.messages.debug",
-    "Drawing": "schemas.messages.drawing",
-    "Drive": "schemas.messages.command",
-    "Kick": "schemas.messages.command",
-    "KickMode": "schemas.messages.command",
-    "MatchConfig": "schemas.config.match_config",
-    "MatchOutcome": "touchline.play",
-    "Motion": "schemas.messages.radio",
-    "Player": "robot_agent.teams.player",
-    "Radio": "schemas.messages.radio",
-    "SeenBall": "robot_agent.world_model",
-    "Sight": "schemas.messages.sight",
-    "TeamPhase": "schemas.game",
-    "Teammate": "robot_agent.world_model",
-    "WorldBelief": "robot_agent.world_model",
-    "WorldModel": "robot_agent.world_model",
-    "load_match": "schemas.config.match_config",
-    "play_match": "touchline.play",
+_NAMES = {
+    "robot_agent.contract": ("Brain", "Briefing"),
+    "robot_agent.teams.action": ("Action",),
+    "robot_agent.teams.player": ("Player",),
+    "robot_agent.world_model": ("SeenBall", "Teammate", "WorldBelief", "WorldModel"),
+    "schemas.config.match_config": ("MatchConfig", "load_match"),
+    "schemas.game": ("TeamPhase",),
+    "schemas.messages.coach": ("CoachOrder",),
+    "schemas.messages.command": ("Command", "Drive", "Kick", "KickMode"),
+    "schemas.messages.debug": ("Debug",),
+    "schemas.messages.drawing": ("Drawing",),
+    "schemas.messages.radio": ("BallBelief", "Motion", "Radio"),
+    "schemas.messages.sight": ("Sight",),
+    "touchline.play": ("MatchOutcome", "play_match"),  # these two need PyBullet
 }
-"""Name → the module that defines it; `play_match` and `MatchOutcome` need PyBullet."""
-
-__all__ = [
-    "Action",
-    "BallBelief",
-    "Brain",
-    "Briefing",
-    "CoachOrder",
-    "Command",
-    "Debug",
-    "Drawing",
-    "Drive",
-    "Kick",
-    "KickMode",
-    "MatchConfig",
-    "MatchOutcome",
-    "Motion",
-    "Player",
-    "Radio",
-    "SeenBall",
-    "Sight",
-    "TeamPhase",
-    "Teammate",
-    "WorldBelief",
-    "WorldModel",
-    "load_match",
-    "play_match",
-    "skills",
-]
+_HOMES = {name: module for module, names in _NAMES.items() for name in names}
+__all__ = sorted([*_HOMES, "skills"])
 
 
 def __getattr__(name: str) -> Any:
@@ -91,4 +64,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return __all__
