@@ -155,7 +155,19 @@ class Machine:
             if row.state is self.state and row.condition(now, self.points):
                 self._enter(row.next)
                 break
-        return _ACTIONS[self.state](self, now)
+        match self.state:
+            case State.CHASE_BALL:
+                return self._chase(now)
+            case State.MOVE_BALL:
+                return MachineOutput(*self._translate(now, self.points.dribble), dribble=True)
+            case State.ROTATE_BALL:
+                return MachineOutput(omega=self._turn(now, self.points.goal), dribble=True)
+            case State.KICK_BALL:
+                return MachineOutput(dribble=True, kick=KICK)
+            case State.RESET:
+                return MachineOutput(*self._translate(now, self.points.reset))
+            case State.HOME:
+                return MachineOutput()
 
     def _enter(self, state: State) -> None:
         self.state = state
@@ -175,23 +187,6 @@ class Machine:
         keep = max(-ROTATION.top, min(ROTATION.top, _KEEP * _error(now.me, now.ball)))
         return MachineOutput(vx, vy, keep, dribble=True)
 
-    def _move_ball(self, now: Situation) -> MachineOutput:
-        return MachineOutput(*self._translate(now, self.points.dribble), dribble=True)
-
-    def _rotate_ball(self, now: Situation) -> MachineOutput:
-        return MachineOutput(omega=self._turn(now, self.points.goal), dribble=True)
-
-    def _kick_ball(self, now: Situation) -> MachineOutput:
-        del now
-        return MachineOutput(dribble=True, kick=KICK)
-
-    def _reset(self, now: Situation) -> MachineOutput:
-        return MachineOutput(*self._translate(now, self.points.reset))
-
-    def _home(self, now: Situation) -> MachineOutput:
-        del now
-        return MachineOutput()
-
     def _turn(self, now: Situation, target: tuple[float, float]) -> float:
         error = _error(now.me, target)
         if abs(error) <= FACING / 2.0:
@@ -207,17 +202,6 @@ class Machine:
             return 0.0, 0.0
         self._speed = TRANSLATION.next_speed(self._speed, left, now.dt)
         return self._speed * dx / left, self._speed * dy / left
-
-
-_ACTIONS: dict[State, Callable[[Machine, Situation], MachineOutput]] = {
-    State.CHASE_BALL: Machine._chase,
-    State.MOVE_BALL: Machine._move_ball,
-    State.ROTATE_BALL: Machine._rotate_ball,
-    State.KICK_BALL: Machine._kick_ball,
-    State.RESET: Machine._reset,
-    State.HOME: Machine._home,
-}
-"""State → what the robot does in it."""
 
 
 def _error(me: Body, target: tuple[float, float]) -> float:
