@@ -63,17 +63,8 @@ class World:
             self._chassis.reset()
 
     def put_obstacle(self, obstacle: StaticObstacle) -> None:
-        """Add an obstacle between two ticks, in place of one of the same name."""
+        """Add an obstacle with a name that no other has; later changes are made by `rebuild_with`."""
         self._engine.put_obstacle(ObstacleState.of(obstacle))
-        self._update_obstacles()
-
-    def remove_obstacle(self, name: str) -> None:
-        """Remove an obstacle between two ticks.
-
-        Raises:
-            KeyError: no obstacle has this name.
-        """
-        self._engine.remove_obstacle(name)
         self._update_obstacles()
 
     def _update_obstacles(self) -> None:

@@ -89,19 +89,8 @@ class Engine:
         return tuple([obstacle for obstacle, _ in self._obstacles.values()])
 
     def put_obstacle(self, obstacle: ObstacleState) -> None:
-        """Add an obstacle, in place of one of the same name."""
-        if obstacle.name in self._obstacles:
-            self.remove_obstacle(obstacle.name)
+        """Add an obstacle with a name that no other has."""
         self._obstacles[obstacle.name] = obstacle, self._make.obstacle(obstacle)
-
-    def remove_obstacle(self, name: str) -> None:
-        """Remove an obstacle.
-
-        Raises:
-            KeyError: no obstacle has this name.
-        """
-        _, body = self._obstacles.pop(name)
-        pybullet.removeBody(body, physicsClientId=self.client)
 
     def rebuild(self, robots: Sequence[RobotState], ball: BallState) -> None:
         """Rebuild the world with these poses and velocities: robots upright, the ball without spin and not held.

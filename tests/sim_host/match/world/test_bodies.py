@@ -165,23 +165,24 @@ def test_an_obstacle_reports_its_size_and_the_circle_around_it(pitch: WorldRig) 
     assert (pole.shape, pole.size_x, pole.size_y, pole.radius, pole.height) == (Shape.CYLINDER, 0.3, 0.3, 0.15, 1.0)
 
 
-def test_an_obstacle_can_be_put_moved_and_taken_away_while_the_world_runs(pitch: WorldRig) -> None:
+def test_obstacles_are_put_moved_and_taken_away_between_two_ticks(pitch: WorldRig) -> None:
+    def rebuilt(*obstacles: StaticObstacle) -> None:
+        pitch.world.rebuild_with(pitch.profile, pitch.roster, obstacles)
+
     pitch.place(cyan1=(-3, 2, 0))
-    pitch.world.put_obstacle(CRATE)
+    rebuilt(CRATE)
     pitch.run(2.0, cyan1=drive(3))
     assert pitch.at("cyan1").x < 1.0
-    pitch.world.put_obstacle(CRATE.model_copy(update={"place": [4.0, 2.0]}))
+    rebuilt(CRATE.model_copy(update={"place": [4.0, 2.0]}))
     pitch.place(cyan1=(1.0, 2, 0))
     pitch.run(1.5, cyan1=drive(3))
     at = pitch.at("cyan1").x
     assert 1.5 < at < 4.0
     assert len(pitch.world.snapshot().obstacles) == 1
-    pitch.world.remove_obstacle("crate")
+    rebuilt()
     assert pitch.world.snapshot().obstacles == ()
     pitch.run(2.0, cyan1=drive(3))
     assert pitch.at("cyan1").x > at + 3.0
-    with pytest.raises(KeyError):
-        pitch.world.remove_obstacle("crate")
 
 
 def test_the_last_touch_is_a_contact_and_a_near_ball_is_not_touched(pitch: WorldRig) -> None:
