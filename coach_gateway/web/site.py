@@ -96,7 +96,6 @@ class _Strict:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one request."""
-
         headers = RESULT_HEADERS if scope.get("path", "").startswith(f"{_RESULT}/") else HEADERS
 
         async def with_headers(message: Message) -> None:

@@ -178,7 +178,6 @@ def selection(include: list[str] | None, exclude: list[str] | None) -> KeySelect
     Raises:
         TouchlineError: an expression is invalid.
     """
-
     return KeySelection(tuple(include or ()), tuple(exclude or ()))
 
 

@@ -26,7 +26,6 @@ def import_log(
 
     Example: touchline import 20160703_120000.TeamA-TeamB.zip --out final.mcap
     """
-
     imported = IMPORTERS["msl-log"].import_log(log, out or log[0].with_suffix(".mcap"), profile, team_a)
     if json:
         typer.echo(json_text.dumps(imported.to_json(), ensure_ascii=False))

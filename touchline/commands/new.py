@@ -16,7 +16,6 @@ def new(
 
     Example: touchline new my_team
     """
-
     made = make_team(name, folder)
     typer.echo(f"{made}: a team of five, {class_name(name)}")
     typer.echo(f"plays:  cd {made}; touchline match match.toml")

@@ -112,7 +112,6 @@ def _order(
     connection: ClientSettings,
     **more: Any,
 ) -> None:
-
     content = {**{key: getattr(order_options, key) for key in (field.name for field in fields(order_options))}, **more}
     from_options(CoachOrder, sequence=1, **content)
     with bus_client(connection, Account.of_coach(side)) as bus:

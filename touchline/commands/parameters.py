@@ -39,7 +39,6 @@ def list_all(
 
     Example: touchline parameters list --json | jq '.[] | select(.live).name'
     """
-
     _show(_query(connection, ParametersRequest(operation=ParameterOperation.LIST)), json=json)
 
 
@@ -55,7 +54,6 @@ def get(
 
     Example: touchline parameters get ball radio.loss
     """
-
     _show(_query(connection, _request(operation=ParameterOperation.GET, names=names)), json=json)
 
 
@@ -71,7 +69,6 @@ def set_values(
 
     Example: touchline parameters set radio.loss=0.3 noise.preset=perfect
     """
-
     _show(
         _query(connection, _request(operation=ParameterOperation.SET, values=dict(map(_setting, settings)))), json=json
     )
@@ -91,7 +88,6 @@ def reset(
 
     Example: touchline parameters reset ball
     """
-
     _show(_query(connection, _request(operation=ParameterOperation.RESET, names=names or [])), json=json)
 
 
@@ -114,7 +110,6 @@ def _value(text: str) -> Value:
 
 
 def _request(**content: object) -> ParametersRequest:
-
     try:
         return validated(ParametersRequest, content)
     except FaultError as error:
@@ -124,7 +119,6 @@ def _request(**content: object) -> ParametersRequest:
 
 
 def _query(connection: ClientSettings, request: ParametersRequest) -> ParametersReply:
-
     with bus_client(connection, Account.OPERATOR) as bus:
         reply: ParametersReply = HostClient(bus).ask(PARAMETERS, request)
     if not reply.accepted:

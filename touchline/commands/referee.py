@@ -149,7 +149,6 @@ SEAT_COMMANDS: dict[str, SeatCommand] = {
 
 def _seat_command(row: SeatCommand) -> Callable[..., None]:
     def command(connection: ClientSettings) -> None:
-
         with bus_client(connection, Account.REFEREE) as bus:
             reply = HostClient(bus, referee=terminal_name()).referee_seat(row.operation)
         if not reply.accepted:
@@ -166,7 +165,6 @@ app.command("admit-recorder")(admit.recorder)
 
 
 def _send(connection: ClientSettings, action: RefereeAction) -> None:
-
     with bus_client(connection, Account.REFEREE) as bus:
         reply = HostClient(bus, referee=terminal_name()).act(action)
     if not reply.accepted:

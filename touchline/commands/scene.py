@@ -48,7 +48,6 @@ def load(
 
     Example: touchline scene load two_on_one
     """
-
     content = {"scene": load_scene(name).model_dump(mode="json")} if Path(name).suffix == ".toml" else {"load": name}
     _send(connection, operation="load", **content)
 
@@ -154,7 +153,6 @@ def reset(
 
 
 def _send(connection: ClientSettings, **content: Any) -> None:
-
     request = _request(**content)
     with bus_client(connection, Account.OPERATOR) as bus:
         reply: SceneReply = HostClient(bus).ask(SCENE, request)
@@ -169,7 +167,6 @@ def _request(**content: Any) -> SceneRequest:
     Raises:
         TouchlineError: a value is invalid.
     """
-
     try:
         return validated(SceneRequest, content)
     except FaultError as error:

@@ -20,7 +20,6 @@ def scenes(
 
     Example: touchline scene list penalty
     """
-
     if name is None:
         found = {shipped: load_scene(shipped).description for shipped in shipped_scenes()}
         if json:

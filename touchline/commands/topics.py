@@ -43,7 +43,6 @@ def topics(
 
 def _schema(name: str) -> dict[str, Any]:
     """The schema of a topic's message or of a class by name, replies to queries and the match file among them."""
-
     models: dict[str, type[Message]] = {}
     for topic, row in TOPICS.items():
         if row.message is not None:
