@@ -3,16 +3,16 @@
 from collections.abc import Iterable
 from typing import Any
 
+from recordings.container.lineup import Lineup
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
 from recordings.reading.tick_index import Segment
 from recordings.reading.tick_records import TickRecord
 from schemas.config.obstacle import Shape, StaticObstacle
-from schemas.config.profile import STANDARD
 from schemas.config.roster import RosterEntry
 from schemas.errors import TouchlineError
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
-from schemas.side import Side
 from schemas.wire.message import BadMessageError
 from schemas.wire.part import encode
 from sim_host.match.live_parameters import LiveParameters
@@ -94,19 +94,10 @@ def _parameters(recording: Recording, *, from_start: bool) -> LiveParameters:
 
 def _robots(recording: Recording) -> Iterable[RosterEntry]:
     """The robots that took part at the recorder's query, in the order of the roster."""
-    manifest = recording.manifest
-    for side in Side:
-        has_keeper = True
-        if manifest.setup is not None:
-            has_keeper = manifest.setup.teams[side].goalkeeper
-            names, types = manifest.setup.teams[side].robots, manifest.setup.teams[side].types
-        elif manifest.config is not None:
-            names, types = manifest.config.robots(side), manifest.config.team(side).types
-        else:
-            return
-        for number, name in enumerate(names):
-            keeper = has_keeper and number == 0
-            yield RosterEntry(name=name, side=side, type=types.get(name, STANDARD), keeper=keeper)
+    setup, config = recording.manifest.setup, config_of(recording)
+    if setup is None and config is not None:
+        setup = Setup.of(config, config.load_profile(), config.load_rule_book())
+    return Lineup.of(setup).robots.values()
 
 
 def _obstacles(world: World) -> Iterable[StaticObstacle]:
