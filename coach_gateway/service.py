@@ -6,8 +6,8 @@ The process waits for a host for any length of time. It stays when the host leav
 import asyncio
 import contextlib
 import signal
-from collections.abc import Callable, Sequence
-from typing import Protocol
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any, Protocol
 
 from coach_gateway.timing import HOST_SEARCH_S
 from schemas.access.accounts import Account
@@ -96,6 +96,20 @@ async def together(services: Sequence[Service], stop: asyncio.Event) -> None:
         await asyncio.wait(tasks)
     for task in tasks:
         task.result()
+
+
+async def until_first(*works: Awaitable[Any], ignored: type[Exception] | tuple[type[Exception], ...] = ()) -> None:
+    """Run works concurrently until one has ended, and cancel the others; raises an error that is not `ignored`."""
+    tasks = [asyncio.ensure_future(work) for work in works]
+    try:
+        await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for task in tasks:
+            task.cancel()
+        ends = await asyncio.gather(*tasks, return_exceptions=True)
+    for end in ends:
+        if isinstance(end, Exception) and not isinstance(end, ignored):
+            raise end
 
 
 async def pause(stop: asyncio.Event, seconds: float) -> bool:

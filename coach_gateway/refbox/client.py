@@ -18,7 +18,7 @@ from coach_gateway.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_
 from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.own_world_state import own_world_state
 from coach_gateway.refbox.signal_queue import BoxSignal, SignalQueue
-from coach_gateway.service import pause
+from coach_gateway.service import pause, until_first
 from coach_gateway.timing import (
     BOX_CONNECT_S,
     BOX_FIRST_PAUSE_S,
@@ -115,22 +115,12 @@ class RefBoxClient:
         self._signals = SignalQueue()
         self._set_connected(True)
         self._log(f"{self._box.team} is connected to the referee box {self._box.host}:{self._box.port}")
-        stopped = asyncio.create_task(stop.wait())
-        tasks = [
-            stopped,
-            *(asyncio.create_task(one) for one in (self._read(reader), self._forward(), self._upload_states(writer))),
-        ]
+        works = (self._read(reader), self._forward(), self._upload_states(writer))
         try:
-            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            await until_first(stop.wait(), *works, ignored=OSError)
         finally:
-            for task in tasks:
-                task.cancel()
-            ends = await asyncio.gather(*tasks, return_exceptions=True)
             writer.transport.abort()
             self._set_connected(False)
-        for end in ends:
-            if isinstance(end, Exception) and not isinstance(end, OSError):
-                raise end
         if not stop.is_set():
             self._log(f"the referee box is gone; {self.summary()}")
 

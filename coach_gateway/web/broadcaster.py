@@ -4,6 +4,7 @@ import asyncio
 
 from coach_gateway.access import rights
 from coach_gateway.access.roles import Role
+from coach_gateway.service import until_first
 from coach_gateway.timing import HOST_RETRY_S, POLL_S, RELOAD_S, STATUS_S
 from coach_gateway.web.frame_pace import FramePace
 from coach_gateway.web.manual_control import ManualControl
@@ -53,16 +54,7 @@ class PageBroadcaster:
     async def follow(self, stop: asyncio.Event) -> None:
         """Send all pages what is new until `stop` is set, or until the match has a result and its pages are closed."""
         works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._follow_result())
-        tasks = [asyncio.create_task(work) for work in works]
-        stopped = asyncio.create_task(stop.wait())
-        try:
-            done, _ = await asyncio.wait([*tasks, stopped], return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for task in (*tasks, stopped):
-                task.cancel()
-            await asyncio.gather(*tasks, stopped, return_exceptions=True)
-        for task in done:
-            task.result()
+        await until_first(stop.wait(), *works)
 
     def welcome(self, page: Page) -> None:
         """Send a page its role and rights, then everything that is known of the match."""

@@ -13,6 +13,7 @@ from coach_gateway.access.origins import Origins
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import Role
 from coach_gateway.access.tokens import UNKNOWN_TOKEN, Tokens
+from coach_gateway.service import until_first
 from coach_gateway.timing import PAGE_CLOSING_S, PAGE_TOKEN_S
 from coach_gateway.web.broadcaster import PageBroadcaster
 from coach_gateway.web.pages import Page, Pages
@@ -94,16 +95,7 @@ class SocketEndpoint:
     async def _run(self, socket: WebSocket, page: Page) -> None:
         """Serve a page until it leaves, or does not read what it is sent."""
         works = (self._send(socket, page), self._read(socket, page), page.queue.overflowed.wait())
-        tasks = [asyncio.ensure_future(work) for work in works]
-        try:
-            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for task in tasks:
-                task.cancel()
-            ends = await asyncio.gather(*tasks, return_exceptions=True)
-        for end in ends:
-            if isinstance(end, Exception) and not isinstance(end, WebSocketDisconnect):
-                raise end  # an error of the server ends this page alone, and is logged
+        await until_first(*works, ignored=WebSocketDisconnect)  # an error of the server ends this page alone
         if page.queue.overflowed.is_set():
             self._refusals.note("page that does not read", page.address)
 
