@@ -1,7 +1,6 @@
 """One robot's process: bus, brain, run. Importing it loads what every robot needs, and no brain."""
 
 import signal
-from types import FrameType
 
 from robot_agent.brain_reload import BrainReload
 from robot_agent.breakpoints import skip_breakpoints
@@ -30,7 +29,7 @@ def run(settings: AgentSettings) -> int:
     if settings.reload and settings.stdio:
         raise TouchlineError("--reload is for brains in Python, --stdio starts a program; leave one of them out")
     configure_log("agent", settings.log_format, settings.robot)
-    signal.signal(signal.SIGTERM, _end)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a polite end, as from a keyboard
     clock = WallClock()
     skipped = skip_breakpoints(settings, clock)
 
@@ -62,9 +61,3 @@ def run(settings: AgentSettings) -> int:
         return 0
     finally:
         end_robot(brain)
-
-
-def _end(number: int, frame: FrameType | None) -> None:
-    """A polite end, from a supervisor as from a keyboard."""
-    del number, frame
-    raise KeyboardInterrupt

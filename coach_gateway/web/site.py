@@ -51,7 +51,6 @@ RESULT_HEADERS = HEADERS | {
 def site(
     enter: Callable[[WebSocket], Awaitable[None]],
     is_known: Callable[[str | None], bool],
-    folder: Path = PAGE,
     result: Path | None = None,
 ) -> Starlette:
     """The whole site; `enter` handles the WebSocket of a page, `result` is the folder of a match's result.
@@ -65,7 +64,7 @@ def site(
             WebSocketRoute("/ws", enter),
             Mount("/shared", _Files(directory=SHARED)),
             *([Mount(_RESULT, _Files(directory=result, check_dir=False))] if result is not None else []),
-            Mount("/", _Files(directory=folder, html=True)),
+            Mount("/", _Files(directory=PAGE, html=True)),
         ],
         middleware=[Middleware(_Strict, is_known=is_known)],
     )

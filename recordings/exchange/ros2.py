@@ -14,6 +14,7 @@ import numpy as np
 
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.reading.recording import Recording
+from recordings.viz.transforms import BALL, MAP, base
 from schemas.errors import TouchlineError
 from schemas.frames import Pose, to_body
 from schemas.messages.command import Command
@@ -24,8 +25,6 @@ from schemas.side import Side
 from schemas.topics import BELIEF, COMMAND, EVENT, STATE, WORLD
 
 _TOPICS = (WORLD, COMMAND, BELIEF, STATE, EVENT)
-MAP = "map"
-BALL = "ball"
 _EXACT = np.zeros(36)
 """Covariance of exactly known values."""
 
@@ -149,7 +148,7 @@ class _Bag:
     def _transforms(self, stamp: Any, world: World) -> Iterator[Any]:
         for name, robot in world.robots.items():
             yield self._transform(
-                stamp, _base(name), self._vector(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
+                stamp, base(name), self._vector(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
             )
         ball = world.ball
         yield self._transform(stamp, BALL, self._vector(ball.x, ball.y, ball.z), self._quaternion(0.0))
@@ -164,7 +163,7 @@ class _Bag:
         pose = self._make(
             "geometry_msgs/msg/Pose", self._point(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
         )
-        return self._odometry_of(stamp, _base(name), pose, self._twist(vx, vy, 0.0, robot.omega))
+        return self._odometry_of(stamp, base(name), pose, self._twist(vx, vy, 0.0, robot.omega))
 
     def _ball(self, stamp: Any, ball: BallTruth) -> Any:
         pose = self._make("geometry_msgs/msg/Pose", self._point(ball.x, ball.y, ball.z), self._quaternion(0.0))
@@ -206,10 +205,6 @@ class _Bag:
             self.written[topic] = 0
         self._writer.write(connection, log_ns, self._store.serialize_cdr(message, topic_type.message))
         self.written[topic] += 1
-
-
-def _base(robot: str) -> str:
-    return f"{robot}/base_link"
 
 
 def _qos(topic_type: TopicType) -> Any:

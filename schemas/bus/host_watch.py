@@ -48,10 +48,6 @@ class HostWatch:
             self._reached_at = now
         return reachable
 
-    def unreachable_s(self) -> float:
-        """Wall time since the host was last reachable, in s."""
-        return self._now() - self._reached_at
-
     def is_given_up(self, patience: float) -> bool:
         """For agents and recorders: whether the host has been unreachable for `patience` s of wall time.
 

@@ -5,7 +5,6 @@ import logging
 import signal
 from collections.abc import Sequence
 from contextlib import ExitStack
-from types import FrameType
 
 from schemas.access.protection import Protection, robots_of
 from schemas.bus.announcement import Announcement, announced, announced_to_user
@@ -32,7 +31,7 @@ def run(settings: HostSettings) -> int:
         TouchlineError: PyBullet is missing, or the endpoint cannot be listened on or is open to others unguarded.
     """
     configure_log("host", settings.log_format, text="%(asctime)s %(name)s: %(message)s")
-    signal.signal(signal.SIGTERM, _leave)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         _serve(settings)
     except KeyboardInterrupt:
@@ -96,8 +95,3 @@ def _announce(settings: HostSettings, endpoint: str, announcements: ExitStack) -
         announcements.enter_context(announced_to_user(announcement))
     except OSError as error:
         log.warning("clients do not find this host by themselves: %s", error)
-
-
-def _leave(signum: int, frame: FrameType | None) -> None:
-    del signum, frame
-    raise KeyboardInterrupt

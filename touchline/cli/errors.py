@@ -6,14 +6,13 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
+from schemas.config.settings_file import WRONG
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.process.process_log import Level, log_line
 
 PREFIX = "touchline: "
 FAILED = 1
 """The requested operation failed."""
-WRONG = 2
-"""Wrong usage or input."""
 
 
 class CommandGroup(TyperGroup):

@@ -16,6 +16,7 @@ from schemas.bus.contract import Bus, BusError
 from schemas.bus.outcome_file import read_outcome
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.confinement import Isolation
+from schemas.config.settings_file import WRONG
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.process.clock import Clock
 from schemas.side import Side
@@ -38,7 +39,6 @@ from touchline.watch.screen import Screen
 if TYPE_CHECKING:
     from coach_gateway.web.protocol import ResultUpdate
 
-_WRONG_INPUT = 2
 _AFTER_THE_RESULT = frozenset({ProcessKind.PAGE})
 """Processes that go on after the match, until the page with its result is closed."""
 _NONE: frozenset[ProcessKind] = frozenset()
@@ -221,7 +221,7 @@ class MatchRun:
             recording = outcome_of(self._plan, *self._supervisor.failure("recorder"))
             return MatchResult.of(follower, recording, self._names)
         log = self._supervisor.last_lines("host")
-        if status == _WRONG_INPUT and log:
+        if status == WRONG and log:
             if not self._has_clients:
                 self._remove_folder()
             raise TouchlineError(log[-1].removeprefix("touchline: "))
