@@ -16,8 +16,6 @@ class DebugFollower:
         self._drawings = bus.subscribe(DEBUG, newest=True)
         self._newest: dict[str, ReceivedMessage] = {}
         self._read: dict[str, RobotDebug] = {}
-        self.unreadable = 0
-        """Drawings that could not be read; each was left out."""
 
     def update(self) -> None:
         """Take in the drawings received since the last call, without waiting."""
@@ -43,7 +41,6 @@ class DebugFollower:
             try:
                 self._read[robot] = self._newest[robot].message()
             except BadMessageError:
-                self.unreadable += 1
                 del self._newest[robot]
                 return None
         return self._read[robot]

@@ -96,8 +96,6 @@ class MatchFollower:
         self.orders = OrderBook()
         self.refboxes: list[str] = []
         """Names of the sides whose base stations are connected to a referee box."""
-        self.unreadable = 0
-        """Messages that could not be read; each was left out."""
         self.first: MatchTime | None = None
         """The first tick seen."""
         self.last: MatchTime | None = None
@@ -294,5 +292,4 @@ class MatchFollower:
         try:
             return received.message()
         except BadMessageError:
-            self.unreadable += 1
             return None

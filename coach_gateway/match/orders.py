@@ -126,8 +126,6 @@ class OrderFollower:
         """Fills `book`; by default a new one."""
         self._subscription = bus.subscribe(ACTIVE_ORDER)
         self.book = book if book is not None else OrderBook()
-        self.unreadable = 0
-        """Messages that could not be read; each was left out."""
 
     def update(self) -> list[Side]:
         """Take in what has come, without waiting; returns the sides with news, in the order it came."""
@@ -136,7 +134,6 @@ class OrderFollower:
             try:
                 side, active = Side(received.chunks["side"]), received.message()
             except (BadMessageError, ValueError):
-                self.unreadable += 1
                 continue
             if self.book.update(side, active):
                 news[side] = None

@@ -71,4 +71,3 @@ def test_the_follower_returns_the_sides_with_news_and_counts_unreadable_messages
     host.publisher(ACTIVE_ORDER, side="lilac").put(standing(7))
     writer.put(standing(7))
     assert watch.update() == [Side.MAGENTA]
-    assert watch.unreadable == 2
