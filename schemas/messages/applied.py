@@ -9,7 +9,7 @@ from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import Placement, RosterEntry
 from schemas.game import EventKind
 from schemas.messages.command import Drive, Kick
-from schemas.messages.game import RefereeAction
+from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.wire.message import BadMessageError, Message, Name
 from schemas.wire.part import Part, encode
@@ -41,6 +41,10 @@ class OperatorChange(Part, kw_only=False):
     """Name of the operation."""
     text: str
     """The change as one sentence; the text of its event."""
+
+    def event(self, tick: int, time: float, clock: float) -> GameEvent:
+        """The event that reports the change."""
+        return GameEvent(tick=tick, time=time, clock=clock, kind=self.kind, rule=self.rule, text=self.text)
 
 
 class Applied(Message):

@@ -7,6 +7,7 @@ from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase
+from schemas.messages.applied import OperatorChange
 from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest, Setting
 from schemas.messages.scene import SceneReply, SceneRequest
 from sim_host.match.live_parameters import LiveParameters
@@ -60,7 +61,7 @@ class OperatorRequests:
             self.pending.parameters.update(changed)
             values = ", ".join(f"{name} = {_setting_text(value)}" for name, value in changed.items())
             text = f"{request.source} sets {values}"
-            self.pending.events.append((EventKind.PARAMETERS, request.operation.value, text))
+            self.pending.by_operator.append(OperatorChange(EventKind.PARAMETERS, request.operation.value, text))
         return ParametersReply(accepted=True, parameters=described)
 
     def handle_scene(
@@ -77,9 +78,8 @@ class OperatorRequests:
             return SceneReply(accepted=False, reason=str(error), episode=self.episode), state
         state = self._apply_layout_change(change, state)
         follows = f"; episode {self.episode} begins" if change.game is not None else ""
-        self.pending.events.append(
-            (EventKind.SCENE, request.operation.value, f"{request.source} {change.summary}{follows}")
-        )
+        text = f"{request.source} {change.summary}{follows}"
+        self.pending.by_operator.append(OperatorChange(EventKind.SCENE, request.operation.value, text))
         return SceneReply(accepted=True, episode=self.episode), state
 
     def _current_layout(self, snapshot: Snapshot) -> Layout:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from schemas.config.roster import Placement
-from schemas.game import EventKind
+from schemas.messages.applied import OperatorChange
 from schemas.messages.parameters import Setting
 
 
@@ -25,8 +25,8 @@ class PendingChanges:
     """Robots were added, removed or changed."""
     obstacles_changed: bool = False
     """Obstacles were added or removed."""
-    events: list[tuple[EventKind, str, str]] = field(default_factory=list)
-    """Kind, rule and text of each event that reports a change."""
+    by_operator: list[OperatorChange] = field(default_factory=list)
+    """The changes by an operator among them, each of which is reported by an event."""
 
     def add_placements(self, placements: Sequence[Placement], names: Sequence[str]) -> None:
         """Add placements after the pending ones, of which placements of bodies not in `names` are dropped."""

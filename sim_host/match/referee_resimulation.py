@@ -141,7 +141,8 @@ class RefereeResimulation:
             referee = self._referee_of(snapshot.roster, profile)
             ruling = referee.step(self.state, snapshot, applied.actions, self._tick_s)
             self._state, self._placements, self._checkpoint = ruling.state, ruling.placements, ruling.checkpoint
-            events += [*self._change_events(applied), *ruling.events]
+            moment = applied.tick, applied.time, self.state.clock
+            events += [*(change.event(*moment) for change in applied.changes), *ruling.events]
         due = self._schedule.is_due(self.state, applied.tick, applied.episode, had_actions=bool(applied.actions))
         state = self.state.game_state(applied.tick, applied.time, applied.episode) if due else None
         return OfficiatedTick(events, state, begins and applied.tick > 0, conflicts)
@@ -169,19 +170,6 @@ class RefereeResimulation:
         if self._checkpoint and not applied.checkpoint:
             conflicts.append(StateConflict("checkpoint", applied.checkpoint, self._checkpoint))
         return conflicts
-
-    def _change_events(self, applied: Applied) -> list[GameEvent]:
-        return [
-            GameEvent(
-                tick=applied.tick,
-                time=applied.time,
-                clock=self.state.clock,
-                kind=change.kind,
-                rule=change.rule,
-                text=change.text,
-            )
-            for change in applied.changes
-        ]
 
 
 def _recorded_state(applied: Applied) -> RefereeState | None:

@@ -3,7 +3,7 @@
 The host steps it for agents on the bus; tests and learning step it with brains in the same process.
 """
 
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -13,7 +13,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.rule_book import RuleBook
 from schemas.game import Phase
-from schemas.messages.applied import AppliedInput, OperatorChange, chained_part
+from schemas.messages.applied import AppliedInput, chained_part
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.game import ActionReply, GameEvent, RefereeAction
@@ -159,6 +159,7 @@ class Simulation:
         sights = self._subsystems.sights.at(
             snapshot, self.state, self.episode, world_tick.stuck, self.orders, commands, refusals, send
         )
+        moment = snapshot.tick, snapshot.time, self.state.clock
         self.now = TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
@@ -166,7 +167,7 @@ class Simulation:
             sights=sights,
             **self._applied(snapshot, inputs, changes, officiated),
             beliefs=beliefs,
-            events=(*self._change_events(changes, snapshot), *ruling.events),
+            events=(*(change.event(*moment) for change in changes.by_operator), *ruling.events),
             replies=ruling.replies,
             refused={name: len(sentences) for name, sentences in refusals.items()},
         )
@@ -225,13 +226,6 @@ class Simulation:
             self.world.make_checkpoint()
         return changes
 
-    def _change_events(self, changes: PendingChanges, snapshot: Snapshot) -> Iterator[GameEvent]:
-        """The events of the changes made between two ticks."""
-        for kind, rule, text in changes.events:
-            yield GameEvent(
-                tick=snapshot.tick, time=snapshot.time, clock=self.state.clock, kind=kind, rule=rule, text=text
-            )
-
     def _apply_ruling(self, ruling: Ruling) -> None:
         self.state = ruling.state
         self._operator.pending = PendingChanges(list(ruling.placements), ruling.checkpoint)
@@ -264,8 +258,8 @@ class Simulation:
             fields["actions"] = list(actions)
         if silent:
             fields["silent"] = list(silent)
-        if changes.events:
-            fields["changes"] = [OperatorChange(kind, rule, text) for kind, rule, text in changes.events]
+        if changes.by_operator:
+            fields["changes"] = changes.by_operator
         if changes.checkpoint:
             fields["referee"] = state_json(self.state)
         return fields
