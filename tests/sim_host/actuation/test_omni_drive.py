@@ -120,7 +120,13 @@ def test_weak_motors_take_a_robot_to_its_speed_along_an_exponential() -> None:
 
 
 @BOTH
-@pytest.mark.parametrize("degrees", range(0, 360, 15))
+@pytest.mark.parametrize(
+    "degrees",
+    [
+        *range(0, 360, 60),
+        *(pytest.param(one, marks=pytest.mark.long) for one in range(0, 360, 15) if one not in range(0, 360, 60)),
+    ],
+)
 def test_the_top_speed_of_each_direction_is_that_of_the_wheel_that_turns_fastest(
     model: RobotModel, degrees: int
 ) -> None:

@@ -45,6 +45,9 @@ KINDS: dict[str, dict[str, Any]] = {
     "types and obstacles": {"types": {"own": {"drive": {"model": "omni"}}}, "obstacles": [CRATE]},
 }
 
+OTHER_KINDS = ("wheels", "dribble by velocity")
+"""Parts of them are in the others: wheels in "types and obstacles", the velocity in a dribble by force."""
+
 
 def lively(simulation: Simulation) -> dict[str, Command]:
     """The nearest is after the ball, dribbles, and now and then kicks, along the ground or up; the others run about."""
@@ -91,7 +94,11 @@ def operated(simulation: Simulation, number: int) -> None:
 POST = StaticObstacle(name="post", shape=Shape.CYLINDER, place=[0.0, 0.0], radius=0.15, height=0.9)
 
 
-@pytest.fixture(scope="module", params=KINDS.values(), ids=KINDS)
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(kind, marks=pytest.mark.long if name in OTHER_KINDS else ()) for name, kind in KINDS.items()],
+    ids=KINDS,
+)
 def recorded(request) -> Iterator[tuple[Simulation, list[TickResult]]]:
     """A lively game of three a side with six checkpoints in the middle of it."""
     teams = {f"teams.{side}.size": 3 for side in ("cyan", "magenta")}

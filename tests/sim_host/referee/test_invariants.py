@@ -50,7 +50,7 @@ scuffles = st.none() | st.tuples(
 silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @example(
     rules="china-sim-2020",
     mode=OfficiatingMode.AUTOMATIC,

@@ -96,7 +96,9 @@ def test_a_robot_that_is_lifted_or_tipped_is_put_upright_where_it_is(profile: st
 
 
 @pytest.mark.parametrize("profile", ["msl", "omni", "paper"])
-@pytest.mark.parametrize("offset", [0.0, 0.004, 0.011, 0.018, 0.026, 0.033])
+@pytest.mark.parametrize(
+    "offset", [0.0, 0.018, *(pytest.param(one, marks=pytest.mark.long) for one in (0.004, 0.011, 0.026, 0.033))]
+)
 def test_two_robots_that_meet_at_top_speed_touch_and_no_more(profile: str, offset: float) -> None:
     """They close 4 cm in a step of the engine: it would notice them one step too late."""
     pitch = new_pitch(profile, size=1)

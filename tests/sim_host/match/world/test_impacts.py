@@ -19,7 +19,7 @@ def impacts_of(rig, ticks=500, **inputs):
 
 
 @pytest.mark.parametrize("profile", ["msl", "ideal", "omni", "paper"])
-@pytest.mark.parametrize("speed", [1.0, 1.5, 3.0])
+@pytest.mark.parametrize("speed", [1.5, *(pytest.param(one, marks=pytest.mark.long) for one in (1.0, 3.0))])
 @pytest.mark.parametrize("phase", PHASES)
 def test_an_impact_has_the_velocities_before_it_whenever_in_a_tick_it_happens(profile, speed, phase):
     """On wheels, two robots often part again before the end of the tick, which then shows no contact."""

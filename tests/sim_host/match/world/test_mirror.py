@@ -167,7 +167,9 @@ def distances(one: Snapshot, other: Snapshot, mirror: Mirror) -> Iterator[float]
     yield math.dist((mirror.x * a.x, mirror.y * a.y, a.z), (b.x, b.y, b.z))
 
 
-@pytest.mark.parametrize("drives", DRIVES)
+@pytest.mark.parametrize(
+    "drives", ["mixed", *(pytest.param(one, marks=pytest.mark.long) for one in DRIVES if one != "mixed")]
+)
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("mirror", [TURNED, REFLECTED], ids=["turned", "reflected"])
 def test_a_mirrored_scene_with_mirrored_commands_is_the_mirrored_world(mirror: Mirror, scene: str, drives: str) -> None:

@@ -12,7 +12,7 @@ from support.world_rig import REST, WorldRig
 from support.world_rig import tell as drive
 
 
-@pytest.fixture(params=["msl", "ideal", "omni"])
+@pytest.fixture(params=["msl", pytest.param("ideal", marks=pytest.mark.long), "omni"])
 def rig(request: pytest.FixtureRequest) -> Iterator[WorldRig]:
     rig = WorldRig(load_profile(request.param))
     yield rig
@@ -71,7 +71,7 @@ def test_a_wall_holds_a_robot_back_although_its_demands_flicker(rig):
     assert sum(found) / len(found) > 0.95
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.long) for seed in (1, 2))])
 def test_flickering_demands_alone_make_no_robot_stuck(rig, seed):
     rig.place(cyan1=(-9, 0, 0), ball=(0, 5, 0))
     assert not any(flags(rig, 3.0, "cyan1", cyan1=flickering(seed)))
