@@ -13,22 +13,22 @@ from recordings.reading.recording import open_recording
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-FULL = 250_000
+FULL = 180_000
 """Most bytes of a file: what a full disk does, by size."""
 MATCH = """
 name = "full"
-duration = 6
+duration = 3
 
 [teams.cyan]
-robots = ["cyan1", "cyan2"]
+robots = ["cyan1"]
 
 [teams.magenta]
-robots = ["magenta1", "magenta2"]
+robots = ["magenta1"]
 """
 
 
-def play(start, folder, endpoint, duration=6):
-    (folder / "match.toml").write_text(MATCH.replace("duration = 6", f"duration = {duration}"))
+def play(start, folder, endpoint, duration=3):
+    (folder / "match.toml").write_text(MATCH.replace("duration = 3", f"duration = {duration}"))
     words = ("match.toml", "--seed", "7", "--record", "m.mcap", "--json", "--listen", endpoint)
     return start("touchline", "match", *words, folder=folder)
 
@@ -38,7 +38,7 @@ def worlds(recording):
 
 
 def test_a_match_whose_disk_is_full_has_its_result_and_names_what_is_left(start, tmp_path, endpoint):
-    program = play(start, tmp_path, endpoint, duration=20)  # longer than the recorder and its three successors write
+    program = play(start, tmp_path, endpoint, duration=12)  # longer than the recorder and its three successors write
     resource.prlimit(program.popen.pid, resource.RLIMIT_FSIZE, (FULL, FULL))  # before its processes, which inherit it
     assert program.status() == 1
     result = json.loads(program.out)
