@@ -57,11 +57,11 @@ def operate_fixture() -> Callable[[Simulation], None]:
 
 @pytest.fixture(scope="session")
 def operated(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Path:
-    """A match of two a side on wheels: two kick-offs, and three deeds of an operator; 600 ticks or so."""
+    """A match of two a side on wheels: a kick-off, and three deeds of an operator; 400 ticks or so."""
     path = tmp_path_factory.mktemp("operated") / "match.mcap"
     teams = {"teams.cyan.size": 2, "teams.magenta.size": 2}
     config = load_match(None, {"seed": 3, "duration": 10.0, "profile": "omni", **teams})
-    match_recorder(path, config, until=14.0, between=operate)
+    match_recorder(path, config, until=8.2, between=operate)
     return path
 
 
