@@ -44,8 +44,7 @@ class Membership:
 
     def fits(self, setup: Setup) -> bool:
         """Whether this match has the robot that the agent was started for; a claim of another one is refused."""
-        sides = {robot: side for side, team in setup.teams.items() for robot in team.robots}
-        side = sides.get(self._claim.robot)
+        side = setup.sides.get(self._claim.robot)
         return side is not None and self._claim.side in (None, side) and self._claim.match in (None, setup.match)
 
     def join(self, setup: Setup, patience: float) -> None:

@@ -46,5 +46,5 @@ class Briefing:
                 mates = tuple(name for name in team.robots if name != robot)
                 number, own = team.robots.index(robot) + 1, setup.for_robot(robot)
                 return cls(robot, side, number, mates, own, team.parameters)
-        names = [name for team in setup.teams.values() for name in team.robots]
-        raise TouchlineError(f'robot is "{robot}", which is not in match "{setup.match}"; {did_you_mean(robot, names)}')
+        known = did_you_mean(robot, setup.sides)
+        raise TouchlineError(f'robot is "{robot}", which is not in match "{setup.match}"; {known}')

@@ -177,4 +177,4 @@ class LiveMatch:
             self._stale = True  # there is no host yet; the query is repeated
             return
         self.setup = setup
-        self.sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+        self.sides = setup.sides

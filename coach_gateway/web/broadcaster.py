@@ -82,9 +82,7 @@ class PageBroadcaster:
 
     def robots(self) -> dict[str, Side]:
         """All robots of the match, and their sides."""
-        if self.feed.setup is None:
-            return {}
-        return {name: side for side, team in self.feed.setup.teams.items() for name in team.robots}
+        return self.feed.setup.sides if self.feed.setup is not None else {}
 
     def refusal(self, page: Page, role: Role, request: PageRequest) -> str | None:
         """Why a page with this role cannot do this now; None when it can."""

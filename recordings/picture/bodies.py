@@ -34,7 +34,7 @@ def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float)
     now = worlds[-1]
     for obstacle in now.obstacles.values():
         _obstacle(axes, obstacle, scale)
-    sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+    sides = setup.sides
     for name, robot in now.robots.items():
         if robot.off_field is not None or name not in sides:
             continue

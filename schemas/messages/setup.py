@@ -147,6 +147,11 @@ class Setup(Message):
             **{name: getattr(book, name) for name in RULE_SECTIONS},
         )
 
+    @property
+    def sides(self) -> dict[str, Side]:
+        """Robot → its side."""
+        return {name: side for side, team in self.teams.items() for name in team.robots}
+
     def rule_book(self) -> RuleBook:
         """The rule book of the match."""
         sections: dict[str, Any] = {name: getattr(self, name) for name in RULE_SECTIONS}

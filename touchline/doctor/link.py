@@ -77,10 +77,9 @@ def clock_finding(offset: ClockOffset | None) -> Finding:
 
 def robots_finding(setup: Setup, health: Health) -> Finding:
     """Which robots have an agent, and which are free."""
-    names = [name for team in setup.teams.values() for name in team.robots]
     present = {name for name, robot in health.robots.items() if robot.alive}
-    free = [name for name in names if name not in present]
-    taken = [name for name in names if name in present]
+    free = [name for name in setup.sides if name not in present]
+    taken = [name for name in setup.sides if name in present]
     return Finding("robots", Status.OK, f"free: {', '.join(free) or 'none'}; taken: {', '.join(taken) or 'none'}")
 
 

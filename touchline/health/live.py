@@ -6,7 +6,6 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from schemas.bus.contract import Bus
 from schemas.errors import TouchlineError
-from schemas.side import Side
 from touchline.health.ledger import Ledger, ledger_of
 from touchline.timing import POLL_S
 
@@ -18,7 +17,7 @@ class LiveLedgers:
         """`patience` is the wall time in s to wait for the host and its first report."""
         self._clock, self._patience = bus.clock, patience
         self._client, self._follower = HostClient(bus, patience), MatchFollower(bus)
-        self._sides = self._read_sides()
+        self._sides = self._client.setup().sides
 
     def newest(self) -> Ledger:
         """The ledger of the newest report.
@@ -42,13 +41,10 @@ class LiveLedgers:
         while not self._follower.gone:
             news = self._follower.update()
             if news.new_host:
-                self._sides = self._read_sides()
+                self._sides = self._client.setup().sides
             if news.healths:
                 yield ledger_of(news.healths[-1], self._sides)
             self._wait()
-
-    def _read_sides(self) -> dict[str, Side]:
-        return {name: side for side, team in self._client.setup().teams.items() for name in team.robots}
 
     def _wait(self) -> None:
         self._clock.sleep_until(self._clock.now() + POLL_S)

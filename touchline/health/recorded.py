@@ -2,9 +2,8 @@
 
 from pathlib import Path
 
-from recordings.reading.recording import Recording, open_recording
+from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
-from schemas.side import Side
 from schemas.topics import HEALTH
 from touchline.health.ledger import Ledger, ledger_of
 
@@ -30,7 +29,8 @@ def ledger_of_recording(path: Path, start: float | None, end: float | None) -> L
             last = health
     if last is None:
         raise TouchlineError(f"{path}: no report of the host's health {_stretch(start, end)}; {_remedy(start, end)}")
-    return ledger_of(last, _sides(recording), first)
+    setup = recording.manifest.setup
+    return ledger_of(last, setup.sides if setup is not None else {}, first)
 
 
 def _stretch(start: float | None, end: float | None) -> str:
@@ -42,8 +42,3 @@ def _remedy(start: float | None, end: float | None) -> str:
     if start is None and end is None:
         return f"record the key {HEALTH.key}, too"
     return "reports come four times a second of wall time; choose a longer stretch"
-
-
-def _sides(recording: Recording) -> dict[str, Side]:
-    setup = recording.manifest.setup
-    return {} if setup is None else {name: side for side, team in setup.teams.items() for name in team.robots}

@@ -119,7 +119,7 @@ def robots(
 
 def numbered(setup: Setup) -> list[tuple[Side, str, int]]:
     """Side, name and number of all robots; the number is from the name, as on the page."""
-    sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+    sides = setup.sides
     return [(sides[name], name, number) for name, number in numbers_of(sides).items()]
 
 
