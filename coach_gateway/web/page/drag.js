@@ -2,6 +2,7 @@
 
 import { byId, setText, show } from "./elements.js";
 import { inPicture } from "./shared/bodies.js";
+import { line } from "./shared/shapes.js";
 import { metres } from "./text.js";
 
 const REACH_PX = 20; // a finger is thicker than a ball
@@ -155,10 +156,7 @@ export class Drag {
     const { from, to } = this.#drawn;
     context.strokeStyle = "#ffffff";
     context.lineWidth = 2;
-    context.beginPath();
-    context.moveTo(projection.x(from.x), projection.y(from.y));
-    context.lineTo(projection.x(to.x), projection.y(to.y));
-    context.stroke();
+    line(context, projection, from, to);
   }
 
   #hint() {

@@ -45,3 +45,16 @@ export function offer(select, options) {
   select.replaceChildren(...options.map(([value, text]) => element("option", { value }, text)));
   if (options.some(([value]) => value === chosen)) select.value = chosen;
 }
+
+/** What does the work once and soon, however often it is called: many events come together at the beginning. */
+export function together(does, soon = requestAnimationFrame) {
+  let waiting = false;
+  return () => {
+    if (waiting) return;
+    waiting = true;
+    soon(() => {
+      waiting = false;
+      does();
+    });
+  };
+}

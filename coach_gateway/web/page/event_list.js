@@ -1,6 +1,6 @@
 // The list of events in their order, the newest at the end; in a recording, a click on one seeks to it.
 
-import { byId, element, mark } from "./elements.js";
+import { byId, element, mark, together } from "./elements.js";
 import { LEAD_S, indexAt, isKey, withNames } from "./shared/events.js";
 import { capitalized, clockText, readable } from "./text.js";
 
@@ -14,6 +14,7 @@ export class EventList {
   #rows = [];
   #now;
   #follows = true;
+  #later = together(() => this.#show());
 
   constructor(match, jump) {
     Object.assign(this, { match, jump });
@@ -52,16 +53,6 @@ export class EventList {
     this.#follows = true;
     byId("events").replaceChildren();
     this.#later();
-  }
-
-  /** Many events come together at the beginning: they are shown together. */
-  #later() {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.#show();
-    });
   }
 
   #show() {

@@ -1,6 +1,6 @@
 // Controls of a replay: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
 
-import { byId, mark, setText, show } from "./elements.js";
+import { byId, mark, setText, show, together } from "./elements.js";
 import { SYMBOLS, jumpTarget } from "./shared/events.js";
 import { SIDES } from "./shared/palette.js";
 import { clockText } from "./text.js";
@@ -11,6 +11,7 @@ export class Replay {
   #wanted = null;
   #asking = false;
   #holding = false;
+  #drawLater = together(() => this.match.live || this.#draw());
 
   constructor(match, requests) {
     Object.assign(this, { match, requests });
@@ -124,15 +125,6 @@ export class Replay {
     const box = byId("marks").getBoundingClientRect();
     const { start, end } = this.match.replay;
     this.seek(start + ((event.clientX - box.left) / box.width) * (end - start));
-  }
-
-  #drawLater() {
-    if (this.waiting || this.match.live) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.#draw();
-    });
   }
 
   /** Draws the marks of goals, cards, fouls and halves along the bar. */

@@ -1,6 +1,6 @@
 // The result: score, scorers and figures, so far or of the whole match. It needs no server and stays until the page is closed.
 
-import { byId, element, mark, setText, show } from "./elements.js";
+import { byId, element, mark, setText, show, together } from "./elements.js";
 import { clockText } from "./text.js";
 
 const SIDES = ["cyan", "magenta"];
@@ -32,18 +32,7 @@ const count = (goals, side) => goals.filter((goal) => goal.side === side).length
 export class Result {
   constructor(match) {
     this.match = match;
-    match.on("welcome state result host", () => this.#later());
-    match.on("event", () => this.#later());
-  }
-
-  /** Many events come together at the beginning: they are shown together. */
-  #later() {
-    if (this.waiting) return;
-    this.waiting = true;
-    setTimeout(() => {
-      this.waiting = false;
-      this.update();
-    });
+    match.on("welcome state result host event", together(() => this.update(), setTimeout));
   }
 
   update() {
