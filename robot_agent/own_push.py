@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.go_to import drive
-from schemas.frames import Point
+from schemas.frames import Point, rotate
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup
 
@@ -54,8 +54,7 @@ def let_go_of_opponent(push: OwnPush, me: Body, wanted: Drive, setup: Setup, lim
     """The same demand, away from an opponent that has been pushed half of the allowed distance."""
     if push.opponent is None or push.way < LETS_GO * push_limit(setup):
         return wanted
-    c, s = math.cos(me.heading), math.sin(me.heading)
-    vx, vy = c * wanted.vx - s * wanted.vy, s * wanted.vx + c * wanted.vy
+    vx, vy = rotate(wanted.vx, wanted.vy, me.heading)
     dx, dy = push.opponent[0] - me.x, push.opponent[1] - me.y
     away = max(math.hypot(dx, dy), 1e-6)
     excess = (vx * dx + vy * dy) / away + PARTS

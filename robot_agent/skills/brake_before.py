@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
-from schemas.frames import Point
+from schemas.frames import Point, rotate
 from schemas.messages.command import Drive
 
 BUMP = 1.0
@@ -18,8 +18,7 @@ def brake_before(me: Moving, wanted: Drive, opponents: Iterable[Point], radius: 
 
     `radius` is that of both hulls, m.
     """
-    c, s = math.cos(me.heading), math.sin(me.heading)
-    vx, vy = c * wanted.vx - s * wanted.vy, s * wanted.vx + c * wanted.vy
+    vx, vy = rotate(wanted.vx, wanted.vy, me.heading)
     changed = False
     for x, y in opponents:
         dx, dy = x - me.x, y - me.y

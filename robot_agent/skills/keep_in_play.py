@@ -6,6 +6,7 @@ from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
 from robot_agent.skills.keep_hold import hold_deceleration
+from schemas.frames import rotate
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup
 
@@ -16,8 +17,7 @@ def keep_in_play(me: Moving, ball: tuple[float, float], wanted: Drive, setup: Se
     The opponents' goal is no line: a ball may be carried into it.
     """
     pitch, brakes = setup.pitch, min(hold_deceleration(setup), limits.deceleration)
-    c, s = math.cos(me.heading), math.sin(me.heading)
-    vx, vy = c * wanted.vx - s * wanted.vy, s * wanted.vx + c * wanted.vy
+    vx, vy = rotate(wanted.vx, wanted.vy, me.heading)
     most_y = braking_speed(pitch.touch_line - math.copysign(ball[1], ball[1] * vy), brakes, LAG)
     most_x = braking_speed(pitch.goal_line - math.copysign(ball[0], ball[0] * vx), brakes, LAG)
     if vx > 0.0 and abs(ball[1]) < 0.5 * pitch.goal_width:

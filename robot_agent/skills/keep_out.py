@@ -1,12 +1,12 @@
 """Keep out of an area before a goal: the part of a velocity that would lead into it is removed."""
 
-import math
 from typing import NamedTuple
 
 from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
 from schemas.config.sections import Pitch
+from schemas.frames import rotate
 from schemas.messages.command import Drive
 
 MARGIN = 0.15
@@ -45,8 +45,7 @@ def keep_out(me: Moving, wanted: Drive, area: Area, limits: DriveLimits) -> Driv
     side = abs(me.y) - 0.5 * area.width - MARGIN
     if front > limits.speed or side > limits.speed:
         return wanted
-    c, s = math.cos(me.heading), math.sin(me.heading)
-    vx, vy = c * wanted.vx - s * wanted.vy, s * wanted.vx + c * wanted.vy
+    vx, vy = rotate(wanted.vx, wanted.vy, me.heading)
     if front <= 0.0 and side <= 0.0:
         return drive(me, -end * 1.0, vy, wanted.omega, limits)
     outward = 1.0 if me.y > 0 else -1.0
