@@ -4,15 +4,13 @@ from typing import Annotated
 
 import typer
 
+from coach_gateway.match.host_client import HostClient
 from schemas.access.accounts import Account
-from schemas.bus.contract import NoReplyError
 from schemas.bus.settings import ClientSettings
-from schemas.errors import MatchFailedError
 from schemas.messages.admission import AdmissionRequest
 from schemas.topics import ADMISSION
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import from_options, with_option_groups
-from touchline.timing import HOST_S
 
 
 @with_option_groups
@@ -25,8 +23,5 @@ def recorder(
     """
     request = from_options(AdmissionRequest, recorder=name)
     with bus_client(connection, Account.REFEREE) as bus:
-        try:
-            bus.query(ADMISSION, request, HOST_S).result(HOST_S + 0.5)
-        except NoReplyError as error:
-            raise MatchFailedError(f'the host of "{bus.match}" does not answer ({error})') from None
+        HostClient(bus).ask(ADMISSION, request)
     typer.echo(f"the host waits for {name}")
