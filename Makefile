@@ -16,16 +16,17 @@ help: ## show this list
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
 
-PYTEST := .venv/bin/pytest -n 2 --dist loadfile
+# Three processes on two cores: a third of the time of the tests is waiting for real time.
+PYTEST := .venv/bin/pytest --dist loadfile
 
 quick: $(READY) ## run the tests without processes, browser and attacks, for example: make quick ARGS=tests/sim_host
-	$(PYTEST) -m "not processes and not browser and not hostile and not slow and not long" $(ARGS)
+	$(PYTEST) -n 2 -m "not processes and not browser and not hostile and not slow and not long" $(ARGS)
 
-test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/touchline
-	$(PYTEST) -m "not long" $(ARGS)
+test: $(READY) ## run the tests, file by file in three processes, for example: make test ARGS=tests/touchline
+	$(PYTEST) -n 3 -m "not long" $(ARGS)
 
 test-all: $(READY) ## run the long tests as well: long cuts, floods, every size of the page, whole cups
-	$(PYTEST) $(ARGS)
+	$(PYTEST) -n 3 $(ARGS)
 
 check: $(READY) ## format, lint, types, the contracts on imports, and the lines of each package against their budget
 	.venv/bin/ruff format --check

@@ -27,6 +27,35 @@ settings.load_profile("steady")
 """Generated examples are the same in each run, and a busy machine is no fault of theirs; with
 `pytest --hypothesis-profile=default` they are others each time."""
 
+SLOW = (
+    "tests/docs/test_figures.py",
+    "tests/docs/test_stdio_examples.py",
+    "tests/docs/test_testing.py",
+    "tests/match/",
+    "tests/recordings/editing/test_recovery.py",
+    "tests/recordings/exchange/test_msl_round_trip.py",
+    "tests/recordings/exchange/test_ros2.py",
+    "tests/recordings/picture/",
+    "tests/recordings/reading/test_cursor.py",
+    "tests/robot_agent/teams/reference/",
+    "tests/robot_agent/teams/test_keeper.py",
+    "tests/robot_agent/teams/test_random.py",
+    "tests/sim_host/match/ball/",
+    "tests/sim_host/match/world/",
+    "tests/sim_host/referee/test_invariants.py",
+    "tests/sim_host/sensing/test_noise.py",
+    "tests/test_private_members.py",
+    "tests/touchline/debugger/",
+    "tests/touchline/matches/cup/",
+    "tests/touchline/matches/series/",
+    "tests/touchline/matches/statistics/test_ratings.py",
+    "tests/touchline/matches/study/",
+    "tests/touchline/test_fair_matches.py",
+    "tests/touchline/testing/",
+    "tests/touchline/verify/",
+)
+"""Places of tests that play many matches, or watch physics for long: together they take twice as long as all others."""
+
 
 def pytest_configure() -> None:
     """Zenoh chooses its threads when the first session of a process is opened.
@@ -43,8 +72,11 @@ def pytest_configure() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what follows from a test's place and fixtures, so that no test can forget it."""
     for item in items:
-        if "hostile" in item.path.relative_to(item.config.rootpath).parts:
+        place = item.path.relative_to(item.config.rootpath).as_posix()
+        if place.startswith("tests/hostile/"):
             item.add_marker("hostile")
+        if place.startswith(SLOW):
+            item.add_marker("slow")
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker("browser")
 
