@@ -8,21 +8,21 @@ from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
 from touchline.play import MatchOutcome, play_match
 
-PLAYED_S = 90.0
+PLAYED_S = 60.0
 
 
 @pytest.fixture(scope="module")
 def played() -> MatchOutcome:
-    """A minute and a half of play."""
+    """A minute of play."""
     return play_match(MatchConfig(rules="msl", seed=21, duration=180.0), until=PLAYED_S)
 
 
 def test_by_the_leagues_rules_the_shipped_teams_play_and_hardly_foul(played: MatchOutcome) -> None:
-    """Dribbles of nine metres were usual before the teams let the ball go; on average it is one foul in this time."""
+    """Dribbles of nine metres were usual before the teams let the ball go; on average it is one foul in 90 s."""
     kinds = [event.kind for event in played.events]
     fouls = [event for event in played.events if event.kind is EventKind.FOUL]
     handling = [event for event in fouls if event.rule in ("dribble_circle", "backward", "long_hold")]
-    assert kinds.count(EventKind.FOUL) <= 3 and len(handling) <= 1
+    assert kinds.count(EventKind.FOUL) <= 2 and len(handling) <= 1
     assert kinds.count(EventKind.IN_PLAY) >= 3 and kinds.count(EventKind.STALL) <= 1
 
 

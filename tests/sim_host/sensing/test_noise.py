@@ -124,11 +124,11 @@ DRIFT = {"drift_position": 0.05, "drift_heading": 0.01, "drift_time": 1.0}
 
 
 def test_drift_has_its_configured_size_at_any_time_and_is_slow_and_each_robots_own(errors):
-    """20,000 ticks are 400 drift times; 4 standard errors of about as many independent values.
+    """8,000 ticks are 160 drift times; 4 standard errors of about as many independent values.
 
     Per tick it changes by at most |d/dt (k₀ cos + k₁ sin)| = π/2 · |k| / drift time, |k| below 5 sigma.
     """
-    n = 20_000
+    n = 8_000
     drifted = errors(n, **DRIFT)
     of, other = drifted(0), drifted(1)
     independent = n * 0.02 / DRIFT["drift_time"]

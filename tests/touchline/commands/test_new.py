@@ -20,11 +20,11 @@ def test_a_new_team_plays_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert made.exit_code == 0, made.output
     assert "cd my_team; touchline match match.toml" in made.output
     folder = tmp_path / "my_team"
-    config = load_match(folder / "match.toml", {"duration": 15.0})
+    config = load_match(folder / "match.toml", {"duration": 6.0})
     assert config.team(Side.CYAN).brain == "my_team:MyTeam"
     touched: set[str] = set()
     outcome = play_match(config, watch=lambda tick: touched.update(tick.world.get("touches", ())), brain_folder=folder)
-    assert outcome.time > 15.0
+    assert outcome.time > 6.0
     assert {robot for robot in touched if robot.startswith("cyan")}
 
 
