@@ -117,9 +117,14 @@ class Host:
         return self._outbox.outcome()
 
     def wait_for_all(self) -> None:
-        """Wait until every robot has an agent, until patience runs out, or until a referee action is requested."""
+        """Wait until every robot has an agent, until patience runs out, or until a referee action is requested.
+
+        A remote side of which no robot is there is waited for even then: whoever launched the host ends such a match.
+        """
         deadline = self._clock.now() + self._config.longest_attendance
-        while not self.presence.all_present(self._config.record.wait) and self._clock.now() < deadline:
+        while not self.presence.all_present(self._config.record.wait) and (
+            self._clock.now() < deadline or self._lacks_remote_side()
+        ):
             if self.stopping:
                 return
             self.presence.update(timeout=0.02)
@@ -129,6 +134,12 @@ class Host:
             self._batches.send_if_due()
             if self._services.requests.actions:
                 return
+
+    def _lacks_remote_side(self) -> bool:
+        stats = self.inbox.agent_stats
+        return not all(
+            any(stats[name].alive for name in self._config.robots(side)) for side in self._config.remote_sides
+        )
 
     def begin(self) -> None:
         """Publish tick 0."""

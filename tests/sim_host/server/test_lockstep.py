@@ -6,6 +6,7 @@ from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
 from schemas.topics import APPLIED, COMMAND, WORLD
 from sim_host.server.agent_stats import SILENT_TICKS
+from support.host_rig import TEAMS
 
 PATIENCE_S = 1.0
 """How long the host waits for an answer; the match file's default."""
@@ -183,6 +184,25 @@ def test_the_first_tick_waits_for_everybody_and_for_a_recorder_where_one_is_want
     rig.host.wait_for_all()
     assert presence.all_present(wait_for_recorder=True)
     assert rig.clock.now() == 0.0
+
+
+@pytest.mark.parametrize("there, begins_at", [((), 2.0), (("magenta1",), 0.5)], ids=["nobody", "one of two"])
+def test_a_remote_side_is_waited_for_until_one_of_its_robots_is_there(rig_of, monkeypatch, there, begins_at):
+    teams = {"cyan": TEAMS["cyan"], "magenta": {"name": "Magenta", "size": 2, "remote": True}}
+    rig = rig_of(teams=teams, patience={"remote": 0.5})
+    for robot in ("cyan1", "cyan2", *there):
+        rig.join(robot)
+    look = rig.host.presence.update
+
+    def update(timeout: float = 0.0) -> None:
+        look()
+        rig.pass_time(0.1)
+        if rig.clock.now() > 1.95 and "magenta1" not in rig.agents:
+            rig.join("magenta1")
+
+    monkeypatch.setattr(rig.host.presence, "update", update)
+    rig.host.wait_for_all()
+    assert rig.clock.now() == pytest.approx(begins_at, abs=0.15)
 
 
 def test_a_stopped_host_waits_for_no_robot_and_ends_its_tick(rig):

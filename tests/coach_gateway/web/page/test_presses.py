@@ -70,14 +70,19 @@ def test_the_end_of_a_match_is_held_for_a_second(match, visit, way: str) -> None
         else:
             tab.page.keyboard.up("Enter")
 
+    tab.page.clock.install()
+    tab.page.clock.pause_at(tab.ask("Date.now()") / 1000 + 1.0)
     for _ in range(2):
         press()
         assert button.inner_text() == "Keep holding"
+        tab.page.clock.run_for(900)
         release()
         assert button.inner_text() == "End match"
+        tab.page.clock.run_for(900)
     assert tab.page.locator("#log li").count() == 0
     assert match.state.phase is not Phase.FULL_TIME
     press()
+    tab.page.clock.run_for(1100)
     match.until(lambda: match.host.simulation.over)
     release()
 
