@@ -5,7 +5,7 @@
 .PHONY: help match quick test test-all check bench bench-network bench-play bench-scheduling soak lowest mutants clean
 READY := .venv/.ready
 # Compiled once: where Python writes no bytecode, as in many containers, each process would compile them at its start.
-PACKAGES := schemas sim_host robot_agent coach_gateway recordings touchline
+PACKAGES := schemas runtime sim_host robot_agent coach_gateway recordings touchline
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # The tests start hundreds of processes: each would compile what was edited since, and pytest all tests in each worker.
 unexport PYTHONDONTWRITEBYTECODE

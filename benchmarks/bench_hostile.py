@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 from running_match import PATIENCE_S, running_match
 
-from schemas.bus.contract import Bus
-from schemas.bus.zenoh.bus import open_client
+from runtime.bus.contract import Bus
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.messages.health import Health
-from schemas.process.clock import WallClock
 from schemas.topics import HEALTH
 from schemas.wire.message import BadMessageError
 

@@ -17,9 +17,9 @@ import time
 
 from robot_agent.claim import Membership
 from robot_agent.runner import ask_setup
-from schemas.bus.zenoh.bus import ZenohBus, open_client, open_host
+from runtime.bus.zenoh.bus import ZenohBus, open_client, open_host
+from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import COMMAND, SIGHT
 from sim_host.server.host import Host

@@ -15,9 +15,9 @@ import time
 import zenoh
 from running_match import HERE, running_match
 
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_client
-from schemas.process.clock import WallClock
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.topics import HEALTH
 
 ROBOTS = 10

@@ -16,9 +16,9 @@ from typing import Any
 
 from running_match import ACCESS, PATIENCE_S, running_match
 
-from schemas.bus.contract import ReceivedMessage, Subscription
-from schemas.bus.zenoh.bus import open_client
-from schemas.process.clock import WallClock
+from runtime.bus.contract import ReceivedMessage, Subscription
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.topics import HEALTH
 
 SETTLE_S = 2.0

@@ -18,11 +18,11 @@ from running_match import launch, running_match
 
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.contract import Bus, Subscription
-from schemas.bus.zenoh.bus import open_client
+from runtime.bus.contract import Bus, Subscription
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.game import TeamPhase
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import SIGHT
 

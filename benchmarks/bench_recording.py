@@ -22,11 +22,11 @@ from running_match import HERE, launch, running_match
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
 from recordings.recorder.settings import RecorderSettings
-from schemas.bus.contract import Subscription
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_client
+from runtime.bus.contract import Subscription
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
-from schemas.process.clock import WallClock
 from schemas.topics import HEALTH, WORLD
 from touchline.verify.resimulate import verify
 

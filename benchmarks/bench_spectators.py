@@ -17,11 +17,11 @@ from running_match import HERE, launch, running_match
 
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.contract import Subscription
-from schemas.bus.endpoint import reserve_port
-from schemas.bus.zenoh.bus import open_client
+from runtime.bus.contract import Subscription
+from runtime.bus.endpoint import reserve_port
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.messages.health import Health
-from schemas.process.clock import WallClock
 from schemas.topics import HEALTH
 
 PAGES = 200

@@ -19,7 +19,7 @@ AREAS = {
     "referee": "sim_host.referee.",
     "actuation": "sim_host.actuation.",
     "sensing": "sim_host.sensing.",
-    "bus": "schemas.bus.",
+    "bus": "runtime.bus.",
     "recordings": "recordings.",
 }
 """Area → beginning of the names of its mutants; `only_mutate` in pyproject.toml lists the same folders."""

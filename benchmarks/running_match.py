@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from robot_agent.settings import AgentSettings
-from schemas.access.accounts import Account
-from schemas.access.certificates import make_certificate
-from schemas.access.credentials import HOST_FILE, account_file, new_credentials, write_credentials
-from schemas.bus.endpoint import with_free_port
+from runtime.access.accounts import Account
+from runtime.access.certificates import make_certificate
+from runtime.access.credentials import HOST_FILE, account_file, new_credentials, write_credentials
+from runtime.bus.endpoint import with_free_port
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.settings import Settings
 from schemas.side import Side

@@ -4,7 +4,7 @@ import sys
 
 from coach_gateway import run
 from coach_gateway.settings import GatewaySettings
-from schemas.config.settings_file import run_process
+from runtime.process.settings_file import run_process
 
 if __name__ == "__main__":
     sys.exit(run_process("coach_gateway", GatewaySettings, run))

@@ -18,7 +18,7 @@ from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
 from coach_gateway.settings import BridgeOptions
 from coach_gateway.udp.server import UdpServer
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
 from schemas.errors import TouchlineError
 from schemas.side import Side
 

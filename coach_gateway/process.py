@@ -12,9 +12,9 @@ from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.settings import WebSettings, need_web
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
+from runtime.process.process_log import configure_log, log_line
 from schemas.errors import TouchlineError
-from schemas.process.process_log import configure_log, log_line
 
 if TYPE_CHECKING:
     from coach_gateway.web.server import WebServer

@@ -10,11 +10,11 @@ from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, Protocol
 
 from coach_gateway.timing import HOST_SEARCH_S
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus, BusError
-from schemas.bus.settings import ClientSettings
-from schemas.bus.zenoh.bus import open_client
-from schemas.process.clock import WallClock
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus, BusError
+from runtime.bus.settings import ClientSettings
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 
 
 class Service(Protocol):

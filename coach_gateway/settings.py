@@ -8,8 +8,9 @@ from pydantic import Field
 from coach_gateway.ports import LOOPBACK
 from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.settings import ClientSettings
-from schemas.config.settings import CommandLine, LogSettings, Settings
+from runtime.bus.settings import ClientSettings
+from runtime.process.log_format import LogSettings
+from schemas.config.settings import CommandLine, Settings
 from schemas.side import Side
 
 

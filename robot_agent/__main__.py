@@ -4,7 +4,7 @@ import sys
 
 from robot_agent import run
 from robot_agent.settings import AgentSettings
-from schemas.config.settings_file import run_process
+from runtime.process.settings_file import run_process
 
 if __name__ == "__main__":
     sys.exit(run_process("robot_agent", AgentSettings, run))

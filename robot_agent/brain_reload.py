@@ -11,11 +11,11 @@ from types import ModuleType
 
 from robot_agent.contract import Brain
 from robot_agent.user_code import is_users, shown_path
+from runtime.process.clock import WallClock
+from runtime.process.process_log import log_note
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
-from schemas.process.clock import WallClock
-from schemas.process.process_log import log_note
 
 _FILE_TIME_NS = 10_000_000
 """The times of files may be this much too early."""

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from robot_agent.settings import AgentSettings
 from robot_agent.user_code import shown_path
-from schemas.process.clock import UNKNOWN_SIM_NS, Clock
-from schemas.process.process_log import log_note
+from runtime.process.clock import UNKNOWN_SIM_NS, Clock
+from runtime.process.process_log import log_note
 
 _OWN_HOOK = "PYTHONBREAKPOINT"
 """Python's variable with which users choose a debugger of their own."""

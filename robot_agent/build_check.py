@@ -10,9 +10,9 @@ from typing import NoReturn
 
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
+from runtime.process.settings_file import run_process
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
-from schemas.config.settings_file import run_process
 from schemas.messages.setup import Setup
 from schemas.side import Side
 

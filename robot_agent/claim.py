@@ -5,12 +5,12 @@ import secrets
 import socket
 
 from robot_agent.timing import CLAIM_REPLY_S
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus, NoReplyError, PresenceKind, RefusedQueryError
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus, NoReplyError, PresenceKind, RefusedQueryError
+from runtime.process.installed import installed_version
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.setup import Setup
-from schemas.process.installed import installed_version
 from schemas.side import Side
 from schemas.tokens import SESSION_SEPARATOR
 from schemas.topics import ROBOT_CLAIM

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TypedDict
 
 import robot_agent.process  # noqa: F401 - what every robot needs
-from schemas.process.leash import OwnConfinement, confine, end_with
+from runtime.process.leash import OwnConfinement, confine, end_with
 
 
 class ForkRequest(TypedDict):

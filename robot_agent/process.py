@@ -10,14 +10,14 @@ from robot_agent.robot_code import end_robot, start_robot
 from robot_agent.runner import Runner, serve
 from robot_agent.settings import AgentSettings
 from robot_agent.stdio.program_runner import ProgramRunner
-from schemas.bus.zenoh.bus import ZenohBus, open_client
-from schemas.bus.zenoh.waiting_client import open_when_there
+from runtime.bus.zenoh.bus import ZenohBus, open_client
+from runtime.bus.zenoh.waiting_client import open_when_there
+from runtime.process.clock import WallClock
+from runtime.process.process_log import configure_log, log_line
+from runtime.process.scheduling import use_batch_scheduling
 from schemas.config.match_config import LOCKSTEP
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
-from schemas.process.clock import WallClock
-from schemas.process.process_log import configure_log, log_line
-from schemas.process.scheduling import use_batch_scheduling
 
 
 def run(settings: AgentSettings) -> int:

@@ -9,13 +9,13 @@ from robot_agent.claim import Membership
 from robot_agent.contract import Brain
 from robot_agent.settings import FIRST_SIGHT_FAILED
 from robot_agent.timing import IDLE_S, SETUP_REPLY_S
-from schemas.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp
-from schemas.bus.host_watch import HostWatch
+from runtime.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp
+from runtime.bus.host_watch import HostWatch
+from runtime.process.process_log import Level, log_line
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import Sight
-from schemas.process.process_log import Level, log_line
 from schemas.topics import COMMAND, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
 

@@ -5,8 +5,9 @@ from typing import Annotated
 
 from pydantic import Field
 
-from schemas.bus.settings import ClientSettings
-from schemas.config.settings import CommandLine, LogSettings
+from runtime.bus.settings import ClientSettings
+from runtime.process.log_format import LogSettings
+from schemas.config.settings import CommandLine
 from schemas.side import Side
 from schemas.wire.message import Name
 

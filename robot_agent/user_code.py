@@ -8,7 +8,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-OWN_PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
+OWN_PACKAGES = ("schemas", "runtime", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
 """The packages of this library."""
 _ROOT = Path(__file__).resolve().parents[1]
 _TEAMS = _ROOT / "robot_agent" / "teams"

@@ -1,1 +1,1 @@
-"""Shared by all processes: configuration, messages, the topic table, the bus, and clocks."""
+"""The words that all processes share: configuration, messages and the topic table."""

@@ -9,6 +9,8 @@ once, and the ticks between two of its reports, are a fraction of that.
 
 BATCH_TICKS = 8
 """Ticks in a batch: with five robots a side, a batch fits into one of Zenoh's batches of 64 KiB; more is split."""
+BATCH_S = 0.15
+"""A record batch with fewer ticks is published after this s of wall time; a recorder has it half a second later."""
 KEPT_BATCHES = 300
 """Batches that a host keeps, of at most `BATCH_TICKS` each: 2400 ticks, 48 s in real time."""
 KEPT_BYTES = 64 * 2**20

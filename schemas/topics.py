@@ -23,8 +23,7 @@ from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import Sight
 from schemas.messages.world import BallFrame, RobotFrame, World
-from schemas.process.timing import BATCH_S
-from schemas.recovery_window import BATCH_TICKS, KEPT_BATCHES
+from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES
 from schemas.topic import Delivery, Party, Topic
 
 _WATCHERS = (Party.COACH, Party.REFEREE, Party.RECORDER, Party.VIEWER)

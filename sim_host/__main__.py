@@ -2,7 +2,7 @@
 
 import sys
 
-from schemas.config.settings_file import run_process
+from runtime.process.settings_file import run_process
 from sim_host import run
 from sim_host.server.settings import HostSettings
 

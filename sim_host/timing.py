@@ -1,6 +1,6 @@
 """Wall times of the host, in s."""
 
-from schemas.process.timing import HEARTBEAT_S
+from runtime.process.timing import HEARTBEAT_S
 
 QUICK_S = 0.1
 """A late answer with a shorter latency was late for its tick, not for the time that the agent took."""

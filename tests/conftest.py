@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 import pytest
 from hypothesis import HealthCheck, settings
 
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_host
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_host
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.messages.applied import Applied, chained_part_of
-from schemas.process.clock import WallClock
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import Conditions, Resimulation
 

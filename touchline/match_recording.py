@@ -6,13 +6,13 @@ from pathlib import Path
 from recordings.container.key_selection import KeySelection
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import PresenceKind
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import PresenceKind
+from runtime.bus.in_process_bus import SharedState
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command
-from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.debug_publisher import DebugPublisher

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Self
 
 from coach_gateway.access.roles import Role
-from schemas.access.private_file import check_private
+from runtime.access.private_file import check_private
+from runtime.process.whole_file import written_whole
 from schemas.errors import TouchlineError
-from schemas.process.whole_file import written_whole
 
 _MIN_LENGTH = 8
 """Characters of a token, at least."""

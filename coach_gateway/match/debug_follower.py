@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from schemas.bus.contract import Bus, ReceivedMessage
+from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.messages.debug import SHOWN_S, RobotDebug
 from schemas.side import Side
 from schemas.topics import DEBUG

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 from coach_gateway.match.host_change import HostChangeDetector
 from coach_gateway.match.orders import OrderBook, OrderFollower
 from coach_gateway.timing import POLL_S, STATE_SETTLES_S
-from schemas.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
-from schemas.bus.host_watch import HostWatch
+from runtime.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
+from runtime.bus.host_watch import HostWatch
 from schemas.game import Phase
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health

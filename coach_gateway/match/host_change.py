@@ -1,6 +1,6 @@
 """Whether messages come from another host than before: a new host counts its messages from 0 again."""
 
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
 
 
 class HostChangeDetector:

@@ -6,7 +6,7 @@ from coach_gateway.access.referee_name import gateway_name
 from coach_gateway.match.orders import OrderFollower, Receipt
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from coach_gateway.timing import POLL_S, REPLY_S
-from schemas.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
+from runtime.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
 from schemas.messages.game import ActionReply, RefereeAction

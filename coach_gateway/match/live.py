@@ -13,7 +13,7 @@ from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.team_obstacles import TeamObstacle, team_obstacles
 from coach_gateway.service import pause
 from coach_gateway.timing import CATCH_UP_S, HOST_RETRY_S, POLL_S
-from schemas.bus.contract import Bus, PresenceKind
+from runtime.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
 from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachOrder

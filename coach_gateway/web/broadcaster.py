@@ -21,7 +21,7 @@ from coach_gateway.web.protocol import (
 )
 from coach_gateway.web.requests import RequestHandler, refusal
 from coach_gateway.web.settings import BeliefsFor
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
 from schemas.config.scene import load_scene, shipped_scenes
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest

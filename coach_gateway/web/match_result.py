@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from coach_gateway.web.protocol import ResultUpdate
-from schemas.process.whole_file import written_whole
+from runtime.process.whole_file import written_whole
 from schemas.wire.part_faults import decoded
 
 FILE = "result.json"

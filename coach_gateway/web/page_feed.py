@@ -10,7 +10,7 @@ from coach_gateway.match.debug_follower import DebugFollower
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
 from coach_gateway.web.rounding import rounded_json
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
 from schemas.messages.game import GameEvent
 from schemas.messages.setup import Setup
 from schemas.messages.world import World

@@ -19,7 +19,7 @@ from coach_gateway.web.protocol import (
     PageSeat,
     Reply,
 )
-from schemas.bus.contract import Bus, Publisher
+from runtime.bus.contract import Bus, Publisher
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.coach import CoachOrder

@@ -15,7 +15,7 @@ from coach_gateway.web.requests import RequestHandler
 from coach_gateway.web.site import site
 from coach_gateway.web.socket_endpoint import SocketEndpoint
 from coach_gateway.web.uvicorn_server import web_server
-from schemas.bus.contract import Bus, PresenceKind
+from runtime.bus.contract import Bus, PresenceKind
 
 
 class WebServer:

@@ -17,8 +17,8 @@ from pydantic_core import from_json
 
 from message_examples import examples
 from protocol_fields import is_part, parts_of, rows
-from schemas.access.accounts import ACCOUNTS, Account
-from schemas.access.rights import Rights
+from runtime.access.accounts import ACCOUNTS, Account
+from runtime.access.rights import Rights
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import TOPICS

@@ -12,12 +12,12 @@ from recordings.container.parts import NotWritableError
 from recordings.recorder.recording_writer import LoggedMessage, RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sequence_tracker import LossCounts
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
+from runtime.process.clock import WallClock
+from runtime.process.whole_file import written_whole
 from schemas.game import Phase
 from schemas.messages.game import GameState
 from schemas.messages.world import World
-from schemas.process.clock import WallClock
-from schemas.process.whole_file import written_whole
 from schemas.topic import Topic
 from schemas.topics import STATE
 from schemas.wire.message import Message

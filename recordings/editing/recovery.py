@@ -20,8 +20,8 @@ from recordings.container.mcap_writer import CHUNK_BYTES, mcap_writer
 from recordings.container.parts import locked
 from recordings.container.sealed_metadata import from_metadata, sealed, to_metadata
 from recordings.editing.intact_records import Findings, intact_records
+from runtime.process.whole_file import written_whole
 from schemas.errors import TouchlineError
-from schemas.process.whole_file import written_whole
 
 
 @dataclass(frozen=True, slots=True)

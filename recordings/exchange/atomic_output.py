@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Self
 
 from recordings.reading.recording import Recording
+from runtime.process.whole_file import written_whole
 from schemas.errors import TouchlineError
-from schemas.process.whole_file import written_whole
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 

@@ -12,7 +12,7 @@ from recordings.container.manifest import DAMAGED_RECORDS, MANIFEST, RECOVERED, 
 from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived
 from recordings.container.parted_file import open_parts
 from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.natural_order import natural_order

@@ -6,7 +6,7 @@ from typing import Any
 
 from recordings.container.applied_changes import changes_in
 from recordings.container.manifest import EndReason, KeyCount, Result
-from schemas.bus.contract import ReceivedMessage
+from runtime.bus.contract import ReceivedMessage
 from schemas.config.roster import RosterEntry
 from schemas.game import EventKind, Phase
 from schemas.messages.applied import Applied

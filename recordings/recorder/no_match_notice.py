@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 from recordings.timing import NO_MATCH_S
-from schemas.bus.contract import Bus
-from schemas.bus.host_watch import HostWatch
+from runtime.bus.contract import Bus
+from runtime.bus.host_watch import HostWatch
 
 
 class NoMatchNotice:

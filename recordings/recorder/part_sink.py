@@ -10,8 +10,8 @@ from recordings.recorder.latched_messages import LATCHED, LatchedMessages
 from recordings.recorder.recording_writer import LoggedMessage, RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sequence_tracker import LossCounts
+from runtime.process.clock import Clock
 from schemas.config.settings import RecordOptions
-from schemas.process.clock import Clock
 
 MakeHeader = Callable[[], tuple[Manifest, dict[str, bytes]]]
 """Makes the manifest and the attachments of a part that begins now."""

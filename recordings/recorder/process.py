@@ -8,9 +8,9 @@ import threading
 from recordings.recorder.record import record
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
-from schemas.process.large_blocks import return_large_blocks
-from schemas.process.process_log import configure_log, log_line
-from schemas.process.scheduling import use_batch_scheduling
+from runtime.process.large_blocks import return_large_blocks
+from runtime.process.process_log import configure_log, log_line
+from runtime.process.scheduling import use_batch_scheduling
 
 _GC_THRESHOLD = 100_000
 """New objects after which Python searches for reference cycles: messages are many, and are in no cycle."""

@@ -12,12 +12,12 @@ from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from recordings.timing import HOST_ANSWER_S, HOST_PATIENCE_S
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus, NoReplyError
-from schemas.bus.zenoh.bus import ZenohBus, open_client
-from schemas.bus.zenoh.waiting_client import open_when_there
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus, NoReplyError
+from runtime.bus.zenoh.bus import ZenohBus, open_client
+from runtime.bus.zenoh.waiting_client import open_when_there
+from runtime.process.clock import WallClock
 from schemas.messages.record_batch import RecordBatchesReply, RecordBatchesRequest
-from schemas.process.clock import WallClock
 from schemas.topics import RECORD_BATCHES
 from schemas.wire.message import BadMessageError
 

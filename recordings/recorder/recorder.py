@@ -18,14 +18,14 @@ from recordings.recorder.recording_writer import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
 from recordings.timing import DRAINED_S, HOST_PATIENCE_S, RECOVERY_POLL_S, REPORT_S
-from schemas.bus.contract import Bus, PresenceKind
-from schemas.bus.host_watch import HostWatch
+from runtime.bus.contract import Bus, PresenceKind
+from runtime.bus.host_watch import HostWatch
+from runtime.process.idle_time import run_in_idle_time
+from runtime.process.timing import RECONNECT_S
 from schemas.config.match_config import MatchConfig
 from schemas.messages.record_batch import RecordBatch
 from schemas.messages.recorder import RecorderProgress
 from schemas.messages.setup import Setup
-from schemas.process.idle_time import run_in_idle_time
-from schemas.process.timing import RECONNECT_S
 from schemas.recovery_window import REPORT_TICKS
 from schemas.topics import EVENT, RECORD_BATCH, RECORDER_PROGRESS, SETUP
 from schemas.wire.message import BadMessageError

@@ -22,9 +22,9 @@ from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.timing import FLUSH_S
 from recordings.viz.drawing import READS
 from recordings.viz.viz_channels import VizChannels
-from schemas.bus.contract import ReceivedMessage
-from schemas.process.clock import Clock
-from schemas.process.idle_time import run_in_idle_time, start_thread
+from runtime.bus.contract import ReceivedMessage
+from runtime.process.clock import Clock
+from runtime.process.idle_time import run_in_idle_time, start_thread
 from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from recordings.container.manifest import KeyCount
 from recordings.reading.recording import RecordedMessage
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.natural_order import natural_order
 
 _REMEMBERED = 10_000

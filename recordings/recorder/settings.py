@@ -5,9 +5,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from schemas.bus.settings import ClientSettings
+from runtime.bus.settings import ClientSettings
+from runtime.process.log_format import LogSettings
 from schemas.config.match_config import MatchConfig
-from schemas.config.settings import LogSettings, RecordOptions
+from schemas.config.settings import RecordOptions
 
 
 class RecorderSettings(ClientSettings, LogSettings):

@@ -1,8 +1,8 @@
 """Queries the setup of a match from its host before a recording begins."""
 
 from recordings.timing import HOST_PATIENCE_S, SETUP_FIRST_S, SETUP_LONGEST_S
-from schemas.bus.contract import Bus, NoReplyError, PendingReply
-from schemas.bus.host_watch import HostWatch
+from runtime.bus.contract import Bus, NoReplyError, PendingReply
+from runtime.bus.host_watch import HostWatch
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.topics import SETUP
 from schemas.wire.message import BadMessageError

@@ -2,7 +2,7 @@
 
 from recordings.reading.recording import RecordedMessage
 from recordings.timing import RECORDER_PATIENCE_S
-from schemas.bus.contract import Bus, PresenceKind
+from runtime.bus.contract import Bus, PresenceKind
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import APPLIED, RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError

@@ -10,9 +10,9 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
 from recordings.replay.player import PlaybackRange, Player
 from recordings.replay.seek_targets import time_in
+from runtime.process.clock import Clock
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.game import GameEvent
-from schemas.process.clock import Clock
 from schemas.topics import EVENT
 
 

@@ -16,7 +16,7 @@ from recordings.viz.game import log_entry, scoreboard
 from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
-from schemas.bus.contract import ReceivedMessage
+from runtime.bus.contract import ReceivedMessage
 from schemas.messages.applied import Applied
 from schemas.messages.debug import RobotDebug
 from schemas.messages.game import GameEvent, GameState

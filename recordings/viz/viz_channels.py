@@ -8,7 +8,7 @@ from mcap.writer import Writer
 from recordings.container.mcap_file import DERIVED
 from recordings.viz.drawing import SCHEMAS, Drawing
 from recordings.viz.foxglove import descriptors
-from schemas.bus.contract import ReceivedMessage
+from runtime.bus.contract import ReceivedMessage
 from schemas.messages.setup import Setup
 
 

@@ -16,8 +16,8 @@ from contextlib import suppress
 
 from robot_agent.stdio.lines import Line, LineSplitter
 from robot_agent.timing import OWN_SIGNAL_S, PROGRAM_ENDS_S
+from runtime.process.leash import leashed
 from schemas.messages.command import Command
-from schemas.process.leash import leashed
 
 _CHUNK = 65_536
 """Bytes of one read."""

@@ -14,11 +14,11 @@ from robot_agent.stdio.answers import NOT_COMMANDS, AnswerFault, Expected, judge
 from robot_agent.stdio.child import Child
 from robot_agent.stdio.fault_counts import FaultCounts
 from robot_agent.timing import ACT_S, IDLE_S, PROGRAM_SILENT_S, REPORT_S
+from runtime.process.clock import Clock, WallClock
+from runtime.process.process_log import Level, log_line
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
-from schemas.process.clock import Clock, WallClock
-from schemas.process.process_log import Level, log_line
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 

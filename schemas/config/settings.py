@@ -11,7 +11,6 @@ from typing import Annotated
 from pydantic import Field
 
 from schemas.config.config_model import ConfigModel
-from schemas.process.log_format import VARIABLE, LogFormat
 
 DEFAULT_MATCH = "friendly"
 """The default name of a match, for hosts and for processes that join one."""
@@ -29,13 +28,6 @@ class CommandLine:
 
 class Settings(ConfigModel):
     """The base of all settings: immutable, without unknown fields, described by the docstrings of its fields."""
-
-
-class LogSettings(Settings):
-    """How a process writes its log."""
-
-    log_format: Annotated[LogFormat | None, CommandLine(environment=VARIABLE)] = None
-    """Format of the log: lines of text, or one JSON object a line; by default text."""
 
 
 class RecordOptions(Settings):

@@ -7,8 +7,8 @@ a host without credentials, where anybody may send on any key, for the key itsel
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from schemas.access.accounts import Account
-from schemas.bus.refusals import Refusal
+from runtime.access.accounts import Account
+from runtime.bus.refusals import Refusal
 from schemas.messages.health import AccountHealth
 from schemas.side import Side
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from schemas.bus.batch_publisher import BatchPublisher
+from runtime.bus.batch_publisher import BatchPublisher
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER

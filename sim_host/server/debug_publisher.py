@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Publisher
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Publisher
 from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
 from schemas.side import Side

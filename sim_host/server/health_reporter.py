@@ -2,8 +2,8 @@
 
 from collections import deque
 
+from runtime.process.clock import Clock
 from schemas.messages.health import Health, TeamRadio
-from schemas.process.clock import Clock
 from schemas.side import Side
 from sim_host.match.radio_use import RadioUse
 from sim_host.server.account_limits import AccountLimits

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Sequence
 
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, PresenceKind, ReceivedMessage
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Bus, PresenceKind, ReceivedMessage
+from runtime.process.timing import PARTING_S
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
-from schemas.process.timing import PARTING_S
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.account_limits import AccountLimits

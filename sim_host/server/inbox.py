@@ -3,8 +3,8 @@
 from collections.abc import Container
 from itertools import chain, repeat
 
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, ReceivedMessage
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.messages.command import Command
 from schemas.topics import COMMAND
 from schemas.wire.message import BadMessageError

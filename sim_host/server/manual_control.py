@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
 from schemas.messages.command import Command, Kick
 from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.natural_order import natural_order

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Publisher, ReceivedMessage, Stamp
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Publisher, ReceivedMessage, Stamp
 from schemas.messages.game import GameEvent, GameState
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT

@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable
 from typing import Protocol
 
+from runtime.process.clock import Clock
 from schemas.config.match_parts import Patience
 from schemas.messages.command import Command
-from schemas.process.clock import Clock
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from sim_host.server.agent_stats import SILENT_TICKS
 from sim_host.server.inbox import Inbox

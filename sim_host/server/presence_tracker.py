@@ -2,7 +2,7 @@
 
 from itertools import chain, repeat
 
-from schemas.bus.contract import Bus, Presence, PresenceKind
+from runtime.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
 from sim_host.server.account_limits import AccountLimits

@@ -6,18 +6,18 @@ import signal
 from collections.abc import Sequence
 from contextlib import ExitStack
 
-from schemas.access.protection import Protection, robots_of
-from schemas.bus.announcement import Announcement, announced, announced_to_user
-from schemas.bus.contract import ReceivedMessage
-from schemas.bus.outcome_file import write_outcome
-from schemas.bus.settings import check_protected
-from schemas.bus.zenoh.bus import open_host
-from schemas.bus.zenoh.open_access import open_access
-from schemas.bus.zenoh.router_limits import router_limits
+from runtime.access.protection import Protection, robots_of
+from runtime.bus.announcement import Announcement, announced, announced_to_user
+from runtime.bus.contract import ReceivedMessage
+from runtime.bus.outcome_file import write_outcome
+from runtime.bus.settings import check_protected
+from runtime.bus.zenoh.bus import open_host
+from runtime.bus.zenoh.open_access import open_access
+from runtime.bus.zenoh.router_limits import router_limits
+from runtime.process.clock import WallClock
+from runtime.process.process_log import configure_log
+from runtime.process.scheduling import use_batch_scheduling
 from schemas.errors import TouchlineError
-from schemas.process.clock import WallClock
-from schemas.process.process_log import configure_log
-from schemas.process.scheduling import use_batch_scheduling
 from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
 

@@ -5,9 +5,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from schemas.bus.settings import ListenSettings
+from runtime.bus.settings import ListenSettings
+from runtime.process.log_format import LogSettings
 from schemas.config.match_config import MatchConfig
-from schemas.config.settings import CommandLine, LogSettings
+from schemas.config.settings import CommandLine
 from schemas.wire.message import Name
 
 

@@ -22,14 +22,14 @@ from coach_gateway.refbox.client import BoxAddress
 from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.settings import BridgeOptions, GatewaySettings
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.settings import ClientSettings
-from schemas.bus.zenoh.bus import open_host
-from schemas.config.settings_file import write_settings
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.settings import ClientSettings
+from runtime.bus.zenoh.bus import open_host
+from runtime.process.clock import WallClock
+from runtime.process.settings_file import write_settings
 from schemas.errors import TouchlineError
 from schemas.game import Phase
 from schemas.messages.game import GameState
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
 from support.messages import make_setup

@@ -11,10 +11,10 @@ import pytest
 
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_host
-from schemas.config.settings_file import write_settings
-from schemas.process.clock import WallClock
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_host
+from runtime.process.clock import WallClock
+from runtime.process.settings_file import write_settings
 from schemas.topics import SETUP
 from support.messages import make_setup
 from support.page_gateway import SOON

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = ("schemas", "sim_host", "robot_agent", "touchline")
+PACKAGES = ("schemas", "runtime", "sim_host", "robot_agent", "touchline")
 TABLE = (
     (ROOT / "docs" / "networking.md").read_text().partition("## When a robot does not join")[2].partition("\n## ")[0]
 )

@@ -10,12 +10,12 @@ import pytest
 from message_examples import examples
 from protocol import page
 from protocol_fields import is_part, parts_of, rows, type_text
-from schemas.bus.endpoint import DEFAULT_ENDPOINT
-from schemas.bus.zenoh import reader, session
+from runtime.bus.endpoint import DEFAULT_ENDPOINT
+from runtime.bus.zenoh import reader, session
+from runtime.process.timing import LEASE_S
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.messages.command import Command
-from schemas.process.timing import LEASE_S
 from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server import agent_stats

@@ -8,7 +8,7 @@ import pytest
 from recordings.container.attachments import make_attachments
 from recordings.container.manifest import EndReason, Result, make_manifest
 from recordings.recorder.recording_writer import RecordingWriter
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
 from schemas.topics import WORLD
 from schemas.wire.message import VERSION

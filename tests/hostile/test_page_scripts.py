@@ -11,7 +11,7 @@ from playwright.sync_api import Browser
 from coach_gateway.web.match_result import FILE
 from recordings.reading.recording import open_recording
 from recordings.stats.page import page_of
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.game import EventKind, Phase
 from schemas.messages.coach import CoachOrder

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 from coach_gateway.access.tokens import read_or_make
-from schemas.access.accounts import Account
-from schemas.access.credentials import account_file
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file
+from runtime.process.clock import WallClock
+from runtime.process.settings_file import write_settings
 from schemas.config.match_config import load_match
-from schemas.config.settings_file import write_settings
-from schemas.process.clock import WallClock
 from touchline.launch.processes import client_processes, host_process
 from touchline.launch.run_folder import prepare_credentials, prepare_run
 

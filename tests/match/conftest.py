@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from schemas.bus.endpoint import with_free_port
+from runtime.bus.endpoint import with_free_port
+from runtime.process.settings_file import write_settings
 from schemas.config.settings import Settings
-from schemas.config.settings_file import write_settings
 from support.process_story import Listener, Program, is_running
 
 NO_PYBULLET = """

@@ -8,10 +8,10 @@ import pytest
 
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
-from schemas.access.accounts import Account
-from schemas.bus.zenoh.bus import open_client
+from runtime.access.accounts import Account
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.messages.command import Command, Drive
-from schemas.process.clock import WallClock
 from schemas.topics import key_prefix
 from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import SILENT_TICKS

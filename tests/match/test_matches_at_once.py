@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from recordings.reading.recording import open_recording
-from schemas.bus.announcement import announcement_in
+from runtime.bus.announcement import announcement_in
 from schemas.config.match_config import load_match
 from schemas.topics import APPLIED
 from support.process_story import wait_for

@@ -21,8 +21,8 @@ from robot_agent.runner import Runner
 from robot_agent.teams.nubot import NuBot
 from robot_agent.teams.nubot.machine import State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
-from schemas.bus.contract import Bus, PendingReply
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.contract import Bus, PendingReply
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.config.scene import Scene, load_scene
 from schemas.game import ActionName, Phase, TeamPhase

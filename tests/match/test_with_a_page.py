@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
-from schemas.bus.endpoint import with_free_port
+from runtime.bus.endpoint import with_free_port
 from support.process_story import LIMIT, Program, wait_for
 from support.visitor import Visitor
 

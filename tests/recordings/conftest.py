@@ -13,8 +13,8 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.reading.recording import Recording
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.contract import Bus
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import RecordOptions
 from schemas.game import Phase, Score

@@ -13,7 +13,7 @@ from robot_agent.contract import Briefing
 from robot_agent.process import run
 from robot_agent.runner import serve
 from robot_agent.settings import AgentSettings
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.topics import COMMAND, SETUP
 from support.stepped_clock import SteppedClock

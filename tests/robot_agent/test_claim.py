@@ -5,8 +5,8 @@ import threading
 import pytest
 
 from robot_agent.claim import Membership
-from schemas.bus.contract import PresenceKind
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.contract import PresenceKind
+from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
 from schemas.side import Side

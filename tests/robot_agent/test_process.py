@@ -11,13 +11,13 @@ import pytest
 from typer.testing import CliRunner
 
 from robot_agent.settings import AgentSettings
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_host
-from schemas.config.settings_file import write_settings
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_host
+from runtime.process.clock import WallClock
+from runtime.process.settings_file import write_settings
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
-from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, SETUP, SIGHT
 from support.process_story import descendants, is_running, wait_for
 from touchline.command_line import app

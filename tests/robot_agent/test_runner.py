@@ -7,7 +7,7 @@ import pytest
 from robot_agent.brain_error import BrainError
 from robot_agent.runner import Runner, ask_setup, serve
 from robot_agent.settings import FIRST_SIGHT_FAILED
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.topics import COMMAND, SETUP, SIGHT

@@ -8,8 +8,8 @@ import threading
 import time
 from pathlib import Path
 
-from schemas.bus.zenoh.bus import open_client
-from schemas.process.clock import WallClock
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.topics import COMMAND
 from touchline import Briefing, Command, Sight
 

@@ -5,8 +5,9 @@ import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from schemas.bus.contract import Bus, Publisher, Query
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.contract import Bus, Publisher, Query
+from runtime.bus.in_process_bus import SharedState
+from runtime.process.clock import Clock, WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
@@ -18,7 +19,6 @@ from schemas.messages.health import Health
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, World
-from schemas.process.clock import Clock, WallClock
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, DEBUG, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD

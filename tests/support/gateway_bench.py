@@ -8,13 +8,13 @@ from typing import Any
 
 from coach_gateway.match.live import LiveMatch
 from robot_agent.runner import Runner
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.server.host import Host

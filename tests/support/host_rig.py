@@ -7,7 +7,7 @@ from typing import Any
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import Runner
-from schemas.bus.contract import Bus, ReceivedMessage
+from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
 from schemas.messages.applied import AppliedInput

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-from schemas.bus.contract import Publisher, Stamp
-from schemas.bus.in_process_bus import InProcessBus, SharedState
-from schemas.process.clock import Clock
+from runtime.bus.contract import Publisher, Stamp
+from runtime.bus.in_process_bus import InProcessBus, SharedState
+from runtime.process.clock import Clock
 from schemas.topic import Topic
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.game import ActionName
 from schemas.messages.game import ActionReply, GameEvent, RefereeAction

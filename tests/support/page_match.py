@@ -9,7 +9,8 @@ from coach_gateway.match.host_client import HostClient
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.game import ActionName
 from schemas.messages.command import Command
@@ -17,7 +18,6 @@ from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.radio import Radio
 from schemas.messages.referee_seat import SeatOperation
 from schemas.messages.sight import Sight
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import EVENT, Topic
 from sim_host.server.host import Host

@@ -11,15 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from recordings.reading.recording import RecordedMessage
-from schemas.access.accounts import Account
-from schemas.bus.contract import ReceivedMessage, Subscription
-from schemas.bus.zenoh.bus import ZenohBus, open_client
+from runtime.access.accounts import Account
+from runtime.bus.contract import ReceivedMessage, Subscription
+from runtime.bus.zenoh.bus import ZenohBus, open_client
+from runtime.process.clock import WallClock
 from schemas.game import EventKind
 from schemas.messages.applied import Applied
 from schemas.messages.game import GameEvent
 from schemas.messages.health import Health, Invalid, RobotHealth
 from schemas.messages.world import World
-from schemas.process.clock import WallClock
 from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
 from schemas.wire.message import BadMessageError
 

@@ -7,8 +7,8 @@ import pytest
 
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command

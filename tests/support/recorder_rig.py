@@ -8,9 +8,9 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server
-from schemas.bus.in_process_bus import InProcessBus, SharedState
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Bus, Publisher, ReceivedMessage, Server
+from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book

@@ -1,6 +1,6 @@
 """A clock with which tests need no wall time."""
 
-from schemas.process.clock import UNKNOWN_SIM_NS
+from runtime.process.clock import UNKNOWN_SIM_NS
 
 
 class SteppedClock:

@@ -9,7 +9,7 @@ from typing import Any
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from schemas.bus.contract import Subscription
+from runtime.bus.contract import Subscription
 from support.page_gateway import SOON, TOKENS
 
 

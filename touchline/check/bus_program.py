@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from robot_agent.contract import Briefing
-from schemas.bus.contract import PresenceKind
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_host
+from runtime.bus.contract import PresenceKind
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_host
+from runtime.process.clock import WallClock
+from runtime.process.leash import leashed
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
-from schemas.process.clock import WallClock
-from schemas.process.leash import leashed
 from schemas.topics import COMMAND, ROBOT_CLAIM, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
 from touchline.launch.supervisor import ending

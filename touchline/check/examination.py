@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from runtime.process.clock import Clock, WallClock
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
-from schemas.process.clock import Clock, WallClock
 from touchline.check.play import Played, play_checked
 from touchline.check.situations import Situation, over_time
 from touchline.check.subject import BreachError, Subject

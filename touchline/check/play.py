@@ -5,10 +5,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+from runtime.process.clock import Clock
 from schemas.messages.command import Command, KickMode
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
-from schemas.process.clock import Clock
 from schemas.wire.part import encode
 from touchline.check.subject import CheckedRobot, Subject
 from touchline.play import play_match

@@ -1,9 +1,9 @@
 """A client on the bus of a running match, for the duration of one command."""
 
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus
-from schemas.bus.settings import ClientSettings
-from schemas.process.clock import WallClock
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus
+from runtime.bus.settings import ClientSettings
+from runtime.process.clock import WallClock
 from touchline.timing import HOST_S
 
 
@@ -13,6 +13,6 @@ def bus_client(connection: ClientSettings, account: Account = Account.VIEWER) ->
     Raises:
         TouchlineError: no host answers, or it is not clear which match is meant.
     """
-    from schemas.bus.zenoh.bus import open_client
+    from runtime.bus.zenoh.bus import open_client
 
     return open_client(connection.match, WallClock(), connection.connect, HOST_S, connection.credentials, account)

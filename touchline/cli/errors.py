@@ -6,9 +6,9 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from schemas.config.settings_file import WRONG
+from runtime.process.process_log import Level, log_line
+from runtime.process.settings_file import WRONG
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.process.process_log import Level, log_line
 
 PREFIX = "touchline: "
 FAILED = 1

@@ -2,7 +2,7 @@
 
 import platform
 
-from schemas.process.installed import installed_version
+from runtime.process.installed import installed_version
 from schemas.wire.message import VERSION
 
 

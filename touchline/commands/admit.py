@@ -5,8 +5,8 @@ from typing import Annotated
 import typer
 
 from coach_gateway.match.host_client import HostClient
-from schemas.access.accounts import Account
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.settings import ClientSettings
 from schemas.messages.admission import AdmissionRequest
 from schemas.topics import ADMISSION
 from touchline.cli.bus_client import bus_client

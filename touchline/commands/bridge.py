@@ -6,7 +6,7 @@ import typer
 
 from coach_gateway import run
 from coach_gateway.settings import BridgeOptions, GatewaySettings
-from schemas.bus.settings import ClientSettings
+from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 

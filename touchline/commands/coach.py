@@ -4,8 +4,8 @@ import typer
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
-from schemas.access.accounts import Account
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.wire.part import encode
 from touchline.cli import options

@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from schemas.access.certificates import make_certificate
-from schemas.access.credentials import HOST_FILE, credential_files, new_credentials, write_credentials
-from schemas.bus.settings import ClientSettings
+from runtime.access.certificates import make_certificate
+from runtime.access.credentials import HOST_FILE, credential_files, new_credentials, write_credentials
+from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
 from touchline.cli.option_groups import from_options, with_option_groups
 

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from schemas.bus.settings import ClientSettings
-from schemas.process.clock import WallClock
+from runtime.bus.settings import ClientSettings
+from runtime.process.clock import WallClock
 from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:

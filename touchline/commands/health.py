@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from schemas.bus.settings import ClientSettings
+from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client

@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 import typer
 
-from schemas.bus.settings import check_protected
+from runtime.bus.settings import check_protected
 from schemas.config.match_parts import Patience
 from sim_host import run
 from sim_host.server.settings import HostSettings

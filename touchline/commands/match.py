@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.settings import BridgeOptions
-from schemas.access.certificates import need_trustme
-from schemas.bus.endpoint import ENCRYPTED, parse_endpoint
-from schemas.bus.settings import ListenSettings
+from runtime.access.certificates import need_trustme
+from runtime.bus.endpoint import ENCRYPTED, parse_endpoint
+from runtime.bus.settings import ListenSettings
+from runtime.process.clock import Clock, WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import Patience
 from schemas.config.settings import RecordOptions
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.process.clock import Clock, WallClock
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coach_gateway.match.host_client import HostClient
-from schemas.access.accounts import Account
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.settings import ClientSettings
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode

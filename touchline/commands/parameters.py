@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 from coach_gateway.match.host_client import HostClient
-from schemas.access.accounts import Account
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest, Value
 from schemas.topics import PARAMETERS

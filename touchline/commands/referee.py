@@ -8,8 +8,8 @@ import typer
 
 from coach_gateway.access.referee_name import terminal_name
 from coach_gateway.match.host_client import HostClient
-from schemas.access.accounts import Account
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from schemas.access.accounts import Account
-from schemas.access.credentials import account_file, read_host_credentials
-from schemas.access.protection import Protection
-from schemas.bus.contract import Bus
-from schemas.bus.endpoint import local_endpoint, parse_endpoint
-from schemas.bus.settings import ClientSettings, ListenSettings
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file, read_host_credentials
+from runtime.access.protection import Protection
+from runtime.bus.contract import Bus
+from runtime.bus.endpoint import local_endpoint, parse_endpoint
+from runtime.bus.settings import ClientSettings, ListenSettings
+from runtime.process.clock import Clock, WallClock
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayRequest
-from schemas.process.clock import Clock, WallClock
 from schemas.side import Side
 from touchline.cli import options
 from touchline.cli.option_groups import from_options, with_option_groups
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from recordings.replay.live_view import LiveView
     from recordings.replay.player import Player
     from recordings.replay.replay import Replay
-    from schemas.bus.zenoh.bus import ZenohBus
+    from runtime.bus.zenoh.bus import ZenohBus
     from touchline.launch.supervisor import Notice
 
 
@@ -193,8 +193,8 @@ def _open_bus(
     credentials: Path | None,
 ) -> "Iterator[ZenohBus]":
     """A client's bus beside the running host at `connect`; without one, the bus of a host, which clients find."""
-    from schemas.bus.announcement import Announcement, announced_to_user
-    from schemas.bus.zenoh.bus import open_client, open_host
+    from runtime.bus.announcement import Announcement, announced_to_user
+    from runtime.bus.zenoh.bus import open_client, open_host
 
     with ExitStack() as stack:
         if connect is not None:

@@ -6,8 +6,8 @@ from typing import Annotated, Any
 import typer
 
 from coach_gateway.match.host_client import HostClient
-from schemas.access.accounts import Account
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.settings import ClientSettings
 from schemas.config.scene import REMEDIES, load_scene
 from schemas.config.toml_file import table_error
 from schemas.errors import MatchFailedError, TouchlineError

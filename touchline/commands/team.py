@@ -8,12 +8,12 @@ from typing import Annotated, Any
 import typer
 
 from robot_agent.settings import AgentSettings
-from schemas.access.accounts import Account
+from runtime.access.accounts import Account
+from runtime.process.clock import WallClock
 from schemas.config.confinement import Limits
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
-from schemas.process.clock import WallClock
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
 
@@ -45,9 +45,9 @@ def team(
 
     Example: touchline team magenta --connect tcp/192.168.1.5:7447 --brain my_team:Striker
     """
-    from schemas.bus.find_host import announced_credentials
-    from schemas.bus.zenoh.bus import ZenohBus, open_client
-    from schemas.bus.zenoh.waiting_client import open_when_there
+    from runtime.bus.find_host import announced_credentials
+    from runtime.bus.zenoh.bus import ZenohBus, open_client
+    from runtime.bus.zenoh.waiting_client import open_when_there
     from touchline.launch.check_brains import check_reload
     from touchline.launch.run_folder import new_run_folder
     from touchline.launch.team_run import TeamPlan, TeamRun

@@ -10,9 +10,9 @@ import typer
 from coach_gateway.match.debug_follower import DebugFollower
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus, PresenceKind
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus, PresenceKind
+from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.setup import Setup
 from touchline.cli.bus_client import bus_client

@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator
 
-from schemas.access.accounts import Account
-from schemas.access.credentials import Credentials, read_credentials
-from schemas.bus.announcement import running_hosts
-from schemas.bus.endpoint import with_tls
-from schemas.bus.find_host import find_host
-from schemas.bus.settings import ClientSettings
-from schemas.bus.zenoh.bus import open_client
+from runtime.access.accounts import Account
+from runtime.access.credentials import Credentials, read_credentials
+from runtime.bus.announcement import running_hosts
+from runtime.bus.endpoint import with_tls
+from runtime.bus.find_host import find_host
+from runtime.bus.settings import ClientSettings
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import Clock
 from schemas.errors import TouchlineError
-from schemas.process.clock import Clock
 from touchline.doctor.finding import Finding, Status
 from touchline.doctor.link import examine_link
 from touchline.doctor.machine import MachineFacts, examine_machine

@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator, Sequence
 
 from coach_gateway.match.host_client import HostClient
-from schemas.bus.contract import Bus
-from schemas.bus.zenoh.bus import ZenohBus
-from schemas.bus.zenoh.round_trip import round_trips_s
+from runtime.bus.contract import Bus
+from runtime.bus.zenoh.bus import ZenohBus
+from runtime.bus.zenoh.round_trip import round_trips_s
 from schemas.config.match_config import LOCKSTEP
 from schemas.errors import TouchlineError
 from schemas.messages.health import Health

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
-from schemas.bus.announcement import Announcement, running_hosts
+from runtime.bus.announcement import Announcement, running_hosts
 from sim_host.missing_engine import missing_engine_text
 from touchline.doctor.finding import Finding, Status
 

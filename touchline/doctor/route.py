@@ -5,7 +5,7 @@ import ssl
 from collections.abc import Iterator
 from contextlib import closing
 
-from schemas.bus.endpoint import ENCRYPTED, parse_endpoint
+from runtime.bus.endpoint import ENCRYPTED, parse_endpoint
 from touchline.doctor.finding import Finding, Status
 from touchline.timing import CONNECT_S
 

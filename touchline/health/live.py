@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
 from schemas.errors import TouchlineError
 from touchline.health.ledger import Ledger, ledger_of
 from touchline.timing import POLL_S

@@ -12,10 +12,10 @@ from pathlib import Path
 
 from robot_agent.build_check import BuildCheckSettings
 from robot_agent.stdio.command_line import check_command_line
+from runtime.process.clock import WallClock
 from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.confinement import Confinement, team_confinements

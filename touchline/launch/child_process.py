@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coach_gateway.ports import inheritance_of
-from schemas.config.settings_file import STANDARD_INPUT, write_settings
+from runtime.process.clock import Clock
+from runtime.process.leash import OwnConfinement, leashed
+from runtime.process.process_log import message_of
+from runtime.process.settings_file import STANDARD_INPUT, write_settings
 from schemas.errors import TouchlineError
-from schemas.process.clock import Clock
-from schemas.process.leash import OwnConfinement, leashed
-from schemas.process.process_log import message_of
 from touchline.launch.bubblewrap import run_as
 from touchline.launch.fork_server import ROBOTS
 from touchline.launch.process_table import Process

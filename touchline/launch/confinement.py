@@ -6,9 +6,9 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from runtime.process.leash import OwnConfinement
 from schemas.config.confinement import Isolation, Limits
 from schemas.config.match_config import MatchConfig
-from schemas.process.leash import OwnConfinement
 from schemas.side import Side
 from touchline.launch.bubblewrap import NOBODY, bubblewrap, check_bubblewrap
 from touchline.launch.robot_environment import robot_environment

@@ -11,7 +11,7 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import IO, TYPE_CHECKING
 
-from schemas.process.leash import leashed
+from runtime.process.leash import leashed
 from touchline.launch.python_process import PYTHON, module_path_environment
 from touchline.launch.robot_environment import server_environment
 from touchline.launch.robot_process import ROBOT_ENVIRONMENT

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from schemas.access.accounts import Account
-from schemas.access.credentials import account_file
-from schemas.bus.endpoint import is_loopback, parse_endpoint
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file
+from runtime.bus.endpoint import is_loopback, parse_endpoint
 from schemas.config.match_config import MatchConfig
 from touchline.launch.own_address import endpoint_for_others
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from schemas.process.process_log import NOTE, message_of
+from runtime.process.process_log import NOTE, message_of
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.supervisor import Notice
 from touchline.watch.screen import Screen

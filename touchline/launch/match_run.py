@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text
 from coach_gateway.match.team_names import TeamNames
-from schemas.access.accounts import Account
-from schemas.bus.announcement import announcement_in
-from schemas.bus.contract import Bus, BusError
-from schemas.bus.outcome_file import read_outcome
-from schemas.bus.zenoh.bus import open_client
+from runtime.access.accounts import Account
+from runtime.bus.announcement import announcement_in
+from runtime.bus.contract import Bus, BusError
+from runtime.bus.outcome_file import read_outcome
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import Clock
+from runtime.process.settings_file import WRONG
 from schemas.config.confinement import Isolation
-from schemas.config.settings_file import WRONG
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.fork_server import ROBOTS

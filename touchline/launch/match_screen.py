@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import event_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
-from schemas.bus.announcement import Announcement
-from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint, parse_endpoint
+from runtime.bus.announcement import Announcement
+from runtime.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint, parse_endpoint
+from runtime.process.clock import Clock
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
-from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.join_command import join_lines
 from touchline.launch.processes import MatchPlan

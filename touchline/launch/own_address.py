@@ -4,7 +4,7 @@ import socket
 import struct
 from contextlib import suppress
 
-from schemas.bus.endpoint import parse_endpoint
+from runtime.bus.endpoint import parse_endpoint
 
 _ELSEWHERE = ("192.0.2.1", 9)
 """An address of no machine, reserved for documents. A UDP socket that is connected to it sends nothing."""

@@ -10,7 +10,7 @@ from coach_gateway.access.tokens import page_address, read_or_make
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.listener import listen, origin_of
 from coach_gateway.web.settings import WebSettings, need_web
-from schemas.process.clock import Clock
+from runtime.process.clock import Clock
 from touchline.cli.option_groups import from_options
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.process_table import ProcessKind, library_process

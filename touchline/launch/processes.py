@@ -9,9 +9,9 @@ from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
-from schemas.access.accounts import Account
-from schemas.access.credentials import HOST_FILE, account_file
-from schemas.bus.endpoint import is_loopback, local_endpoint
+from runtime.access.accounts import Account
+from runtime.access.credentials import HOST_FILE, account_file
+from runtime.bus.endpoint import is_loopback, local_endpoint
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.side import Side

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from schemas.bus.outcome_file import read_outcome
+from runtime.bus.outcome_file import read_outcome
 from schemas.errors import TouchlineError
 from schemas.topic import Party
 from schemas.topics import TOPICS

@@ -5,10 +5,10 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from schemas.bus.endpoint import is_loopback
+from runtime.bus.endpoint import is_loopback
+from runtime.process.clock import Clock
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
-from schemas.process.clock import Clock
 from touchline.launch.own_address import names_for_others
 from touchline.launch.processes import CREDENTIALS, MatchPlan
 
@@ -65,8 +65,8 @@ def prepare_credentials(plan: MatchPlan, *, tls: bool) -> MatchPlan:
     Raises:
         TouchlineError: the package for certificates is missing, or the files cannot be written.
     """
-    from schemas.access.certificates import make_certificate
-    from schemas.access.credentials import new_credentials, write_credentials
+    from runtime.access.certificates import make_certificate
+    from runtime.access.credentials import new_credentials, write_credentials
 
     folder = plan.folder / CREDENTIALS
     names = () if plan.listen is None or is_loopback(plan.listen) else names_for_others(plan.listen)

@@ -9,9 +9,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from robot_agent.settings import FIRST_SIGHT_FAILED
-from schemas.config.settings_file import WRONG
+from runtime.process.clock import Clock
+from runtime.process.settings_file import WRONG
 from schemas.errors import TouchlineError
-from schemas.process.clock import Clock
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.process_table import Process, ProcessKind
 from touchline.timing import WATCH_S

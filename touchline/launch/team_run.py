@@ -8,11 +8,11 @@ from coach_gateway.match.follower import MatchFollower
 from robot_agent.claim import Membership
 from robot_agent.runner import ask_setup
 from robot_agent.settings import AgentSettings
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
+from runtime.process.clock import Clock
 from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
-from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.confinement import team_confinements, team_isolation_note

@@ -16,8 +16,8 @@ from recordings.inspection.contradictions import contradictions, record_faults
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
+from runtime.process.clock import WallClock
 from schemas.errors import TouchlineError
-from schemas.process.clock import WallClock
 from schemas.topics import WORLD
 from sim_host.match.referee_resimulation import OfficiatingSettings
 from sim_host.physics.fingerprint import fingerprint

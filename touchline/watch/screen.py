@@ -7,7 +7,7 @@ from typing import TextIO
 from rich.live import Live
 from rich.text import Text
 
-from schemas.process.clock import Clock
+from runtime.process.clock import Clock
 from touchline.cli.console import console
 from touchline.timing import LINE_S, REFRESH_S
 

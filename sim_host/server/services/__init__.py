@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Bus
 from schemas.topics import ADMISSION, PARAMETERS, REFEREE_SEAT, SCENE, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.account_limits import AccountLimits

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from schemas.bus.contract import Bus, Query
+from runtime.bus.contract import Bus, Query
 from schemas.messages.game import ActionReply, RefereeAction
 from schemas.topics import ACTION
 from schemas.wire.message import BadMessageError

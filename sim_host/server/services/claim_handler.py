@@ -7,9 +7,9 @@ second agent is refused.
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from schemas.bus.contract import Bus, Query
+from runtime.bus.contract import Bus, Query
+from runtime.process.timing import LINK_GRACE_S
 from schemas.messages.claim import AgentClaim, AgentClaimReply
-from schemas.process.timing import LINK_GRACE_S
 from schemas.topics import CLAIM, ROBOT_CLAIM
 from schemas.wire.message import BadMessageError
 from sim_host.server.claims import Claims

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, ReceivedMessage
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.config.sections import Pitch
 from schemas.messages.coach import CoachOrder
 from schemas.side import Side

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
 from schemas.topic import Topic
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server.invalid_log import InvalidLog

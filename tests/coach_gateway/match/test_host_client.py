@@ -2,8 +2,8 @@ import pytest
 
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
-from schemas.bus.contract import Bus, PresenceKind
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.contract import Bus, PresenceKind
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.game import ActionName

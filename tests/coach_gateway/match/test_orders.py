@@ -3,7 +3,7 @@
 import pytest
 
 from coach_gateway.match.orders import OrderBook, OrderFollower, OrderStatus
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER

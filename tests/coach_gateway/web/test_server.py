@@ -8,7 +8,7 @@ import pytest
 
 from coach_gateway.web.protocol import ServerMessage
 from coach_gateway.web.settings import WebSettings
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.scene import shipped_scenes
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.world import RobotTruth

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 from robot_agent.settings import AgentSettings
-from schemas.access.accounts import Account
-from schemas.access.credentials import HOST_FILE, account_file, new_credentials, write_credentials
-from schemas.bus.endpoint import with_free_port
+from runtime.access.accounts import Account
+from runtime.access.credentials import HOST_FILE, account_file, new_credentials, write_credentials
+from runtime.bus.endpoint import with_free_port
+from runtime.process.settings_file import write_settings
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
-from schemas.config.settings_file import write_settings
 from sim_host.server.settings import HostSettings
 from support.process_story import SHORT_LIMIT, Listener, Program
 

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 import zenoh
 
-from schemas.access.accounts import Account
-from schemas.access.credentials import account_file, new_credentials, write_credentials
-from schemas.access.protection import Protection
-from schemas.bus.contract import PresenceKind
-from schemas.bus.zenoh.bus import ZenohBus, open_host
-from schemas.bus.zenoh.router_limits import router_limits
-from schemas.process.clock import WallClock
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file, new_credentials, write_credentials
+from runtime.access.protection import Protection
+from runtime.bus.contract import PresenceKind
+from runtime.bus.zenoh.bus import ZenohBus, open_host
+from runtime.bus.zenoh.router_limits import router_limits
+from runtime.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import key_prefix
 from support.attacker import STAMP, open_session, user_of

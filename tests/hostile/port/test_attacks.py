@@ -2,11 +2,11 @@
 
 import pytest
 
-from schemas.access.accounts import Account
-from schemas.bus.zenoh.bus import open_client
+from runtime.access.accounts import Account
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.game import EventKind
 from schemas.messages.setup import SetupRequest
-from schemas.process.clock import WallClock
 from schemas.topics import SETUP
 from support.attacker import ATTACKS, RAW_ATTACKS
 from support.process_story import SHORT_LIMIT

@@ -1,6 +1,6 @@
 """A client, peer or router without credentials, on a host that asks for none: the host cannot be impersonated.
 
-With credentials, `test_accounts.py` and `tests/schemas/bus/zenoh/test_access.py` try every account and every mode.
+With credentials, `test_accounts.py` and `tests/runtime/bus/zenoh/test_access.py` try every account and every mode.
 """
 
 import time
@@ -8,12 +8,12 @@ from collections.abc import Iterator
 
 import pytest
 
-from schemas.bus.contract import NoReplyError, PresenceKind
-from schemas.bus.zenoh.bus import ZenohBus, open_client, open_host
-from schemas.bus.zenoh.open_access import open_access
-from schemas.bus.zenoh.router_limits import router_limits
+from runtime.bus.contract import NoReplyError, PresenceKind
+from runtime.bus.zenoh.bus import ZenohBus, open_client, open_host
+from runtime.bus.zenoh.open_access import open_access
+from runtime.bus.zenoh.router_limits import router_limits
+from runtime.process.clock import WallClock
 from schemas.messages.setup import SetupRequest
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import RECORD_BATCH, SETUP, key_prefix
 from support.attacker import STAMP, open_session

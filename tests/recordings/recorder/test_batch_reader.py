@@ -8,11 +8,11 @@ from msgspec import Raw
 
 from recordings.recorder.batch_reader import BatchReader
 from recordings.timing import QUIET_S, REPLY_S
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Query
-from schemas.bus.in_process_bus import InProcessBus, SharedState
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import Bus, Query
+from runtime.bus.in_process_bus import InProcessBus, SharedState
+from runtime.process.timing import GIVE_UP_S
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
-from schemas.process.timing import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 from support.stepped_clock import SteppedClock
 

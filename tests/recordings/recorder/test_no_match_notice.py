@@ -1,8 +1,8 @@
 import pytest
 
 from recordings.recorder.no_match_notice import NoMatchNotice
-from schemas.bus.contract import PresenceKind
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.contract import PresenceKind
+from runtime.bus.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 

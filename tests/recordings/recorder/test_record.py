@@ -10,13 +10,13 @@ import pytest
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
 from recordings.recorder.settings import RecorderSettings
-from schemas.bus.contract import Bus
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_client, open_host
+from runtime.bus.contract import Bus
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_client, open_host
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.game import Phase, Score
 from schemas.messages.world import World
-from schemas.process.clock import WallClock
 from schemas.topics import RECORDER_PROGRESS
 
 LIMIT = 60.0

@@ -7,7 +7,7 @@ from mcap.stream_reader import StreamReader
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
 from recordings.recorder.recording_writer import RecordingWriter
-from schemas.bus.contract import Bus, ReceivedMessage, Stamp
+from runtime.bus.contract import Bus, ReceivedMessage, Stamp
 from schemas.game import Phase, Score
 from schemas.messages.health import Health
 from schemas.messages.world import World
@@ -320,7 +320,7 @@ def test_a_recorder_that_missed_batches_has_them_again_and_its_file_is_whole(rig
 
 
 def test_what_the_host_keeps_no_more_is_counted_as_lost_on_each_key(rig, monkeypatch):
-    monkeypatch.setattr("schemas.bus.batch_publisher.KEPT_BATCHES", 10)
+    monkeypatch.setattr("runtime.bus.batch_publisher.KEPT_BATCHES", 10)
     rig.play(range(20))
     mend = break_link(rig)
     rig.play(range(20, 60))

@@ -5,7 +5,7 @@ import pytest
 from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.reading.recording import open_recording
 from recordings.recorder.recording_writer import RecordingWriter
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.topics import WORLD
 from support.stepped_clock import SteppedClock

@@ -1,5 +1,5 @@
 from recordings.recorder.sequence_tracker import SequenceTracker
-from schemas.bus.contract import Stamp
+from runtime.bus.contract import Stamp
 
 SECOND = 1_000_000_000
 

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from recordings.recorder.batch_reader import Unbatcher
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.messages.record_batch import RecordBatch
 from schemas.topics import COMMAND, ORDER, SIGHT, WORLD
 from schemas.wire.message import BadMessageError

@@ -11,8 +11,8 @@ from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
-from schemas.bus.contract import NoReplyError
-from schemas.bus.in_process_bus import InProcessBus, SharedState
+from runtime.bus.contract import NoReplyError
+from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction

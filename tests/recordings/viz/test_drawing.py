@@ -9,7 +9,7 @@ from foxglove_schemas_protobuf import FrameTransforms_pb2, Log_pb2, SceneUpdate_
 from recordings.viz.colours import BALL, MARK, PITCH, ROBOT, Colour
 from recordings.viz.drawing import BALL as BALL_TOPIC
 from recordings.viz.drawing import EVENTS, FIELD, GAME, REPEAT_NS, ROBOTS, TF, Drawing
-from schemas.bus.contract import ReceivedMessage
+from runtime.bus.contract import ReceivedMessage
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape
 from schemas.config.profile import load_profile

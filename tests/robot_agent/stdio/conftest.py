@@ -8,8 +8,8 @@ import pytest
 
 from robot_agent.contract import Briefing
 from robot_agent.stdio.program import Exchange, StdioProgram
+from runtime.process.clock import WallClock
 from schemas.messages.sight import Sight
-from schemas.process.clock import WallClock
 from support.stepped_clock import SteppedClock
 
 HEAD = """

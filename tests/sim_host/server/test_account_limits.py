@@ -2,8 +2,8 @@
 
 import pytest
 
-from schemas.bus.contract import NoReplyError
-from schemas.bus.refusals import Refusal
+from runtime.bus.contract import NoReplyError
+from runtime.bus.refusals import Refusal
 from schemas.game import EventKind, Phase
 from schemas.messages.admission import AdmissionRequest
 from schemas.messages.coach import CoachOrder

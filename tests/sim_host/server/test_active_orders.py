@@ -6,7 +6,7 @@ order has a number, and each robot acknowledges it.
 
 import pytest
 
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
 from schemas.game import Point
 from schemas.messages.coach import MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command

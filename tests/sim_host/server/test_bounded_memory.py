@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from schemas.bus import batch_publisher
+from runtime.bus import batch_publisher
 from schemas.config.match_config import load_match
 from support.host_rig import HostRig
 

@@ -5,12 +5,12 @@ from contextlib import suppress
 import pytest
 
 from robot_agent.runner import Runner
-from schemas.bus.contract import NoReplyError, PresenceKind, RefusedQueryError
+from runtime.bus.contract import NoReplyError, PresenceKind, RefusedQueryError
+from runtime.process.timing import LINK_GRACE_S
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
 from schemas.messages.claim import AgentClaim
 from schemas.messages.setup import SetupRequest
-from schemas.process.timing import LINK_GRACE_S
 from schemas.topics import CLAIM, EVENT, SETUP
 from support.host_rig import TEAMS, Agent, Forward, HostRig
 

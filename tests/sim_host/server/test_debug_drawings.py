@@ -2,9 +2,9 @@
 
 import pytest
 
-from schemas.access.accounts import Account
-from schemas.access.rights import Rights
-from schemas.bus.batch_publisher import BatchPublisher
+from runtime.access.accounts import Account
+from runtime.access.rights import Rights
+from runtime.bus.batch_publisher import BatchPublisher
 from schemas.config.match_config import MatchConfig
 from schemas.messages.command import Command, Drive
 from schemas.messages.debug import Debug, DebugPoint

@@ -2,9 +2,9 @@
 
 import pytest
 
-from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.bus.in_process_bus import InProcessBus, SharedState
+from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.messages.command import Command

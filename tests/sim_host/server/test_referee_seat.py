@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from coach_gateway.access.referee_name import box_name, gateway_name, terminal_name
-from schemas.bus.contract import PresenceKind
+from runtime.bus.contract import PresenceKind
 from schemas.game import REFBOX, ActionName
 from schemas.messages.applied import Applied
 from schemas.messages.game import ActionReply, RefereeAction

@@ -2,7 +2,7 @@
 
 import pytest
 
-from schemas.bus.contract import NoReplyError
+from runtime.bus.contract import NoReplyError
 from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.game import ActionReply, RefereeAction

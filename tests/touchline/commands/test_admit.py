@@ -6,10 +6,10 @@ from contextlib import contextmanager
 import pytest
 from typer.testing import CliRunner, Result
 
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import SharedState
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus
+from runtime.bus.in_process_bus import SharedState
+from runtime.bus.settings import ClientSettings
 from schemas.topics import ADMISSION
 from sim_host.server.admission import Admission
 from support.fake_host import FakeHost

@@ -11,9 +11,9 @@ from typer.testing import CliRunner, Result
 from recordings.container.key_selection import EVERYTHING
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import SharedState
-from schemas.bus.settings import ClientSettings
+from runtime.bus.contract import Bus
+from runtime.bus.in_process_bus import SharedState
+from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import AccountHealth, Health, RobotHealth, TeamRadio
 from schemas.side import Side

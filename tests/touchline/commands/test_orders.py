@@ -7,10 +7,10 @@ from contextlib import contextmanager
 import pytest
 from typer.testing import CliRunner, Result
 
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import SharedState
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus
+from runtime.bus.in_process_bus import SharedState
+from runtime.bus.settings import ClientSettings
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode

@@ -9,7 +9,7 @@ from typer.testing import CliRunner, Result
 from recordings.container.manifest import EndReason, make_manifest
 from recordings.container.manifest import Result as Ending
 from recordings.recorder.recording_writer import RecordingWriter
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
 from schemas.game import Phase
 from schemas.messages.game import GameState

@@ -6,10 +6,10 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from coach_gateway.access.referee_name import terminal_name
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import SharedState
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus
+from runtime.bus.in_process_bus import SharedState
+from runtime.bus.settings import ClientSettings
 from schemas.game import ActionName, Phase, Score
 from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth

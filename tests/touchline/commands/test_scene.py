@@ -10,10 +10,10 @@ import pytest
 from pytest import approx
 from typer.testing import CliRunner, Result
 
-from schemas.access.accounts import Account
-from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import SharedState
-from schemas.bus.settings import ClientSettings
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus
+from runtime.bus.in_process_bus import SharedState
+from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import load_match
 from schemas.config.scene import shipped_scenes
 from schemas.side import Side

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner, Result
 
-from schemas.bus.contract import PresenceKind
-from schemas.bus.endpoint import with_free_port
-from schemas.bus.zenoh.bus import open_host
-from schemas.process.clock import WallClock
+from runtime.bus.contract import PresenceKind
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_host
+from runtime.process.clock import WallClock
 from touchline.command_line import app
 from touchline.launch import team_run
 from touchline.launch.team_run import TeamPlan

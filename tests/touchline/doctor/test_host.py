@@ -12,20 +12,20 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from schemas.access.accounts import Account
-from schemas.access.certificates import make_certificate
-from schemas.access.credentials import account_file, new_credentials, write_credentials
-from schemas.access.protection import Protection
-from schemas.bus.contract import PresenceKind
-from schemas.bus.endpoint import reserve_port
-from schemas.bus.settings import ClientSettings
-from schemas.bus.zenoh.bus import ZenohBus, open_host
+from runtime.access.accounts import Account
+from runtime.access.certificates import make_certificate
+from runtime.access.credentials import account_file, new_credentials, write_credentials
+from runtime.access.protection import Protection
+from runtime.bus.contract import PresenceKind
+from runtime.bus.endpoint import reserve_port
+from runtime.bus.settings import ClientSettings
+from runtime.bus.zenoh.bus import ZenohBus, open_host
+from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.setup import Setup
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import HEALTH, SETUP
 from touchline.command_line import app

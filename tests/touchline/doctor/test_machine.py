@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from schemas.bus.announcement import Announcement
+from runtime.bus.announcement import Announcement
 from touchline.doctor.clock_offset import clock_offset
 from touchline.doctor.finding import Finding, Status
 from touchline.doctor.machine import MachineFacts, examine_machine

@@ -13,9 +13,9 @@ import pytest
 
 from robot_agent.build_check import BuildCheckSettings
 from robot_agent.settings import AgentSettings
+from runtime.process.clock import WallClock
 from schemas.config.confinement import Limits
 from schemas.config.match_config import load_match
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from support.isolated_match import needs_bubblewrap
 from support.process_story import is_running

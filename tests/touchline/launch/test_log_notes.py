@@ -1,6 +1,6 @@
 """Notes in the logs of robots, for the user at the terminal."""
 
-from schemas.process.process_log import NOTE
+from runtime.process.process_log import NOTE
 from touchline.launch.log_notes import LogNotes
 
 

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from schemas.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.contract import ReceivedMessage, Stamp
+from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
-from schemas.process.clock import WallClock
 from schemas.topics import EVENT, STATE
 from touchline.launch import match_run, recording_outcome
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
@@ -25,9 +25,9 @@ pytestmark = pytest.mark.processes
 
 HOST = """
 import os, pathlib, signal, sys
-from schemas.bus.announcement import Announcement, announced
-from schemas.bus.zenoh.bus import open_host
-from schemas.process.clock import WallClock
+from runtime.bus.announcement import Announcement, announced
+from runtime.bus.zenoh.bus import open_host
+from runtime.process.clock import WallClock
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
 from schemas.topics import EVENT, STATE

@@ -14,7 +14,7 @@ from recordings.container.manifest import Result
 from recordings.container.mcap_file import DERIVED
 from recordings.container.sealed_metadata import digest, from_metadata, sealed, to_metadata
 from recordings.recorder.sequence_tracker import SequenceTracker
-from schemas.bus.contract import Stamp
+from runtime.bus.contract import Stamp
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.messages.parameters import ParameterOperation, ParametersRequest

@@ -4,8 +4,8 @@ import pytest
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
-from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.contract import Bus
+from runtime.bus.in_process_bus import SharedState
 from schemas.game import ActionName, EventKind, OffField, Phase, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion

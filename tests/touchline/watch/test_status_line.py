@@ -2,7 +2,7 @@ import pytest
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.team_names import TeamNames
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.game import GameStage, OffField, Phase, Score
 from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.messages.health import Health, RobotHealth

@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.text import Text
 from typer.testing import CliRunner
 
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.debug import Debug, RobotDebug

@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from recordings.reading.recording import open_recording
 from recordings.stats import page as statistics_page
-from schemas.process.whole_file import written_whole
+from runtime.process.whole_file import written_whole
 from touchline.matches.cup.cup_config import TeamEntry
 from touchline.matches.cup.cup_state import CupMatch, CupState, Ended, MatchState, Slot
 from touchline.matches.cup.formats.knock_out import name_of, stage_of

@@ -8,7 +8,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from schemas.process.clock import WallClock
+from runtime.process.clock import WallClock
 from touchline.timing import HANG_RENEW_S, HANG_S
 
 _ACTING, _STACK = "acting", "stack"

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
-from schemas.process.clock import WallClock
+from runtime.process.clock import WallClock
 from touchline.cli.console import console
 from touchline.matches.engine.run_counts import RunCounts
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from schemas.process.clock import Clock
+from runtime.process.clock import Clock
 
 
 @dataclass(slots=True)

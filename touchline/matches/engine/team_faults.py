@@ -4,7 +4,7 @@ The host plays such a match to its end: it drops what is too much, and does not 
 """
 
 from recordings.reading.recording import Recording
-from schemas.access.accounts import Account
+from runtime.access.accounts import Account
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import Health, RobotHealth
 from schemas.side import Side

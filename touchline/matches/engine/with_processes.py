@@ -16,10 +16,10 @@ from recordings.container.key_selection import KeySelection
 from recordings.container.parts import remove_parts
 from recordings.editing.filtering import filter_recording
 from recordings.reading.recording import open_recording
-from schemas.bus.endpoint import FREE_ENDPOINT
+from runtime.bus.endpoint import FREE_ENDPOINT
+from runtime.process.clock import WallClock
 from schemas.config.match_parts import RecordingConfig
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.process.clock import WallClock
 from touchline.launch.check_brains import check_teams
 from touchline.launch.confinement import team_confinements
 from touchline.launch.match_run import InterruptedMatchError, MatchRun

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from robot_agent.user_code import OWN_PACKAGES
-from schemas.process.installed import installed_version
+from runtime.process.installed import installed_version
 from schemas.side import Side
 from schemas.wire.message import VERSION
 from touchline.launch.team_code import team_code

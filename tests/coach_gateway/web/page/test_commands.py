@@ -5,10 +5,10 @@ import math
 import pytest
 
 from coach_gateway.match.host_client import HostClient
+from runtime.process.clock import WallClock
 from schemas.game import ActionName, Phase
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.game import RefereeAction
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import MANUAL
 

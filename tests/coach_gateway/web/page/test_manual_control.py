@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from runtime.process.clock import WallClock
 from schemas.game import Phase
-from schemas.process.clock import WallClock
 from schemas.topics import MANUAL
 
 PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from schemas.bus.in_process_bus import SharedState
+from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.game import ActionName, Card, EventKind, OffField, Phase
 from schemas.messages.game import DisciplinaryRecord, RobotQuestion, Score

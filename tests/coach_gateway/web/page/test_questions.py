@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
-from schemas.bus.contract import Bus
+from runtime.bus.contract import Bus
+from runtime.process.clock import WallClock
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
-from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import ACTION
 from support.page_gateway import SOON

@@ -1,0 +1,52 @@
+"""Wall times of the bus and of processes, in s unless the name says otherwise."""
+
+LEASE_S = 2.0
+"""Without any data for this time, a link counts as broken."""
+HEARTBEAT_S = 0.5
+"""Longest time until a subscriber of a `recovered` topic detects that it missed the newest message."""
+LINK_GRACE_S = LEASE_S + 0.5
+"""Watchers tolerate a broken link for this time, and a claim waits for the end of an earlier agent."""
+RECONNECT_S = 10.0
+"""Agents and recorders wait for an unreachable host for this time before they give up the match."""
+CUT_OFF_S = 3600.0
+"""The same where the network to the host is cut: the match goes on there, and lasts no longer."""
+POLL_S = 0.02
+"""Between two checks for a host that is awaited."""
+PROBE_EVERY_S = 1.0
+"""Between two checks whether the network is cut."""
+PROBE_S = 0.3
+"""A machine that does not answer a probe for this time is cut off: its clients have nothing else to do meanwhile."""
+CONNECT_S = 1.0
+"""For a connection that shows why no host admits a client: longer than one packet that is lost and sent again takes."""
+REPLY_S = 1.0
+"""For the reply of a router to a query for tokens."""
+SLICE_S = 0.2
+"""A client that waits for a host asks after this time again whether it is to stop."""
+WAKE_AGAIN_S = 0.05
+"""A reader that was woken and still waits is woken again."""
+FIRST_ATTEMPT_S = 0.5
+"""Length of the first attempt to connect; it doubles with each attempt. Ctrl-C takes effect between attempts."""
+LONGEST_ATTEMPT_S = 2.0
+"""For a machine that is too busy to answer at once."""
+HANDSHAKE_S = 0.9
+"""Longest attempt to connect again. A cut network answers nothing, and an attempt that has begun then repeats its
+packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the handshake of
+four round trips at 0.1 s of delay each way."""
+RETRY_FROM_MS, RETRY_TO_MS = 20, 100
+"""Between two attempts to connect again, which becomes longer."""
+HALF_OPEN_MS = 2000
+"""Half-open connections make room after this time."""
+CONGESTION_US = 1_000_000
+"""A client has to make room for data that must not be dropped within this time; then its link is closed, and it may
+connect again."""
+GIVE_UP_S = 20.0
+"""Without progress for this time, missing batches are given up; a link recovers in less."""
+PARTING_S = 5.0
+"""A host or a replay waits at its end for its recorders to receive the last tick."""
+SUSPENDED_S = 0.5
+"""Most time between two readings of a clock that counts; the rest is taken for a suspension of the process."""
+CORE_WAIT_S = 0.25
+"""Longest time that a step in idle time may wait for a core; with a dozen processes of a match on two cores it waits a
+tenth of that."""
+IDLE_AGAIN_S = 30.0
+"""Idle time is tried again on a machine that was busy."""
