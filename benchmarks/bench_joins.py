@@ -15,8 +15,8 @@ import sys
 import threading
 import time
 
-from robot_agent.claim import Membership
-from robot_agent.runner import ask_setup
+from robot_agent.process.claim import Membership
+from robot_agent.process.runner import ask_setup
 from runtime.bus.zenoh.bus import ZenohBus, open_client, open_host
 from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match

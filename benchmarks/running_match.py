@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from runtime.access.accounts import Account
 from runtime.access.certificates import make_certificate
 from runtime.access.credentials import HOST_FILE, account_file, new_credentials, write_credentials

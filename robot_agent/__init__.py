@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from robot_agent.settings import AgentSettings
+    from robot_agent.process.settings import AgentSettings
 
 
 def run(settings: "AgentSettings") -> int:
@@ -12,6 +12,6 @@ def run(settings: "AgentSettings") -> int:
     Raises:
         TouchlineError: no host answers, or the brain cannot be made.
     """
-    from robot_agent.process import run as run_process
+    from robot_agent.process.run import run as run_process
 
     return run_process(settings)

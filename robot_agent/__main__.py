@@ -3,7 +3,7 @@
 import sys
 
 from robot_agent import run
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from runtime.process.settings_file import run_process
 
 if __name__ == "__main__":

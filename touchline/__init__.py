@@ -10,14 +10,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from robot_agent.contract import Brain as Brain
-    from robot_agent.contract import Briefing as Briefing
+    from robot_agent.sdk.contract import Brain as Brain
+    from robot_agent.sdk.contract import Briefing as Briefing
+    from robot_agent.sdk.world_model import SeenBall as SeenBall
+    from robot_agent.sdk.world_model import Teammate as Teammate
+    from robot_agent.sdk.world_model import WorldBelief as WorldBelief
+    from robot_agent.sdk.world_model import WorldModel as WorldModel
     from robot_agent.teams.action import Action as Action
     from robot_agent.teams.player import Player as Player
-    from robot_agent.world_model import SeenBall as SeenBall
-    from robot_agent.world_model import Teammate as Teammate
-    from robot_agent.world_model import WorldBelief as WorldBelief
-    from robot_agent.world_model import WorldModel as WorldModel
     from schemas.config.match_config import MatchConfig as MatchConfig
     from schemas.config.match_config import load_match as load_match
     from schemas.game import TeamPhase as TeamPhase
@@ -37,10 +37,10 @@ if TYPE_CHECKING:
     from touchline.play import play_match as play_match
 
 _NAMES = {
-    "robot_agent.contract": ("Brain", "Briefing"),
+    "robot_agent.sdk.contract": ("Brain", "Briefing"),
     "robot_agent.teams.action": ("Action",),
     "robot_agent.teams.player": ("Player",),
-    "robot_agent.world_model": ("SeenBall", "Teammate", "WorldBelief", "WorldModel"),
+    "robot_agent.sdk.world_model": ("SeenBall", "Teammate", "WorldBelief", "WorldModel"),
     "schemas.config.match_config": ("MatchConfig", "load_match"),
     "schemas.game": ("TeamPhase",),
     "schemas.messages.coach": ("CoachOrder",),

@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from robot_agent.contract import Brain, Briefing
-from robot_agent.robot_code import end_robot, start_robot
-from robot_agent.user_code import definition_of
+from robot_agent.loading.user_code import definition_of
+from robot_agent.process.robot_code import end_robot, start_robot
+from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig
 from schemas.errors import TouchlineError, did_you_mean

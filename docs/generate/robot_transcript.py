@@ -8,9 +8,9 @@ import textwrap
 from pathlib import Path
 from typing import Any
 
-from robot_agent.contract import Briefing
-from robot_agent.stdio.command_line import command_line
-from robot_agent.stdio.program import StdioProgram, briefing_line
+from robot_agent.process.stdio.command_line import command_line
+from robot_agent.process.stdio.program import StdioProgram, briefing_line
+from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import load_match
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from robot_agent.skills.keep_out import Area
+from robot_agent.sdk.skills.keep_out import Area
 from schemas.config.match_config import load_match
 from schemas.config.rolling import Rolling
 from schemas.messages.command import Command, Drive, Kick

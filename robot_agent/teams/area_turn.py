@@ -2,9 +2,9 @@
 
 import math
 
-from robot_agent.fair_play import RuleLimits
-from robot_agent.skills.keep_out import Area
-from robot_agent.world_model import WorldBelief
+from robot_agent.sdk.skills.keep_out import Area
+from robot_agent.sdk.world_model import WorldBelief
+from robot_agent.teams.fair_play import RuleLimits
 from schemas.game import TeamPhase
 
 LEAVES_BEFORE = 2.0

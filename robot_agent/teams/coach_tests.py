@@ -8,19 +8,19 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from robot_agent.bodies import Ball, DriveLimits
-from robot_agent.contract import Briefing
-from robot_agent.skills.avoid import Circle, circles, go_around
-from robot_agent.skills.circle import circle
-from robot_agent.skills.dribble_to import SPEED, TURN_RATE
-from robot_agent.skills.intercept import meet, way_of
-from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import pass_speed
-from robot_agent.skills.receive import comes, receive
-from robot_agent.skills.search import search_place
-from robot_agent.skills.take_ball import HAS_IT, take_ball
+from robot_agent.sdk.bodies import Ball, DriveLimits
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.skills.avoid import Circle, circles, go_around
+from robot_agent.sdk.skills.circle import circle
+from robot_agent.sdk.world_model import WorldBelief
+from robot_agent.soccer.skills.dribble_to import SPEED, TURN_RATE
+from robot_agent.soccer.skills.intercept import meet, way_of
+from robot_agent.soccer.skills.kick_at import kick_at
+from robot_agent.soccer.skills.pass_to import pass_speed
+from robot_agent.soccer.skills.receive import comes, receive
+from robot_agent.soccer.skills.search import search_place
+from robot_agent.soccer.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
-from robot_agent.world_model import WorldBelief
 from schemas.config.rolling import Rolling
 from schemas.frames import wrap
 from schemas.game import Point

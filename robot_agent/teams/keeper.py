@@ -2,13 +2,13 @@
 
 import math
 
-from robot_agent.bodies import Ball, DriveLimits
-from robot_agent.skills.intercept import meet, way_of
-from robot_agent.skills.keep_out import Area
-from robot_agent.skills.pass_to import best_receiver, pass_to
-from robot_agent.skills.take_ball import take_ball
+from robot_agent.sdk.bodies import Ball, DriveLimits
+from robot_agent.sdk.skills.keep_out import Area
+from robot_agent.sdk.world_model import WorldBelief
+from robot_agent.soccer.skills.intercept import meet, way_of
+from robot_agent.soccer.skills.pass_to import best_receiver, pass_to
+from robot_agent.soccer.skills.take_ball import take_ball
 from robot_agent.teams.action import Action
-from robot_agent.world_model import WorldBelief
 from schemas.config.rolling import Rolling
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from robot_agent.bodies import Body, DriveLimits
-from robot_agent.skills.avoid import circles, go_around
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.skills.avoid import circles, go_around
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup
 

@@ -4,25 +4,25 @@ import math
 from abc import ABC, abstractmethod
 from typing import ClassVar
 
-from robot_agent.bodies import Ball, DriveLimits
-from robot_agent.contract import Briefing
-from robot_agent.fair_play import Carry, Possession, RuleLimits, carry_after, possession_after
-from robot_agent.skills.avoid import circles, go_around
-from robot_agent.skills.brake_before import brake_before
-from robot_agent.skills.braking import braking_speed
-from robot_agent.skills.go_to import LAG
-from robot_agent.skills.keep_goal import keep_goal
-from robot_agent.skills.keep_hold import hold_deceleration
-from robot_agent.skills.keep_out import Area, keep_out
-from robot_agent.skills.let_go import let_go
-from robot_agent.skills.search import search_place
+from robot_agent.sdk.bodies import Ball, DriveLimits
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.skills.avoid import circles, go_around
+from robot_agent.sdk.skills.brake_before import brake_before
+from robot_agent.sdk.skills.braking import braking_speed
+from robot_agent.sdk.skills.go_to import LAG
+from robot_agent.sdk.skills.keep_out import Area, keep_out
+from robot_agent.sdk.world_model import WorldBelief, WorldModel
+from robot_agent.soccer.skills.keep_goal import keep_goal
+from robot_agent.soccer.skills.keep_hold import hold_deceleration
+from robot_agent.soccer.skills.let_go import let_go
+from robot_agent.soccer.skills.search import search_place
 from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
 from robot_agent.teams.area_turn import AreaTurn, leaves
+from robot_agent.teams.fair_play import Carry, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.teams.parking import park
 from robot_agent.teams.reports import radio_message, why_refused
 from robot_agent.teams.set_piece import PENALTIES
-from robot_agent.world_model import WorldBelief, WorldModel
 from schemas.config.rolling import Rolling
 from schemas.config.roster import goalkeeper_of
 from schemas.game import GameStage, TeamPhase

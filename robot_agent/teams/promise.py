@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from robot_agent.world_model import WorldBelief
+from robot_agent.sdk.world_model import WorldBelief
 
 LASTS = 2.0
 """s for which a receiver expects the promised pass."""

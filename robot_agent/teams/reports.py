@@ -3,8 +3,8 @@
 import math
 from collections.abc import Collection
 
+from robot_agent.sdk.world_model import WorldBelief
 from robot_agent.teams.action import Action
-from robot_agent.world_model import WorldBelief
 from schemas.game import Point
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.radio import MAX_OBSTACLES, BallBelief, Motion, Radio

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Body, DriveLimits
-from robot_agent.skills.avoid import Circle, bend_speed, circles_near, go_around
-from robot_agent.skills.go_to import drive
-from robot_agent.skills.keep_off import inside, keep_off, way_around
-from robot_agent.skills.keep_out import Area
-from robot_agent.skills.line_up import line_up
-from robot_agent.skills.turn_to import turn_rate
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.skills.avoid import Circle, bend_speed, circles_near, go_around
+from robot_agent.sdk.skills.go_to import drive
+from robot_agent.sdk.skills.keep_out import Area
+from robot_agent.sdk.skills.turn_to import turn_rate
+from robot_agent.soccer.skills.keep_off import inside, keep_off, way_around
+from robot_agent.soccer.skills.line_up import line_up
 from schemas.config.rule_book import Restarts
 from schemas.config.sections import Pitch
 from schemas.game import TeamPhase

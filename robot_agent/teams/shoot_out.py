@@ -7,11 +7,11 @@ the goalkeepers stand beyond the halfway line, outside the centre circle.
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import DriveLimits
-from robot_agent.skills.avoid import circles, go_around
-from robot_agent.skills.kick_at import kick_at
+from robot_agent.sdk.bodies import DriveLimits
+from robot_agent.sdk.skills.avoid import circles, go_around
+from robot_agent.sdk.world_model import WorldBelief
+from robot_agent.soccer.skills.kick_at import kick_at
 from robot_agent.teams.set_piece import step_in
-from robot_agent.world_model import WorldBelief
 from schemas.config.sections import Pitch
 from schemas.game import TeamPhase
 from schemas.messages.command import Drive, Kick

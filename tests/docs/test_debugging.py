@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
 from robot_agent.teams.simple import Simple
 from schemas.config.match_config import load_match
 from schemas.messages import debug

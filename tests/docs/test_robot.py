@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import fields
 
-from robot_agent.stdio import answers, program
+from robot_agent.process.stdio import answers, program
 from schemas.config.profile import load_profile
 from schemas.game import TeamPhase
 from schemas.messages.command import Command, Drive, Kick, KickMode

@@ -10,8 +10,8 @@ from typing import Any, get_type_hints
 import msgspec
 import pytest
 
-from robot_agent.contract import Briefing
-from robot_agent.world_model import WorldBelief
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.world_model import WorldBelief
 from schemas.config.match_config import load_match
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight

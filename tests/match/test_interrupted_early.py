@@ -26,9 +26,9 @@ which leads the session. Robots have groups of their own, and no variables but t
 MODULES = {
     "the commands": "touchline.commands.match",
     "the simulation, to check the match file": "sim_host.match.live_parameters",
-    "the check of the brains, in its process": "robot_agent.build_check",
+    "the check of the brains, in its process": "robot_agent.loading.build_check",
     "the launch": "touchline.launch.match_run",
-    "the robots, in the process that they are forked from": "robot_agent.process",
+    "the robots, in the process that they are forked from": "robot_agent.process.run",
 }
 
 

@@ -8,7 +8,7 @@ import pytest
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
 from recordings.recorder.settings import RecorderSettings
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from schemas.config.match_config import MatchConfig
 from sim_host.server.settings import HostSettings
 
@@ -33,7 +33,7 @@ class Marked:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
 """
 WITHOUT = """
-import touchline.command_line, coach_gateway.process, robot_agent.process
+import touchline.command_line, coach_gateway.process, robot_agent.process.run
 import recordings.recorder.process, sim_host.server.process
 try:
     import pybullet

@@ -15,9 +15,9 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from coach_gateway.match.team_obstacles import team_obstacles
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Briefing
-from robot_agent.runner import Runner
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.process.runner import Runner
+from robot_agent.sdk.contract import Briefing
 from robot_agent.teams.nubot import NuBot
 from robot_agent.teams.nubot.machine import State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION

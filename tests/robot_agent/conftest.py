@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 import pytest
 
-from robot_agent.bodies import Body, DriveLimits
-from robot_agent.contract import Briefing
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.contract import Briefing
 from schemas.frames import rotate, wrap
 from schemas.messages.command import Drive
 from schemas.messages.setup import Setup

@@ -1,6 +1,6 @@
 """Answers of a robot whose test has no loop of its own."""
 
-from robot_agent.runner import Runner
+from robot_agent.process.runner import Runner
 
 
 def answer_next(runner: Runner) -> bool:

@@ -1,6 +1,6 @@
 """A brain that lets its robot stand and draws one shape of each kind in its team frame."""
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
 from schemas.messages.command import Command
 from schemas.messages.drawing import Drawing
 from schemas.messages.sight import Sight

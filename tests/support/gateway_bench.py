@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from coach_gateway.match.live import LiveMatch
-from robot_agent.runner import Runner
+from robot_agent.process.runner import Runner
 from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig, load_match

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Brain, Briefing
-from robot_agent.runner import Runner
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.process.runner import Runner
+from robot_agent.sdk.contract import Brain, Briefing
 from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind

@@ -1,6 +1,6 @@
 """A match in which cyan2 alone meets a ball at rest."""
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import MatchConfig
 from touchline.play import InProcessMatch
 

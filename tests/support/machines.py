@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from schemas.config.match_config import load_match
 from schemas.config.settings import Settings
 from sim_host.server.settings import HostSettings

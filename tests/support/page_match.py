@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from coach_gateway.match.host_client import HostClient
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Briefing
-from robot_agent.runner import Runner
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.process.runner import Runner
+from robot_agent.sdk.contract import Briefing
 from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig

@@ -71,7 +71,7 @@ def process_name(pid: int) -> str | None:
         return None  # it has ended
     if "--settings" in words:
         return Path(words[words.index("--settings") + 1]).stem
-    is_forked = any(word == "robot_agent.forks" for word in words)
+    is_forked = any(word == "robot_agent.process.forks" for word in words)
     return name if is_forked and name != Path(sys.executable).name else None
 
 

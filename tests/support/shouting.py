@@ -1,6 +1,6 @@
 """A brain that sends script in every text of its radio message."""
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
 from schemas.messages.command import Command
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight

@@ -6,7 +6,7 @@ import subprocess
 from collections.abc import Sequence
 from contextlib import suppress
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
 from runtime.bus.contract import PresenceKind
 from runtime.bus.endpoint import with_free_port
 from runtime.bus.zenoh.bus import open_host

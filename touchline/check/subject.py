@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from robot_agent.brain_error import BrainError
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Brain, Briefing
-from robot_agent.stdio.command_line import command_line
-from robot_agent.stdio.program import StdioProgram
+from robot_agent.loading.brain_error import BrainError
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.process.stdio.command_line import command_line
+from robot_agent.process.stdio.program import StdioProgram
+from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command

@@ -11,7 +11,7 @@ import typer
 
 from coach_gateway.web.settings import WebSettings
 from recordings.container.key_selection import KeySelection
-from robot_agent.stdio.command_line import check_command_line, command_line
+from robot_agent.process.stdio.command_line import check_command_line, command_line
 from runtime.bus.settings import ListenSettings, check_protected
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import OfficiatingConfig

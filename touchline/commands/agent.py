@@ -3,7 +3,7 @@
 import typer
 
 from robot_agent import run
-from robot_agent.settings import AgentOptions, AgentSettings
+from robot_agent.process.settings import AgentOptions, AgentSettings
 from schemas.errors import TouchlineError
 from touchline.cli import options
 from touchline.cli.option_groups import with_option_groups

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from robot_agent.stdio.command_line import check_command_line
+from robot_agent.process.stdio.command_line import check_command_line
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from touchline.cli import options

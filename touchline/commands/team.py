@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from runtime.access.accounts import Account
 from runtime.process.clock import WallClock
 from schemas.config.confinement import Limits

@@ -13,7 +13,7 @@ import typer
 
 from recordings.reading.recording import Recording, open_recording
 from recordings.replay.seek_targets import time_in
-from robot_agent.user_code import users_traceback
+from robot_agent.loading.user_code import users_traceback
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.topics import APPLIED
 from touchline.debugger.agent_report import AgentReport

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from recordings.reading.recording import Recording
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Brain, Briefing
-from robot_agent.robot_code import end_robot, start_robot
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.process.robot_code import end_robot, start_robot
+from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig
 from schemas.errors import MatchFailedError, TouchlineError

@@ -5,7 +5,7 @@ import pdb
 import sys
 from types import FrameType, TracebackType
 
-from robot_agent.contract import Brain
+from robot_agent.sdk.contract import Brain
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 

@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from robot_agent.build_check import BuildCheckSettings
-from robot_agent.stdio.command_line import check_command_line
+from robot_agent.loading.build_check import BuildCheckSettings
+from robot_agent.process.stdio.command_line import check_command_line
 from runtime.process.clock import WallClock
 from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
@@ -101,7 +101,7 @@ class _BuildCheck:
         process = Process(
             name="build_check",
             kind=ProcessKind.AGENT,
-            command=(*PYTHON, "-m", "robot_agent.build_check", "--settings", str(file)),
+            command=(*PYTHON, "-m", "robot_agent.loading.build_check", "--settings", str(file)),
             environment={
                 **ROBOT_ENVIRONMENT,
                 **module_path_environment(),

@@ -21,7 +21,7 @@ from touchline.launch.process_table import Process
 from touchline.timing import WATCH_S
 
 if TYPE_CHECKING:
-    from robot_agent.forks import ForkRequest
+    from robot_agent.process.forks import ForkRequest
 
 _TAIL_BYTES = 8192
 _SIGNAL_IN_BUBBLEWRAP = 128

@@ -1,4 +1,4 @@
-"""The process that robots are forked from, `robot_agent.forks`: started once, asked for each robot.
+"""The process that robots are forked from, `robot_agent.process.forks`: started once, asked for each robot.
 
 Ten robots, each in a Python of its own, would spend ten seconds of CPU time on the same imports.
 """
@@ -17,7 +17,7 @@ from touchline.launch.robot_environment import server_environment
 from touchline.launch.robot_process import ROBOT_ENVIRONMENT
 
 if TYPE_CHECKING:
-    from robot_agent.forks import ForkReply, ForkRequest
+    from robot_agent.process.forks import ForkReply, ForkRequest
 
 
 class ForkServer:
@@ -36,7 +36,7 @@ class ForkServer:
             self._requests.close()
         self._forked = SimpleQueue()
         self._server = subprocess.Popen(
-            [*leashed({}), *PYTHON, "-m", "robot_agent.forks"],
+            [*leashed({}), *PYTHON, "-m", "robot_agent.process.forks"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**server_environment(ROBOT_ENVIRONMENT), **module_path_environment()},

@@ -8,7 +8,7 @@ from pathlib import Path
 from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
 from recordings.recorder.settings import RecorderSettings
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from runtime.access.accounts import Account
 from runtime.access.credentials import HOST_FILE, account_file
 from runtime.bus.endpoint import is_loopback, local_endpoint

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from schemas.side import Side
 from touchline.launch.confinement import Confinement
 from touchline.launch.process_table import COMMON_ENVIRONMENT, PROCESSES, Process, ProcessKind, library_process

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from robot_agent.settings import FIRST_SIGHT_FAILED
+from robot_agent.process.settings import FIRST_SIGHT_FAILED
 from runtime.process.clock import Clock
 from runtime.process.settings_file import WRONG
 from schemas.errors import TouchlineError

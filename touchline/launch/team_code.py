@@ -6,9 +6,9 @@ import sysconfig
 from pathlib import Path
 from typing import NamedTuple
 
-from robot_agent.brain_folders import BrainFolders
-from robot_agent.stdio.command_line import command_line
-from robot_agent.user_code import OWN_PACKAGES
+from robot_agent.loading.brain_folders import BrainFolders
+from robot_agent.loading.user_code import OWN_PACKAGES
+from robot_agent.process.stdio.command_line import command_line
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from coach_gateway.match.follower import MatchFollower
-from robot_agent.claim import Membership
-from robot_agent.runner import ask_setup
-from robot_agent.settings import AgentSettings
+from robot_agent.process.claim import Membership
+from robot_agent.process.runner import ask_setup
+from robot_agent.process.settings import AgentSettings
 from runtime.bus.contract import Bus
 from runtime.process.clock import Clock
 from schemas.config.confinement import Isolation

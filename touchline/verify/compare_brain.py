@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from recordings.reading.recording import Recording
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Brain, Briefing
-from robot_agent.user_code import place_of
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.loading.user_code import place_of
+from robot_agent.sdk.contract import Brain, Briefing
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from enum import StrEnum
 from typing import NamedTuple
 
-from robot_agent.bodies import Body
+from robot_agent.sdk.bodies import Body
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from schemas.config.sections import Pitch
 from schemas.frames import wrap

@@ -2,14 +2,15 @@
 
 import math
 
-from robot_agent.contract import Briefing
-from robot_agent.skills.avoid import circles, steer
-from robot_agent.skills.go_to import drive
-from robot_agent.skills.keep_goal import keep_goal
-from robot_agent.skills.keep_off import keep_off
-from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import best_receiver, pass_speed, pass_to
-from robot_agent.skills.turn_to import turn_rate
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.skills.avoid import circles, steer
+from robot_agent.sdk.skills.go_to import drive
+from robot_agent.sdk.skills.turn_to import turn_rate
+from robot_agent.sdk.world_model import SeenBall, WorldBelief, places_of
+from robot_agent.soccer.skills.keep_goal import keep_goal
+from robot_agent.soccer.skills.keep_off import keep_off
+from robot_agent.soccer.skills.kick_at import kick_at
+from robot_agent.soccer.skills.pass_to import best_receiver, pass_speed, pass_to
 from robot_agent.teams.action import Action
 from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
 from robot_agent.teams.nubot.machine import KICK, Machine, MachineOutput, Points, Situation, State
@@ -18,7 +19,6 @@ from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import KICK_OFFS, stand, step_in, wait_behind
 from robot_agent.teams.zones import owner_of
-from robot_agent.world_model import SeenBall, WorldBelief, places_of
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.command import KickMode

@@ -8,15 +8,15 @@ import math
 from random import Random as Draws
 from typing import NamedTuple
 
-from robot_agent.contract import Briefing
-from robot_agent.skills.avoid import circles
-from robot_agent.skills.dribble_to import dribble_to
-from robot_agent.skills.kick_at import kick_at
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.skills.avoid import circles
+from robot_agent.sdk.world_model import WorldBelief
+from robot_agent.soccer.skills.dribble_to import dribble_to
+from robot_agent.soccer.skills.kick_at import kick_at
 from robot_agent.teams.action import Action
 from robot_agent.teams.keeper import fetch
 from robot_agent.teams.player import Player
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
-from robot_agent.world_model import WorldBelief
 from schemas.frames import Point
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder

@@ -4,12 +4,12 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Body, DriveLimits
-from robot_agent.skills.avoid import circles, steer
-from robot_agent.skills.go_to import drive
-from robot_agent.skills.kick_on_the_run import kick_on_the_run
-from robot_agent.skills.pass_to import pass_speed
-from robot_agent.skills.turn_to import turn_rate
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.skills.avoid import circles, steer
+from robot_agent.sdk.skills.go_to import drive
+from robot_agent.sdk.skills.turn_to import turn_rate
+from robot_agent.soccer.skills.kick_on_the_run import kick_on_the_run
+from robot_agent.soccer.skills.pass_to import pass_speed
 from robot_agent.teams.action import Action
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, chance, cost_of_loss, passes, worth

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from robot_agent.bodies import Body
+from robot_agent.sdk.bodies import Body
 from robot_agent.teams.reference.passing import Pass
 from schemas.frames import Point
 from schemas.messages.debug import Debug, DebugCircle, DebugLine, DebugPoint, DebugText

@@ -8,9 +8,9 @@ included as they were sent, and so agree on who plays the ball.
 import math
 from typing import NamedTuple
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.world_model import STALE, WorldBelief, WorldModel
 from robot_agent.teams.reference.parameters import Parameters
-from robot_agent.world_model import STALE, WorldBelief, WorldModel
 from schemas.frames import Point
 from schemas.messages.sight import Sight
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from robot_agent.skills.keep_off import inside
+from robot_agent.soccer.skills.keep_off import inside
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import chance, worth
 from robot_agent.teams.reference.roles import Place, Role

@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Body
-from robot_agent.skills.keep_off import inside
+from robot_agent.sdk.bodies import Body
+from robot_agent.soccer.skills.keep_off import inside
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import chance
 from schemas.config.sections import Pitch

@@ -2,11 +2,11 @@
 
 import math
 
+from robot_agent.sdk.world_model import WorldBelief
 from robot_agent.teams.reference.give_and_go import Run, run_after
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import chance
 from robot_agent.teams.reference.roles import Role
-from robot_agent.world_model import WorldBelief
 from schemas.frames import Point
 from schemas.game import TeamPhase
 

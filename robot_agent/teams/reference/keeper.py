@@ -7,11 +7,11 @@ it is not. So the keeper stands on the line, and moves along it.
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Ball, Body, DriveLimits
-from robot_agent.skills.braking import travel_time
-from robot_agent.skills.go_to import drive, velocity_to
-from robot_agent.skills.keep_out import Area
-from robot_agent.skills.turn_to import turn_rate
+from robot_agent.sdk.bodies import Ball, Body, DriveLimits
+from robot_agent.sdk.skills.braking import travel_time
+from robot_agent.sdk.skills.go_to import drive, velocity_to
+from robot_agent.sdk.skills.keep_out import Area
+from robot_agent.sdk.skills.turn_to import turn_rate
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.rolling import Rolling
 from schemas.config.sections import Pitch

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Body, DriveLimits
-from robot_agent.skills.go_to import drive
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.skills.go_to import drive
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
 from schemas.frames import Point

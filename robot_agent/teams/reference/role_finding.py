@@ -3,8 +3,9 @@
 import math
 from collections.abc import Callable
 
-from robot_agent.bodies import Ball, Body
-from robot_agent.contract import Briefing
+from robot_agent.sdk.bodies import Ball, Body
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.world_model import WorldBelief
 from robot_agent.teams.reference.estimate import HOLDS, Words
 from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.parameters import Parameters
@@ -12,7 +13,6 @@ from robot_agent.teams.reference.recovery import home
 from robot_agent.teams.reference.roles import Candidate, Place, Role, attacker_of, share_places
 from robot_agent.teams.set_piece import before_own_goal
 from robot_agent.teams.zones import owner_of
-from robot_agent.world_model import WorldBelief
 from schemas.config.rolling import Rolling
 from schemas.frames import Point
 from schemas.game import TeamPhase

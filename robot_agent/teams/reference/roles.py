@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
-from robot_agent.bodies import Body
+from robot_agent.sdk.bodies import Body
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.simple.assignment import cheapest_assignment
 from schemas.frames import Point

@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Body
-from robot_agent.skills.pass_to import pass_speed
+from robot_agent.sdk.bodies import Body
+from robot_agent.soccer.skills.pass_to import pass_speed
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, passes
 from schemas.config.sections import Pitch

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from robot_agent.skills.shoot import lane_width
+from robot_agent.soccer.skills.shoot import lane_width
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
 from schemas.frames import Point, wrap

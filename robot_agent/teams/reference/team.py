@@ -4,15 +4,16 @@ import math
 
 import msgspec
 
-from robot_agent.bodies import Ball, Body
-from robot_agent.contract import Briefing
-from robot_agent.own_push import OwnPush, let_go_of_opponent, push_after
-from robot_agent.skills.intercept import meet, way_of
-from robot_agent.skills.keep_hold import keep_hold
-from robot_agent.skills.keep_in_play import keep_in_play
-from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.take_ball import take_ball
+from robot_agent.sdk.bodies import Ball, Body
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.world_model import WorldBelief, places_of
+from robot_agent.soccer.skills.intercept import meet, way_of
+from robot_agent.soccer.skills.keep_hold import keep_hold
+from robot_agent.soccer.skills.keep_in_play import keep_in_play
+from robot_agent.soccer.skills.kick_at import kick_at
+from robot_agent.soccer.skills.take_ball import take_ball
 from robot_agent.teams.action import Action
+from robot_agent.teams.own_push import OwnPush, let_go_of_opponent, push_after
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.reference.attacker import Situation, play_ball
@@ -29,7 +30,6 @@ from robot_agent.teams.reference.role_finding import RoleFinder
 from robot_agent.teams.reference.roles import Candidate, Role
 from robot_agent.teams.reference.set_pieces import Restart, restart_kick
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
-from robot_agent.world_model import WorldBelief, places_of
 from schemas.frames import Point
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder

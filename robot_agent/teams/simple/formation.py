@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 from itertools import product
 
-from robot_agent.skills.keep_off import APART, inside, keep_off
-from robot_agent.skills.keep_out import Area
+from robot_agent.sdk.skills.keep_out import Area
+from robot_agent.soccer.skills.keep_off import APART, inside, keep_off
 from robot_agent.teams.simple.roles import Role
 from schemas.config.sections import Pitch
 from schemas.frames import Point

@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
-from robot_agent.bodies import Ball, Body, DriveLimits
-from robot_agent.skills.intercept import meeting_time, way_of
+from robot_agent.sdk.bodies import Ball, Body, DriveLimits
+from robot_agent.soccer.skills.intercept import meeting_time, way_of
 from robot_agent.teams.simple.assignment import cheapest_assignment
 from schemas.config.rolling import Rolling
 

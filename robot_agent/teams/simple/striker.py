@@ -4,17 +4,17 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Body, DriveLimits
-from robot_agent.skills.avoid import circles
-from robot_agent.skills.dribble_to import dribble_to
-from robot_agent.skills.go_to import drive
-from robot_agent.skills.keep_off import inside
-from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import EASE, best_receiver, is_open, pass_speed, pass_to
-from robot_agent.skills.shoot import best_place, lane_width
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.skills.avoid import circles
+from robot_agent.sdk.skills.go_to import drive
+from robot_agent.sdk.world_model import Teammate, places_of
+from robot_agent.soccer.skills.dribble_to import dribble_to
+from robot_agent.soccer.skills.keep_off import inside
+from robot_agent.soccer.skills.kick_at import kick_at
+from robot_agent.soccer.skills.pass_to import EASE, best_receiver, is_open, pass_speed, pass_to
+from robot_agent.soccer.skills.shoot import best_place, lane_width
 from robot_agent.teams.action import Action
 from robot_agent.teams.simple.roles import Role
-from robot_agent.world_model import Teammate, places_of
 from schemas.config.sections import Pitch
 from schemas.frames import Point
 from schemas.messages.command import Kick, KickMode

@@ -3,12 +3,13 @@
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Ball
-from robot_agent.contract import Briefing
-from robot_agent.skills.keep_goal import keep_goal
-from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_to
-from robot_agent.skills.take_ball import HAS_IT
+from robot_agent.sdk.bodies import Ball
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.world_model import Teammate, WorldBelief, places_of
+from robot_agent.soccer.skills.keep_goal import keep_goal
+from robot_agent.soccer.skills.kick_at import kick_at
+from robot_agent.soccer.skills.pass_to import ARRIVING, best_receiver, pass_to
+from robot_agent.soccer.skills.take_ball import HAS_IT
 from robot_agent.teams.action import Action
 from robot_agent.teams.keeper import CLEAR, fetch, is_keepers_ball, play_out
 from robot_agent.teams.player import Player
@@ -18,7 +19,6 @@ from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
 from robot_agent.teams.simple.striker import SHOT_ERROR, StrikerSituation, is_pressed, play_ball
 from robot_agent.teams.zones import owner_of
-from robot_agent.world_model import Teammate, WorldBelief, places_of
 from schemas.frames import Point
 from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from runtime.access.accounts import Account
 from runtime.access.credentials import HOST_FILE, account_file, new_credentials, write_credentials
 from runtime.bus.endpoint import with_free_port

@@ -6,8 +6,8 @@ from collections.abc import Callable
 import pytest
 from msgspec.structs import replace
 
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Briefing
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.sdk.contract import Briefing
 from schemas.messages.command import Command
 from schemas.messages.radio import Motion
 from schemas.messages.setup import Setup

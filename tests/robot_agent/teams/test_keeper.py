@@ -5,10 +5,10 @@ import math
 
 import pytest
 
-from robot_agent.bodies import DriveLimits
-from robot_agent.contract import Briefing
-from robot_agent.skills.go_to import drive
-from robot_agent.skills.kick_at import kick_at
+from robot_agent.sdk.bodies import DriveLimits
+from robot_agent.sdk.contract import Briefing
+from robot_agent.sdk.skills.go_to import drive
+from robot_agent.soccer.skills.kick_at import kick_at
 from schemas.config.match_config import load_match
 from schemas.game import EventKind
 from schemas.messages.command import Command, Drive, KickMode

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pytest
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.sdk.bodies import Body, DriveLimits
 from robot_agent.teams.nubot.machine import TRANSITIONS, Machine, Points, Situation, State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from schemas.frames import wrap

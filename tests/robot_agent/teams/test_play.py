@@ -6,8 +6,8 @@ import math
 import pytest
 from msgspec.structs import replace
 
-from robot_agent.brain_loader import load_brain
-from robot_agent.contract import Briefing
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.sdk.contract import Briefing
 from robot_agent.teams.player import RADIO_EVERY
 from robot_agent.teams.set_piece import required_distance
 from robot_agent.teams.simple.striker import PATIENCE

@@ -5,7 +5,7 @@ from collections import Counter
 
 import pytest
 
-from robot_agent.skills.keep_out import Area
+from robot_agent.sdk.skills.keep_out import Area
 from robot_agent.teams.set_piece import required_distance
 from schemas.config.match_config import load_match
 from schemas.game import EventKind, Point, TeamPhase

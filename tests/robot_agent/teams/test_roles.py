@@ -1,6 +1,6 @@
 import pytest
 
-from robot_agent.bodies import Ball, Body
+from robot_agent.sdk.bodies import Ball, Body
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import STAYS, Candidate, Role, share_places, striker_of
 from schemas.config.rolling import Rolling

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from robot_agent.bodies import Body, DriveLimits
-from robot_agent.skills.keep_out import Area
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.skills.keep_out import Area
 from robot_agent.teams.set_piece import stand
 from schemas.game import Point, TeamPhase
 from schemas.messages.game import GameView

@@ -2,9 +2,9 @@
 
 import pytest
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.sdk.bodies import Body, DriveLimits
+from robot_agent.sdk.world_model import Teammate
 from robot_agent.teams.simple.striker import PATIENCE, StrikerSituation, play_ball
-from robot_agent.world_model import Teammate
 
 
 @pytest.fixture

@@ -5,16 +5,16 @@ import math
 
 import pytest
 
-from robot_agent.fair_play import RuleLimits
-from robot_agent.skills.keep_out import Area
-from robot_agent.skills.search import search_place
+from robot_agent.sdk.skills.keep_out import Area
+from robot_agent.sdk.world_model import WorldModel
+from robot_agent.soccer.skills.search import search_place
 from robot_agent.teams.action import Action
 from robot_agent.teams.area_turn import AreaTurn
+from robot_agent.teams.fair_play import RuleLimits
 from robot_agent.teams.nubot.team import HOMES
 from robot_agent.teams.reports import radio_message
 from robot_agent.teams.simple.formation import APART, CLEAR, places
 from robot_agent.teams.simple.roles import Role
-from robot_agent.world_model import WorldModel
 from schemas.config.roster import MAX_ROBOTS
 from schemas.game import GameStage, Point, TeamPhase
 from schemas.messages.command import Drive

@@ -12,7 +12,7 @@ import pytest
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
 from recordings.recorder.settings import RecorderSettings
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from runtime.bus.settings import ListenSettings
 from runtime.process.settings_file import read_settings, run_process, write_settings
 from schemas.config.match_config import MatchConfig

@@ -4,7 +4,7 @@ from contextlib import suppress
 
 import pytest
 
-from robot_agent.runner import Runner
+from robot_agent.process.runner import Runner
 from runtime.bus.contract import NoReplyError, PresenceKind, RefusedQueryError
 from runtime.process.timing import LINK_GRACE_S
 from schemas.config.match_config import MatchConfig

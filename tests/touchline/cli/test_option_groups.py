@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from recordings.recorder.settings import RecorderSettings
-from robot_agent.settings import AgentOptions
+from robot_agent.process.settings import AgentOptions
 from runtime.bus.settings import ClientSettings, ListenSettings
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import RecordingConfig

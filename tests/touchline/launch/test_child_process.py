@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from robot_agent.build_check import BuildCheckSettings
-from robot_agent.settings import AgentSettings
+from robot_agent.loading.build_check import BuildCheckSettings
+from robot_agent.process.settings import AgentSettings
 from runtime.process.clock import WallClock
 from schemas.config.confinement import Limits
 from schemas.config.match_config import load_match
@@ -87,7 +87,7 @@ def brain(folder: Path, code: str, **limits: float) -> Process:
     file = folder / "build.json"
     config = load_match(None, {"teams.cyan.brain": "mind:Brain", "teams.cyan.size": 1})
     settings = BuildCheckSettings(config=config, side=Side.CYAN, brain_folder=folder)
-    command = (*PYTHON, "-m", "robot_agent.build_check", "--settings", str(file))
+    command = (*PYTHON, "-m", "robot_agent.loading.build_check", "--settings", str(file))
     confinement = Confinement(Limits().model_copy(update=limits), folder / "cyan1", tasks=100_000)
     environment = {"PYTHONHASHSEED": "0", "TOUCHLINE_SIDE": "cyan"}
     return Process("build", ProcessKind.AGENT, command, environment, 0, settings, file, confinement=confinement)
@@ -270,7 +270,7 @@ def test_robots_whose_server_is_killed_have_been_killed_and_others_get_a_new_one
 
 
 def test_what_robots_are_forked_from_runs_no_threads_and_knows_no_numbers_that_they_would_share() -> None:
-    code = "import sys, threading, robot_agent.forks; print(threading.active_count(), 'numpy' in sys.modules)"
+    code = "import sys, threading, robot_agent.process.forks; print(threading.active_count(), 'numpy' in sys.modules)"
     printed = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert printed.split() == ["1", "False"]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from robot_agent.stdio.command_line import command_line
+from robot_agent.process.stdio.command_line import command_line
 from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.errors import TouchlineError

@@ -9,7 +9,7 @@ import pytest
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
 from recordings.recorder.settings import RecorderSettings
-from robot_agent.settings import AgentSettings
+from robot_agent.process.settings import AgentSettings
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from recordings.recorder.settings import RecorderSettings
-from robot_agent.settings import FIRST_SIGHT_FAILED, AgentSettings
+from robot_agent.process.settings import FIRST_SIGHT_FAILED, AgentSettings
 from schemas.errors import TouchlineError
 from support.stepped_clock import SteppedClock
 from touchline.launch.process_table import Process, ProcessKind

@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import replace
 
 from recordings.container.parts import remove_parts
-from robot_agent.user_code import place_of
+from robot_agent.loading.user_code import place_of
 from schemas.errors import TouchlineError
 from schemas.messages.game import RefereeAction
 from schemas.side import Side

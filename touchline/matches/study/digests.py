@@ -6,7 +6,7 @@ import platform
 from collections.abc import Iterable
 from pathlib import Path
 
-from robot_agent.user_code import OWN_PACKAGES
+from robot_agent.loading.user_code import OWN_PACKAGES
 from runtime.process.installed import installed_version
 from schemas.side import Side
 from schemas.wire.message import VERSION

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from recordings.reading.recording import open_recording
-from robot_agent.brain_folders import BrainFolders
+from robot_agent.loading.brain_folders import BrainFolders
 from schemas.errors import TouchlineError
 from touchline.matches.study.match_figures import Value
 

@@ -2,12 +2,12 @@
 
 import pytest
 
-from robot_agent.bodies import Ball, Body
+from robot_agent.sdk.bodies import Ball, Body
+from robot_agent.sdk.world_model import SeenBall, Teammate, WorldBelief
 from robot_agent.teams.reference.give_and_go import Run
 from robot_agent.teams.reference.held_place import HeldPlace
 from robot_agent.teams.reference.parameters import PARAMETERS
 from robot_agent.teams.reference.roles import Role
-from robot_agent.world_model import SeenBall, Teammate, WorldBelief
 from schemas.game import TeamPhase
 from schemas.messages.game import GameView
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
 from robot_agent.teams.reference import Reference
 from schemas.messages.sight import BallSight, Motion, ReceivedRadio
 

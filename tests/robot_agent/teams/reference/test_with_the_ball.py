@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from robot_agent.bodies import Body
+from robot_agent.sdk.bodies import Body
 from robot_agent.teams.reference.attacker import Situation, play_ball
 from robot_agent.teams.reference.give_and_go import Run, run_after, run_past
 from robot_agent.teams.reference.parameters import PARAMETERS

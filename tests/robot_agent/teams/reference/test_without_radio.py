@@ -2,7 +2,7 @@
 
 import msgspec
 
-from robot_agent.contract import Briefing
+from robot_agent.sdk.contract import Briefing
 from robot_agent.teams.reference import Reference, WithoutRadio
 
 PLACES = {"cyan2": (-3.0, 0.0, 0.0), "cyan3": (-2.0, 3.0, 0.0), "magenta1": (11.0, 0.0, 3.14)}

@@ -5,7 +5,7 @@ from itertools import combinations
 
 import pytest
 
-from robot_agent.bodies import Ball, Body
+from robot_agent.sdk.bodies import Ball, Body
 from robot_agent.teams.reference.estimate import SharedEstimate, report, reported
 from robot_agent.teams.reference.formation import places
 from robot_agent.teams.reference.keeper import fetches, guard, shot_crossing

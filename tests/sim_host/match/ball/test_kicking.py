@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 from pytest import approx
 
-from robot_agent.skills.pass_to import pass_speed
+from robot_agent.soccer.skills.pass_to import pass_speed
 from schemas.config.kicked import Kicked
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode

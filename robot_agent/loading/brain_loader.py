@@ -1,0 +1,150 @@
+"""Loads a brain from `module:name` and checks it: one line names the fault, the file and line, and the remedy."""
+
+import importlib
+import inspect
+import pkgutil
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from robot_agent.loading.brain_folders import BrainFolders
+from robot_agent.loading.limit_reached import limit_reached
+from robot_agent.loading.user_code import OWN_PACKAGES, definition_of, place_of
+from robot_agent.sdk.contract import Brain, Briefing
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.messages.command import Command
+from schemas.messages.sight import Sight
+
+
+class _FunctionBrain:
+    """A brain that is a plain function."""
+
+    def __init__(self, function: Callable[[Sight], Command]) -> None:
+        self.act = function
+
+
+def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, here: Path | None = None) -> Brain:
+    """The brain that `module:name` names: a class built with the briefing, or a function `act(sight)`.
+
+    Modules are also looked for in `beside_match`, the folder of the match file, and then in the current directory,
+    or in `here` where the process has left that.
+
+    Raises:
+        TouchlineError: one line with the wrong part of the spec, or with what its code raised, and where.
+    """
+    module_name, _, name = spec.partition(":")
+    if not all(part.isidentifier() for part in (*module_name.split("."), name)):
+        raise TouchlineError(f'brain is "{spec}"; write it as "module:Class"')
+    folders = BrainFolders(beside_match, here)
+    folders.add_to_module_path()
+    module = _import(spec, module_name, folders)
+    _check_origin(spec, module, folders)
+    found = getattr(module, name, None)
+    if found is None:
+        public = [word for word, value in vars(module).items() if callable(value) and not word.startswith("_")]
+        hint = did_you_mean(name, public) if public else "it defines no public names"
+        raise TouchlineError(f'brain is "{spec}"; {module_name} has no {name}; {hint}')
+    if not isinstance(found, type):
+        if not callable(found):
+            raise TouchlineError(f'brain is "{spec}"; {name} is {found!r}; name a class or a function act(sight)')
+        _check_act(spec, found, f"{name}(sight)", f"def {name}(sight)")
+        return _FunctionBrain(found)
+    return _build(spec, found, briefing)
+
+
+def _build(spec: str, cls: type, briefing: Briefing) -> Brain:
+    if not callable(getattr(cls, "act", None)):
+        where = definition_of(cls)
+        raise TouchlineError(f'brain is "{spec}"; {cls.__name__}{where} has no method act(self, sight); write one')
+    if not _takes(cls, briefing):
+        where = definition_of(vars(cls).get("__init__", cls)) or definition_of(cls)
+        raise TouchlineError(
+            f'brain is "{spec}"; {cls.__name__}.__init__{where} does not take the briefing alone; '
+            "write def __init__(self, briefing)"
+        )
+    try:
+        brain: Brain = cls(briefing)
+    except (Exception, SystemExit) as error:
+        call = f"{cls.__name__}(briefing)"
+        raise TouchlineError(f'brain is "{spec}"; {call} raised {_one_line(error)} for {briefing.robot}') from error
+    _check_act(spec, brain.act, f"{cls.__name__}.act", "def act(self, sight)")
+    return brain
+
+
+def _check_act(spec: str, act: Callable[..., Any], name: str, remedy: str) -> None:
+    """Check that `act` can be called with a sight, and returns without being awaited."""
+    if inspect.iscoroutinefunction(act) or inspect.isasyncgenfunction(act):
+        raise TouchlineError(f'brain is "{spec}"; {name}{definition_of(act)} is async; write {remedy} without async')
+    if inspect.isgeneratorfunction(act):
+        raise TouchlineError(f'brain is "{spec}"; {name}{definition_of(act)} yields; return one Command')
+    if not _takes(act, None):
+        raise TouchlineError(
+            f'brain is "{spec}"; {name}{definition_of(act)} does not take the sight alone; write {remedy}'
+        )
+
+
+def _takes(function: Callable[..., Any], argument: object) -> bool:
+    """Whether a function can be called with one positional argument; true if its signature is unknown."""
+    try:
+        signature = inspect.signature(function)
+    except (TypeError, ValueError):
+        return True
+    try:
+        signature.bind(argument)
+    except TypeError:
+        return False
+    return True
+
+
+def _import(spec: str, module_name: str, folders: BrainFolders) -> ModuleType:
+    importlib.invalidate_caches()
+    try:
+        return importlib.import_module(module_name)
+    except ModuleNotFoundError as error:
+        missing = error.name or module_name
+        if module_name != missing and not module_name.startswith(missing + "."):
+            raise TouchlineError(
+                f'brain is "{spec}"; {module_name} imports {missing}, which is not installed; install it'
+            ) from error
+        parent, _, last = missing.rpartition(".")
+        if parent:
+            _check_origin(spec, importlib.import_module(missing.partition(".")[0]), folders)
+        where = "" if parent else f" {folders}"
+        known = _modules_in(parent, folders)
+        hint = did_you_mean(last, known) if known else f"{parent} has no modules" if parent else "put its file there"
+        raise TouchlineError(f'brain is "{spec}"; there is no module {missing}{where}; {hint}') from None
+    except (Exception, SystemExit) as error:
+        raise TouchlineError(f'brain is "{spec}"; importing {module_name} raised {_one_line(error)}') from error
+
+
+def _check_origin(spec: str, module: ModuleType, folders: BrainFolders) -> None:
+    """Check that a module is the user's where the folders of brains have a file of its name.
+
+    Raises:
+        TouchlineError: a module of Python or of an installed package has the same name.
+    """
+    meant = folders.file_of(module.__name__)
+    loaded = getattr(module, "__file__", None) or "built into Python"
+    if meant is None or module.__name__.partition(".")[0] in OWN_PACKAGES or Path(loaded).resolve() == meant.resolve():
+        return
+    raise TouchlineError(f'brain is "{spec}"; the module {module.__name__} is {loaded}, not {meant}; rename that file')
+
+
+def _modules_in(package: str, folders: BrainFolders) -> list[str]:
+    """The modules of a package; without a package, those of the folders of brains."""
+    places: Any = [str(path) for path in folders.paths]
+    if package:
+        spec = find_spec(package)
+        places = spec.submodule_search_locations if spec is not None else None
+    return [module.name for module in pkgutil.iter_modules(places or [])]
+
+
+def _one_line(error: BaseException) -> str:
+    """An exception in one line, with the place in the brain's own code."""
+    if isinstance(error, SyntaxError):
+        return f"SyntaxError: {error.msg} ({error.filename}, line {error.lineno})"
+    limit = limit_reached(error)
+    remedy = f"; limit reached: {limit}" if limit else ""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}{remedy}"

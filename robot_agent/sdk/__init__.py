@@ -1,0 +1,1 @@
+"""What every brain builds on, whatever the task: the contract, bodies, a world model, skills of motion."""

@@ -1,0 +1,1 @@
+"""What robots need to play soccer: skills with the ball."""
