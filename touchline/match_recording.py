@@ -15,8 +15,8 @@ from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command
 from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation, TickResult
-from sim_host.server.debug_publisher import DebugPublisher
-from sim_host.server.outbox import Outbox
+from sim_host.server.reports.debug_publisher import DebugPublisher
+from sim_host.server.reports.outbox import Outbox
 
 _PUMP_TICKS = 25
 """Ticks between two turns of the recorder."""

@@ -11,21 +11,21 @@ from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.active_order_publisher import ActiveOrderPublisher
-from sim_host.server.admission import Admission
-from sim_host.server.debug_publisher import DebugPublisher
-from sim_host.server.eligibility import Eligibility
-from sim_host.server.health_reporter import HealthReporter
-from sim_host.server.host_reports import HostReports
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.eligibility import Eligibility
+from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.presence_tracker import PresenceTracker
+from sim_host.server.admission.recorder_admission import Admission
 from sim_host.server.inbox import Inbox
-from sim_host.server.invalid_log import InvalidLog
 from sim_host.server.manual_control import ManualControl
-from sim_host.server.outbox import Outbox
 from sim_host.server.pace import Lockstep, Pace, Realtime
-from sim_host.server.presence_tracker import PresenceTracker
-from sim_host.server.referee_seat import RefereeSeat
+from sim_host.server.reports.active_order_publisher import ActiveOrderPublisher
+from sim_host.server.reports.debug_publisher import DebugPublisher
+from sim_host.server.reports.health_reporter import HealthReporter
+from sim_host.server.reports.host_reports import HostReports
+from sim_host.server.reports.outbox import Outbox
 from sim_host.server.services import Services
+from sim_host.server.services.referee_seat import RefereeSeat
 from sim_host.timing import ACCOUNTS_S, FULL_TIME_GRACE_S
 
 

@@ -8,9 +8,9 @@ from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.messages.command import Command
 from schemas.topics import COMMAND
 from schemas.wire.message import BadMessageError
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.agent_stats import AgentStats
-from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.agent_stats import AgentStats
+from sim_host.server.admission.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 
 _MAX_UNKNOWN_SENDERS = 100

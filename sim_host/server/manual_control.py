@@ -9,8 +9,8 @@ from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.natural_order import natural_order
 from schemas.topics import MANUAL
 from schemas.wire.message import BadMessageError
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.invalid_log import InvalidLog
 
 
 @dataclass(slots=True)

@@ -18,7 +18,7 @@ from schemas.config.profile import load_profile
 from schemas.messages.command import Command
 from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
-from sim_host.server import agent_stats
+from sim_host.server.admission import agent_stats
 from sim_host.timing import RESEND_S
 from touchline.launch.process_table import ProcessKind
 from touchline.launch.processes import MatchPlan, client_processes

@@ -14,7 +14,7 @@ from runtime.process.clock import WallClock
 from schemas.messages.command import Command, Drive
 from schemas.topics import key_prefix
 from schemas.wire.message import BadMessageError
-from sim_host.server.agent_stats import SILENT_TICKS
+from sim_host.server.admission.agent_stats import SILENT_TICKS
 from support.process_story import MessageLog
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]

@@ -16,8 +16,8 @@ from schemas.messages.game import RefereeAction
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation
-from sim_host.server.debug_publisher import DebugPublisher
-from sim_host.server.outbox import Outbox
+from sim_host.server.reports.debug_publisher import DebugPublisher
+from sim_host.server.reports.outbox import Outbox
 from support.recorder_rig import ONE_PART
 from support.stepped_clock import SteppedClock
 from touchline.play import InProcessMatch

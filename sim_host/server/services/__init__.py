@@ -6,13 +6,13 @@ from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus
 from schemas.topics import ADMISSION, PARAMETERS, REFEREE_SEAT, SCENE, SETUP
 from sim_host.match.simulation import Simulation
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.admission import Admission
-from sim_host.server.invalid_log import InvalidLog
-from sim_host.server.referee_seat import RefereeSeat
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.recorder_admission import Admission
 from sim_host.server.services.action_handler import ActionHandler
 from sim_host.server.services.order_handler import OrderHandler
 from sim_host.server.services.query_handler import QueryHandler
+from sim_host.server.services.referee_seat import RefereeSeat
 
 
 class Services:

@@ -6,8 +6,8 @@ from runtime.bus.contract import Bus, Query
 from schemas.messages.game import ActionReply, RefereeAction
 from schemas.topics import ACTION
 from schemas.wire.message import BadMessageError
-from sim_host.server.invalid_log import InvalidLog
-from sim_host.server.referee_seat import RefereeSeat
+from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.services.referee_seat import RefereeSeat
 
 
 class ActionHandler:

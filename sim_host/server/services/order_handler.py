@@ -9,8 +9,8 @@ from schemas.messages.coach import CoachOrder
 from schemas.side import Side
 from schemas.topics import ORDER
 from schemas.wire.message import BadMessageError
-from sim_host.server.account_limits import ORDER_WEIGHT, AccountLimits
-from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.admission.account_limits import ORDER_WEIGHT, AccountLimits
+from sim_host.server.admission.invalid_log import InvalidLog
 
 
 class OrderHandler:

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import pytest
 
 from sim_host.match.radio_use import RadioUse
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.agent_stats import AgentStats
-from sim_host.server.health_reporter import HealthReporter
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.agent_stats import AgentStats
+from sim_host.server.reports.health_reporter import HealthReporter
 from support.stepped_clock import SteppedClock
 
 NO_AGENTS = SimpleNamespace(agent_stats={}, unknown_senders={})

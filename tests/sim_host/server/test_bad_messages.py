@@ -12,8 +12,8 @@ from schemas.messages.command import Command
 from schemas.side import Side
 from schemas.topics import COMMAND, INVALID, ORDER, WORLD
 from sim_host.server import inbox
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 from support.stepped_clock import SteppedClock
 

@@ -13,7 +13,7 @@ from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, DEBUG, MANUAL, SIGHT, WORLD
-from sim_host.server.debug_publisher import DebugPublisher
+from sim_host.server.reports.debug_publisher import DebugPublisher
 from support.host_rig import TEAMS, HostRig
 
 CONFIG = MatchConfig.model_validate({"name": "drawn", "duration": 2.0, "teams": TEAMS})

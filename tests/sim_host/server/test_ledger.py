@@ -14,10 +14,10 @@ from schemas.side import Side
 from schemas.topics import COMMAND, HEALTH
 from sim_host.match.radio_medium import Budget
 from sim_host.match.radio_use import RadioUse
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.agent_stats import AgentStats
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.agent_stats import AgentStats
+from sim_host.server.admission.invalid_log import InvalidLog
 from sim_host.server.inbox import Inbox
-from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 from support.stepped_clock import SteppedClock
 

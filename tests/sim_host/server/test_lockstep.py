@@ -5,7 +5,7 @@ import pytest
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
 from schemas.topics import APPLIED, COMMAND, WORLD
-from sim_host.server.agent_stats import SILENT_TICKS
+from sim_host.server.admission.agent_stats import SILENT_TICKS
 from support.host_rig import TEAMS
 
 PATIENCE_S = 1.0

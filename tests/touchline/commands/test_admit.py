@@ -11,7 +11,7 @@ from runtime.bus.contract import Bus
 from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
 from schemas.topics import ADMISSION
-from sim_host.server.admission import Admission
+from sim_host.server.admission.recorder_admission import Admission
 from support.fake_host import FakeHost
 from support.stepped_clock import SteppedClock
 from touchline.command_line import app

@@ -15,7 +15,7 @@ from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
 from schemas.side import Side
 from schemas.topics import ACTION, HEALTH, REFEREE_SEAT, STATE
-from sim_host.server.referee_seat import RefereeSeat
+from sim_host.server.services.referee_seat import RefereeSeat
 from support.fake_host import FakeHost
 from support.stepped_clock import SteppedClock
 from touchline.command_line import app

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import AccountHealth, Health, RobotHealth
 from schemas.side import Side
-from sim_host.server.account_limits import OVER_LIMIT
+from sim_host.server.admission.account_limits import OVER_LIMIT
 from touchline.matches.engine.outcome import FailureKind
 from touchline.matches.engine.team_faults import fault_of
 

@@ -12,7 +12,7 @@ from schemas.messages.game import ActionReply, RefereeAction
 from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.side import Side
 from schemas.topics import ACTION, APPLIED, EVENT, REFEREE_SEAT
-from sim_host.server.referee_seat import BOX_DECIDES, FREE, RefereeSeat
+from sim_host.server.services.referee_seat import BOX_DECIDES, FREE, RefereeSeat
 
 PAGE = {"referee": "gateway_a", "source": "referee's page"}
 OTHER = {"referee": "gateway_b", "source": "referee's page"}

@@ -13,8 +13,8 @@ from schemas.messages.setup import SetupRequest
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.side import Side
 from schemas.topics import ADMISSION, COMMAND, EVENT, ORDER, RECORDER_PROGRESS, SETUP
-from sim_host.server import account_limits
-from sim_host.server.account_limits import EXTRA_RATE, MOST_EXTRA, OVER_LIMIT, AccountLimits
+from sim_host.server.admission import account_limits
+from sim_host.server.admission.account_limits import EXTRA_RATE, MOST_EXTRA, OVER_LIMIT, AccountLimits
 
 SIDES = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
 

@@ -5,13 +5,13 @@ from itertools import chain, repeat
 from runtime.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.admission import Admission
-from sim_host.server.agent_stats import AgentStats
-from sim_host.server.claims import Claims
-from sim_host.server.eligibility import Eligibility
-from sim_host.server.invalid_log import InvalidLog
-from sim_host.server.services.claim_handler import ClaimHandler, Refusal
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.agent_stats import AgentStats
+from sim_host.server.admission.claim_handler import ClaimHandler, Refusal
+from sim_host.server.admission.claims import Claims
+from sim_host.server.admission.eligibility import Eligibility
+from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.recorder_admission import Admission
 
 _REMEMBERED = (PresenceKind.REFBOX, PresenceKind.COACH)
 _MAX_CHANGES = 500

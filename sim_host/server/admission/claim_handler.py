@@ -12,8 +12,8 @@ from runtime.process.timing import LINK_GRACE_S
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.topics import CLAIM, ROBOT_CLAIM
 from schemas.wire.message import BadMessageError
-from sim_host.server.claims import Claims
-from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.admission.claims import Claims
+from sim_host.server.admission.invalid_log import InvalidLog
 
 _MOST = 200
 """Most claims that wait, and most refused sessions that are remembered."""

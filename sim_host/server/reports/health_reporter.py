@@ -6,9 +6,9 @@ from runtime.process.clock import Clock
 from schemas.messages.health import Health, TeamRadio
 from schemas.side import Side
 from sim_host.match.radio_use import RadioUse
-from sim_host.server.account_limits import AccountLimits
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.presence_tracker import PresenceTracker
 from sim_host.server.inbox import Inbox
-from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.timing import AVERAGING_S, HEALTH_S
 
 

@@ -6,11 +6,11 @@ from typing import Any
 from schemas.game import EventKind
 from schemas.messages.game import GameEvent
 from sim_host.match.simulation import Simulation, TickResult
-from sim_host.server.account_limits import AccountLimits
-from sim_host.server.admission import Admission
-from sim_host.server.outbox import Outbox
-from sim_host.server.presence_tracker import PresenceTracker
-from sim_host.server.referee_seat import RefereeSeat
+from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.presence_tracker import PresenceTracker
+from sim_host.server.admission.recorder_admission import Admission
+from sim_host.server.reports.outbox import Outbox
+from sim_host.server.services.referee_seat import RefereeSeat
 
 log = logging.getLogger("sim_host")
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from schemas.messages.claim import AgentClaim
-from sim_host.server.eligibility import Eligibility
+from sim_host.server.admission.eligibility import Eligibility
 
 _MOST = 200
 """Most robots, and most sessions, that are remembered; a flood of invented names must not fill the memory."""
