@@ -19,7 +19,7 @@ from typing import NamedTuple
 from schemas.config.match_config import load_match
 from schemas.config.rule_book import load_rule_book
 from schemas.game import Phase
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 RULES = "msl"
 SEEDS = range(1, 21)

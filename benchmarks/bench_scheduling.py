@@ -36,7 +36,7 @@ from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.play import play
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import RunStore
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 MOST_OVERHEAD_S = {Way.IN_PROCESS: 0.1, Way.PROCESSES: 1.5}
 LEAST_SPEED_UP = 1.8

@@ -25,7 +25,7 @@ from schemas.config.match_config import MatchConfig, load_match
 from schemas.game import EventKind
 from schemas.side import Side
 from sim_host.match.simulation import TickResult
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 TEAMS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
 BLAMED = {EventKind.BALL_OUT: "balls out", EventKind.FOUL: "fouls", EventKind.GOAL: "goals"}

@@ -41,7 +41,7 @@ SLOW = (
     "tests/sim_host/referee/test_invariants.py",
     "tests/sim_host/sensing/test_noise.py",
     "tests/test_private_members.py",
-    "tests/touchline/debugger/",
+    "tests/touchline/team/debugger/",
     "tests/touchline/matches/",
     "tests/touchline/test_fair_matches.py",
     "tests/touchline/testing/",

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from schemas.messages.radio import Radio as Radio
     from schemas.messages.sight import Sight as Sight
     from touchline import skills as skills
-    from touchline.play import MatchOutcome as MatchOutcome
-    from touchline.play import play_match as play_match
+    from touchline.play.play_match import MatchOutcome as MatchOutcome
+    from touchline.play.play_match import play_match as play_match
 
 _NAMES = {
     "robot_agent.sdk.contract": ("Brain", "Briefing"),
@@ -49,7 +49,7 @@ _NAMES = {
     "schemas.messages.drawing": ("Drawing",),
     "schemas.messages.radio": ("BallBelief", "Motion", "Radio"),
     "schemas.messages.sight": ("Sight",),
-    "touchline.play": ("MatchOutcome", "play_match"),  # these two need PyBullet
+    "touchline.play.play_match": ("MatchOutcome", "play_match"),  # these two need PyBullet
 }
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 __all__ = sorted([*_HOMES, "skills"])

@@ -15,7 +15,7 @@ from schemas.config.match_config import load_match
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 MATCH = Path(__file__).resolve().parents[2] / "examples" / "stdio_robot" / "javascript.toml"
 SHOWN = (0, 1, 100, 150, 151, 152)

@@ -16,7 +16,7 @@ from schemas.messages.sight import Sight
 from schemas.messages.world import World
 from schemas.wire.part_faults import validated
 from touchline import skills
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 Place = tuple[float, float]
 Decision = tuple[Drive, Kick | None]

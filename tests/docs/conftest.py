@@ -13,7 +13,7 @@ import pytest
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
 from sim_host.match.simulation import TickResult
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,7 @@ from schemas.messages import debug
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 from support.messages import make_setup, make_sight
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 PAGE = (Path(__file__).parents[2] / "docs" / "debugging.md").read_text()
 SECTION = PAGE.partition("## Draw and plot")[2].partition("\n## ")[0]

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from touchline.doctor.machine import MachineFacts, examine_machine
-from touchline.health.tables import HEADINGS
+from touchline.commands.diagnosis.doctor.machine import MachineFacts, examine_machine
+from touchline.commands.diagnosis.health.tables import HEADINGS
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +26,7 @@ def test_every_column_is_explained(page: str) -> None:
 
 
 def test_every_line_of_the_examination_is_explained(page: str, root: Path) -> None:
-    sources = [path.read_text() for path in (root / "touchline" / "doctor").glob("*.py")]
+    sources = [path.read_text() for path in (root / "touchline" / "commands" / "diagnosis" / "doctor").glob("*.py")]
     names = {name for source in sources for name in re.findall(r'Finding\(\s*"([a-z ]+)"', source)}
     names |= {finding.name for finding in examine_machine(MachineFacts.of_this_machine())}
     assert {"port", "clock", "round trip"} < names

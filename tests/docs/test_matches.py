@@ -13,7 +13,7 @@ from schemas.config.scene import Scene
 from schemas.game import EventKind
 from schemas.side import Side
 from touchline.launch.check_brains import check_teams
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 HERE = Path(__file__).parents[2]
 CUP = HERE / "matches" / "cup.toml"

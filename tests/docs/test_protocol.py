@@ -20,9 +20,9 @@ from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server.admission import agent_stats
 from sim_host.timing import RESEND_S
-from touchline.launch.process_table import ProcessKind
-from touchline.launch.processes import MatchPlan, client_processes
-from touchline.launch.supervisor import AFTER_THE_MATCH
+from touchline.launch.processes.process_table import ProcessKind
+from touchline.launch.processes.programs import MatchPlan, client_processes
+from touchline.launch.processes.supervisor import AFTER_THE_MATCH
 
 MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))
 

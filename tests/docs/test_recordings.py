@@ -14,7 +14,7 @@ from schemas.topics import WORLD
 from schemas.wire.message import VERSION
 from sim_host.match.simulation import Simulation, TickResult
 from support.stepped_clock import SteppedClock
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 
 def test_the_lines_that_read_a_file_with_the_stock_package_alone(

@@ -18,7 +18,7 @@ from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.game import GameView
 from schemas.messages.radio import Radio
 from schemas.messages.sight import BallSight, Motion, Obstacle, Outcome, Sight
-from touchline.check.checks import CHECKS
+from touchline.team.check.checks import CHECKS
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ import pytest
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.topics import APPLIED
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 TOOLS = {"javascript": "node", "c_robot": "cc"}
 

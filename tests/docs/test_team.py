@@ -17,7 +17,7 @@ from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from touchline import skills
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 PLAYS = 250
 """Ticks: the kick-off, and some play."""

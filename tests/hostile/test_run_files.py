@@ -15,7 +15,7 @@ from runtime.access.credentials import account_file
 from runtime.process.clock import WallClock
 from runtime.process.settings_file import write_settings
 from schemas.config.match_config import load_match
-from touchline.launch.processes import client_processes, host_process
+from touchline.launch.processes.programs import client_processes, host_process
 from touchline.launch.run_folder import prepare_credentials, prepare_run
 
 

@@ -18,7 +18,7 @@ from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.side import Side
 from sim_host.match.simulation import TickResult
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 BRAINS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
 UNDISTURBED = {"rules": "friendly", "referee.mode": "manual"}

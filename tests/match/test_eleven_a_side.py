@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from recordings.reading.recording import open_recording
 from schemas.messages.command import Command
 from schemas.side import Side
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 pytestmark = [pytest.mark.processes, pytest.mark.long, pytest.mark.timeout(400)]
 

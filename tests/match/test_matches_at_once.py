@@ -13,7 +13,7 @@ from runtime.bus.announcement import announcement_in
 from schemas.config.match_config import load_match
 from schemas.topics import APPLIED
 from support.process_story import wait_for
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 

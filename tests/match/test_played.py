@@ -8,7 +8,7 @@ from mcap.reader import make_reader
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.messages.applied import Applied
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 

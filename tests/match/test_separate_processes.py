@@ -33,7 +33,7 @@ class Marked:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
 """
 WITHOUT = """
-import touchline.command_line, coach_gateway.process, robot_agent.process.run
+import touchline.commands.cli.command_line, coach_gateway.process, robot_agent.process.run
 import recordings.recorder.process, sim_host.server.process
 try:
     import pybullet

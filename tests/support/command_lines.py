@@ -7,7 +7,7 @@ from typing import Any
 
 import typer
 
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 ROOT_COMMAND: Any = typer.main.get_command(app)
 

@@ -2,7 +2,7 @@
 
 from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import MatchConfig
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 
 def one_robot_and_a_ball(robot_x: float, ball_x: float) -> MatchConfig:

@@ -20,7 +20,7 @@ from sim_host.server.reports.debug_publisher import DebugPublisher
 from sim_host.server.reports.outbox import Outbox
 from support.recorder_rig import ONE_PART
 from support.stepped_clock import SteppedClock
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 
 def record_match(

@@ -6,7 +6,7 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
-from touchline.play import MatchOutcome, play_match
+from touchline.play.play_match import MatchOutcome, play_match
 
 PLAYED_S = 60.0
 

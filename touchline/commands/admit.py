@@ -9,8 +9,8 @@ from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
 from schemas.messages.admission import AdmissionRequest
 from schemas.topics import ADMISSION
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import from_options, with_option_groups
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import from_options, with_option_groups
 
 
 @with_option_groups

@@ -5,8 +5,8 @@ import typer
 from robot_agent import run
 from robot_agent.process.settings import AgentOptions, AgentSettings
 from schemas.errors import TouchlineError
-from touchline.cli import options
-from touchline.cli.option_groups import with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.option_groups import with_option_groups
 
 
 @with_option_groups

@@ -8,7 +8,7 @@ from coach_gateway import run
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
-from touchline.cli.option_groups import FieldsOf, with_option_groups
+from touchline.commands.cli.option_groups import FieldsOf, with_option_groups
 
 
 @with_option_groups

@@ -11,7 +11,7 @@ import typer
 from robot_agent.process.stdio.command_line import check_command_line
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
-from touchline.cli import options
+from touchline.commands.cli import options
 from touchline.matches.series.team_names import brain_of
 
 
@@ -37,9 +37,9 @@ def check(
 
     Example: touchline check my_team:Striker
     """
-    from touchline.check.checks import CHECKS, run_checks
-    from touchline.check.examination import Examination
-    from touchline.check.subject import Subject
+    from touchline.team.check.checks import CHECKS, run_checks
+    from touchline.team.check.examination import Examination
+    from touchline.team.check.subject import Subject
 
     if list_checks:
         for row in CHECKS:

@@ -8,11 +8,11 @@ from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.wire.part import encode
-from touchline.cli import options
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import with_option_groups
 from touchline.commands import orders
 from touchline.commands.bridge import bridge
+from touchline.commands.cli import options
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import with_option_groups
 from touchline.commands.serve import serve
 from touchline.timing import HOST_S
 

@@ -9,7 +9,7 @@ from runtime.access.certificates import make_certificate
 from runtime.access.credentials import HOST_FILE, credential_files, new_credentials, write_credentials
 from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
-from touchline.cli.option_groups import from_options, with_option_groups
+from touchline.commands.cli.option_groups import from_options, with_option_groups
 
 app = typer.Typer(
     no_args_is_help=True,

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from schemas.errors import TouchlineError
-from touchline.cli import options
-from touchline.cli.errors import FAILED
+from touchline.commands.cli import options
+from touchline.commands.cli.errors import FAILED
 
 if TYPE_CHECKING:
     from recordings.inspection.difference import Comparison, FieldDifference

@@ -7,17 +7,17 @@ import typer
 
 from runtime.bus.settings import ClientSettings
 from runtime.process.clock import WallClock
-from touchline.cli.errors import FAILED
+from touchline.commands.cli.errors import FAILED
 
 if TYPE_CHECKING:
-    from touchline.doctor.finding import Finding
+    from touchline.commands.diagnosis.doctor.finding import Finding
 
 
 def examine_and_print(connection: ClientSettings, *, json: bool) -> int:
     """Examine this machine and the way to a host; returns the exit status, which tells whether a line failed."""
-    from touchline.doctor.examination import examine
-    from touchline.doctor.finding import Status
-    from touchline.doctor.machine import MachineFacts
+    from touchline.commands.diagnosis.doctor.examination import examine
+    from touchline.commands.diagnosis.doctor.finding import Status
+    from touchline.commands.diagnosis.doctor.machine import MachineFacts
 
     findings = []
     for finding in examine(connection, WallClock(), MachineFacts.of_this_machine()):

@@ -11,8 +11,8 @@ import typer
 
 from schemas.config.scene import load_scene, shipped_scenes
 from schemas.errors import TouchlineError
-from touchline.cli import options
-from touchline.cli.errors import FAILED
+from touchline.commands.cli import options
+from touchline.commands.cli.errors import FAILED
 from touchline.matches.series.seeds import seeds_of
 from touchline.matches.series.team_names import brain_of
 

@@ -12,8 +12,8 @@ from typer.core import TyperGroup
 
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.cli import options
-from touchline.cli.errors import FAILED
+from touchline.commands.cli import options
+from touchline.commands.cli.errors import FAILED
 
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome

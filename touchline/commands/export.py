@@ -9,7 +9,7 @@ import typer
 
 from recordings.exchange.formats import EXPORTERS
 from schemas.errors import TouchlineError, did_you_mean
-from touchline.cli import options
+from touchline.commands.cli import options
 
 _FORMATS = f"The format: {'; '.join(f'{name}, {row.description}' for name, row in EXPORTERS.items())}."
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from touchline.cli import options
+from touchline.commands.cli import options
 
 
 def filter(

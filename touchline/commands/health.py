@@ -10,15 +10,15 @@ import typer
 
 from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
-from touchline.cli import options
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import with_option_groups
 from touchline.timing import HOST_S
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from touchline.health.ledger import Ledger
+    from touchline.commands.diagnosis.health.ledger import Ledger
 
 _PLAIN_WIDTH = 200
 """Width of the table in cells where the output is no terminal: no row is broken."""
@@ -66,13 +66,13 @@ def health(
     if file is not None:
         if watch or connection.connect is not None or connection.match is not None:
             raise TouchlineError("--watch, --connect and --match are for a running match; leave them out with a file")
-        from touchline.health.recorded import ledger_of_recording
+        from touchline.commands.diagnosis.health.recorded import ledger_of_recording
 
         _show(ledger_of_recording(file, start, end), json=json)
         return
     if start is not None or end is not None:
         raise TouchlineError("--from and --to are for a recording; give its file")
-    from touchline.health.live import LiveLedgers
+    from touchline.commands.diagnosis.health.live import LiveLedgers
 
     with bus_client(connection) as bus:
         ledgers = LiveLedgers(bus, HOST_S)
@@ -90,7 +90,7 @@ def _show(ledger: "Ledger", *, json: bool) -> None:
     if json:
         typer.echo(json_text.dumps(ledger.to_json(), ensure_ascii=False))
         return
-    from touchline.health.tables import ledger_view
+    from touchline.commands.diagnosis.health.tables import ledger_view
 
     _console().print(ledger_view(ledger))
 
@@ -107,7 +107,7 @@ def _watch(ledgers: "Iterator[Ledger]", *, json: bool) -> None:
         return
     from rich.live import Live
 
-    from touchline.health.tables import ledger_view
+    from touchline.commands.diagnosis.health.tables import ledger_view
 
     with Live(console=_console(), auto_refresh=False) as live:
         for ledger in ledgers:
@@ -115,7 +115,7 @@ def _watch(ledgers: "Iterator[Ledger]", *, json: bool) -> None:
 
 
 def _console() -> "Console":
-    from touchline.cli.console import console
+    from touchline.launch.terminal.console import console
 
     made = console()
     if not made.is_terminal:

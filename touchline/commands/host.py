@@ -8,8 +8,8 @@ from runtime.bus.settings import check_protected
 from schemas.config.match_parts import Patience
 from sim_host import run
 from sim_host.server.settings import HostSettings
-from touchline.cli import options
-from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.option_groups import FieldsOf, from_options, with_option_groups
 from touchline.timing import ATTENDANCE_S
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from recordings.exchange.formats import IMPORTERS
-from touchline.cli import options
+from touchline.commands.cli import options
 
 
 def import_log(

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from touchline.cli import options
+from touchline.commands.cli import options
 
 
 def info(
@@ -27,8 +27,8 @@ def info(
         return
     from rich.table import Table
 
-    from touchline.cli.console import console as new_console
-    from touchline.cli.console import table
+    from touchline.launch.terminal.console import console as new_console
+    from touchline.launch.terminal.console import table
 
     console = new_console()
     about = Table.grid(padding=(0, 2))

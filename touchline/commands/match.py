@@ -19,11 +19,11 @@ from schemas.config.match_parts import Patience
 from schemas.config.settings import RecordOptions
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
-from touchline.cli import options
-from touchline.cli.option_groups import FieldsOf, with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.option_groups import FieldsOf, from_options, with_option_groups
 
 if TYPE_CHECKING:
-    from touchline.launch.processes import MatchPlan, Page
+    from touchline.launch.processes.programs import MatchPlan, Page
     from touchline.launch.result import MatchResult
 
 
@@ -65,13 +65,13 @@ def match(
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
     from touchline.launch.check_brains import check_reload, check_teams
-    from touchline.launch.confinement import isolation_note, team_confinements
-    from touchline.launch.processes import CREDENTIALS, check_robot_names
+    from touchline.launch.confinement.robot_confinement import isolation_note, team_confinements
+    from touchline.launch.processes.programs import CREDENTIALS, check_robot_names
     from touchline.launch.run_folder import RUNS, prepare_credentials, prepare_run, with_credentials
 
     teams: dict[str, Any] = {}
     if ghost:
-        from touchline.replay.ghost import check_ghosts, teams_of
+        from touchline.play.ghost import check_ghosts, teams_of
 
         teams = teams_of(ghost)
     sockets: tuple[socket, ...] = ()
@@ -104,9 +104,10 @@ def match(
     clock = WallClock()
     served: Page | None = None
     if web:
+        from coach_gateway.web.settings import WebSettings
         from touchline.launch.page import open_page
 
-        served = open_page(page)
+        served = open_page(from_options(WebSettings, **page))
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets, confinements=confinements)
     plan = replace(plan, reload=reload, isolation_note=isolation_note(config, brain_folder))
@@ -163,7 +164,7 @@ def _play(plan: "MatchPlan", clock: Clock, *, quiet: bool) -> None:
     With a page it returns when the page with the result is closed.
     """
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
-    from touchline.watch.screen import screen_for
+    from touchline.launch.terminal.screen import screen_for
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
@@ -186,6 +187,6 @@ def _print_result(result: "MatchResult", *, json: bool) -> None:
     if json:
         typer.echo(result.json())
         return
-    from touchline.cli.console import console
+    from touchline.launch.terminal.console import console
 
     console().print(result.render())

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from touchline.new_team import class_name, make_team
+from touchline.team.new_team import class_name, make_team
 
 
 def new(

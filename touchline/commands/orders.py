@@ -14,9 +14,9 @@ from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.side import Side
 from schemas.wire.part_faults import validated
-from touchline.cli import options
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import from_options, with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import from_options, with_option_groups
 from touchline.timing import ORDER_S
 
 if TYPE_CHECKING:

@@ -14,10 +14,10 @@ from schemas.messages.parameters import Parameter, ParameterOperation, Parameter
 from schemas.topics import PARAMETERS
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import validated
-from touchline.cli import options
-from touchline.cli.aligned import aligned
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import with_option_groups
+from touchline.launch.terminal.aligned import aligned
 
 app = typer.Typer(
     no_args_is_help=True,

@@ -4,7 +4,7 @@ import typer
 
 from recordings import run
 from recordings.recorder.settings import RecorderSettings
-from touchline.cli.option_groups import with_option_groups
+from touchline.commands.cli.option_groups import with_option_groups
 
 
 @with_option_groups

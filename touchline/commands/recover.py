@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from touchline.cli import options
+from touchline.commands.cli import options
 
 if TYPE_CHECKING:
     from recordings.editing.recovery import RecoverySummary

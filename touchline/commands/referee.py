@@ -14,10 +14,10 @@ from schemas.errors import MatchFailedError
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
 from schemas.messages.referee_seat import SeatOperation
-from touchline.cli import options
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import from_options, with_option_groups
 from touchline.commands import admit
+from touchline.commands.cli import options
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import from_options, with_option_groups
 
 app = typer.Typer(
     no_args_is_help=True,

@@ -20,9 +20,9 @@ from runtime.process.clock import Clock, WallClock
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.side import Side
-from touchline.cli import options
-from touchline.cli.option_groups import from_options, with_option_groups
-from touchline.launch.stop_signals import StopSignals
+from touchline.commands.cli import options
+from touchline.commands.cli.option_groups import from_options, with_option_groups
+from touchline.launch.processes.stop_signals import StopSignals
 
 if TYPE_CHECKING:
     from recordings.reading.recording import RecordedMessage
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from recordings.replay.player import Player
     from recordings.replay.replay import Replay
     from runtime.bus.zenoh.bus import ZenohBus
-    from touchline.launch.supervisor import Notice
+    from touchline.launch.processes.supervisor import Notice
 
 
 @with_option_groups
@@ -104,7 +104,7 @@ def replay(
     Example: touchline replay match.mcap --agent cyan2=my_team:Striker --from tick:812 --pdb
     """
     if agent is not None:
-        from touchline.debugger.agent_replay import AgentReplay, parse_agent
+        from touchline.team.debugger.agent_replay import AgentReplay, parse_agent
 
         on_the_bus: dict[str, object] = {"--fast": fast, "--loop": loop, "--paused": paused, "--stay": stay}
         on_the_bus |= {"--include": include, "--exclude": exclude, "--follow": follow, "--connect": connect}
@@ -124,10 +124,11 @@ def replay(
         raise TouchlineError(
             "--every-difference, --pdb, --live, --out and --brain-folder need --agent, such as --agent cyan2=my:Brain"
         )
+    from coach_gateway.web.settings import WebSettings
     from recordings.replay.replay import Replay, ReplaySettings
     from touchline.launch.page import open_page, serve_page_beside
 
-    opened_page = open_page(page) if web else None
+    opened_page = open_page(from_options(WebSettings, **page)) if web else None
     settings = ReplaySettings(
         file,
         start=start,
@@ -233,8 +234,8 @@ def _play(
 ) -> "Player":
     """Play until the end or a signal, with its progress on the output."""
     from recordings.replay.host import ReplayHost
-    from touchline.replay.progress import bar_text, status_text
-    from touchline.watch.screen import screen_for
+    from touchline.launch.terminal.replay_progress import bar_text, status_text
+    from touchline.launch.terminal.screen import screen_for
 
     stream = sys.stderr if quiet else sys.stdout
     text_of = bar_text if stream.isatty() else status_text

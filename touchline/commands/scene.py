@@ -16,8 +16,8 @@ from schemas.side import Side
 from schemas.topics import SCENE
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import validated
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import with_option_groups
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import with_option_groups
 from touchline.commands.scenes import scenes
 
 app = typer.Typer(

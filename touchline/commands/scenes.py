@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 from schemas.config.scene import load_scene, shipped_scenes
-from touchline.cli import options
-from touchline.cli.aligned import aligned
+from touchline.commands.cli import options
+from touchline.launch.terminal.aligned import aligned
 
 
 def scenes(

@@ -10,10 +10,10 @@ import typer
 
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
-from touchline.cli import options
-from touchline.cli.aligned import aligned
-from touchline.cli.errors import FAILED
-from touchline.cli.option_groups import FieldsOf, with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.errors import FAILED
+from touchline.commands.cli.option_groups import FieldsOf, with_option_groups
+from touchline.launch.terminal.aligned import aligned
 from touchline.matches.series.seeds import seeds_of
 from touchline.matches.series.team_names import brain_of
 

@@ -4,7 +4,7 @@ import typer
 
 from coach_gateway import run
 from coach_gateway.settings import GatewaySettings
-from touchline.cli.option_groups import with_option_groups
+from touchline.commands.cli.option_groups import with_option_groups
 
 
 @with_option_groups

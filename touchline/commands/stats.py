@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from schemas.side import Side
-from touchline.cli import options
+from touchline.commands.cli import options
 
 if TYPE_CHECKING:
     from recordings.stats.figures import MatchFigures
@@ -44,8 +44,8 @@ def stats(
 
 def _show(figures: "MatchFigures") -> None:
     from recordings.stats.table import ROBOT_HEADINGS, headline, remarks, robot_rows, side_rows
-    from touchline.cli.console import console as new_console
-    from touchline.cli.console import table
+    from touchline.launch.terminal.console import console as new_console
+    from touchline.launch.terminal.console import table
 
     console = new_console()
     console.print(headline(figures), style="bold")

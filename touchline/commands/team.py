@@ -14,8 +14,8 @@ from schemas.config.confinement import Limits
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
-from touchline.cli import options
-from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
+from touchline.commands.cli import options
+from touchline.commands.cli.option_groups import FieldsOf, from_options, with_option_groups
 
 _OWN = ("robot", "brain", "stdio", "side")
 """Fields that the command fills itself."""
@@ -51,7 +51,7 @@ def team(
     from touchline.launch.check_brains import check_reload
     from touchline.launch.run_folder import new_run_folder
     from touchline.launch.team_run import TeamPlan, TeamRun
-    from touchline.watch.screen import screen_for
+    from touchline.launch.terminal.screen import screen_for
 
     if [brain, command, stdio].count(None) != 2:
         raise TouchlineError("a team has a brain or a program; give --brain module:Class, --command or --stdio")

@@ -10,8 +10,8 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 from schemas.wire.message import Message
-from touchline.cli import options
-from touchline.cli.aligned import aligned
+from touchline.commands.cli import options
+from touchline.launch.terminal.aligned import aligned
 
 _COLUMNS = ("name", "key", "message", "from", "to", "rate", "delivery", "recorded", "description")
 

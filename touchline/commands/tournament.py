@@ -11,9 +11,9 @@ import typer
 
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.cli import options
-from touchline.cli.errors import FAILED
-from touchline.launch.team_code import team_code
+from touchline.commands.cli import options
+from touchline.commands.cli.errors import FAILED
+from touchline.launch.confinement.team_code import team_code
 
 if TYPE_CHECKING:
     from touchline.matches.cup.cup_config import CupConfig

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from schemas.errors import TouchlineError
-from touchline.cli import options
-from touchline.cli.errors import FAILED
+from touchline.commands.cli import options
+from touchline.commands.cli.errors import FAILED
 
 if TYPE_CHECKING:
     from touchline.verify.verdict import Detail, Discrepancy, Verdict

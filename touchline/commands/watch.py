@@ -15,8 +15,8 @@ from runtime.bus.contract import Bus, PresenceKind
 from runtime.bus.settings import ClientSettings
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.setup import Setup
-from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import with_option_groups
+from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.option_groups import with_option_groups
 from touchline.timing import HOST_S, REFRESH_S
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def watch(
         with bus_client(connection) as bus, suppress(KeyboardInterrupt):
             watch_lines(bus, typer.echo)
         return
-    from touchline.cli.console import console
+    from touchline.launch.terminal.console import console
 
     with bus_client(connection, Account.OPERATOR) as bus:
         try:
@@ -89,7 +89,7 @@ def watch_on(bus: Bus, console: "Console", robot: str | None = None) -> None:
     from rich.console import Group
     from rich.live import Live
 
-    from touchline.watch.panel import panel
+    from touchline.launch.terminal.panel import panel
 
     client, seen = HostClient(bus, HOST_S), MatchFollower(bus, details=True)
     drawings, host_changes = DebugFollower(bus), 0

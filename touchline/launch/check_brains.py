@@ -17,13 +17,13 @@ from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.launch.child_process import ChildProcess
-from touchline.launch.confinement import Confinement, team_confinements
-from touchline.launch.process_table import Process, ProcessKind
-from touchline.launch.python_process import PYTHON, module_path_environment
-from touchline.launch.robot_process import ROBOT_ENVIRONMENT
+from touchline.launch.confinement.robot_confinement import Confinement, team_confinements
+from touchline.launch.processes.child_process import ChildProcess
+from touchline.launch.processes.process_table import Process, ProcessKind
+from touchline.launch.processes.python_process import PYTHON, module_path_environment
+from touchline.launch.processes.robot_process import ROBOT_ENVIRONMENT
+from touchline.launch.processes.supervisor import ending
 from touchline.launch.run_folder import RUNS
-from touchline.launch.supervisor import ending
 from touchline.launch.team_error import TeamError
 from touchline.timing import BUILD_NOTICE_S, BUILD_S
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from coach_gateway.web.match_result import STATISTICS, STATISTICS_ADDRESS
 from coach_gateway.web.protocol import ResultUpdate
 from schemas.errors import TouchlineError
-from touchline.launch.processes import MatchPlan
+from touchline.launch.processes.programs import MatchPlan
 
 
 def result_parts(plan: MatchPlan) -> Iterator[ResultUpdate]:

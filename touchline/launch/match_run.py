@@ -20,21 +20,21 @@ from runtime.process.settings_file import WRONG
 from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
-from touchline.launch.child_process import ChildProcess
-from touchline.launch.fork_server import ROBOTS
-from touchline.launch.log_notes import LogWatch
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
-from touchline.launch.process_table import Process, ProcessKind
-from touchline.launch.processes import MatchPlan, client_processes, host_process
+from touchline.launch.processes.child_process import ChildProcess
+from touchline.launch.processes.fork_server import ROBOTS
+from touchline.launch.processes.log_notes import LogWatch
+from touchline.launch.processes.process_table import Process, ProcessKind
+from touchline.launch.processes.programs import MatchPlan, client_processes, host_process
+from touchline.launch.processes.stop_signals import StopSignals
+from touchline.launch.processes.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.launch.recording_outcome import outcome_of
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
-from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.launch.team_error import TeamLeftError
+from touchline.launch.terminal.screen import Screen
 from touchline.timing import LAST_MESSAGES_S, PAGE_CLOSES_S, POLL_S, WATCH_S
-from touchline.watch.screen import Screen
 
 if TYPE_CHECKING:
     from coach_gateway.web.protocol import ResultUpdate

@@ -12,12 +12,12 @@ from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
 from schemas.side import Side
 from touchline.launch.join_command import join_lines
-from touchline.launch.processes import MatchPlan
+from touchline.launch.processes.programs import MatchPlan
 from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import NOTABLE
-from touchline.watch.agent_faults import InvalidAgents, SlowAgents
-from touchline.watch.screen import Screen
-from touchline.watch.status_line import status_line
+from touchline.launch.terminal.agent_faults import InvalidAgents, SlowAgents
+from touchline.launch.terminal.screen import Screen
+from touchline.launch.terminal.status_line import status_line
 
 
 class MatchScreen:

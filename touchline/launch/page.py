@@ -1,31 +1,28 @@
 """The page of a match or a replay, served for a command: checks its port, makes its tokens, formats its addresses."""
 
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from coach_gateway.access.tokens import page_address, read_or_make
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.listener import listen, origin_of
 from coach_gateway.web.settings import WebSettings, need_web
 from runtime.process.clock import Clock
-from touchline.cli.option_groups import from_options
-from touchline.launch.child_process import ChildProcess
-from touchline.launch.process_table import ProcessKind, library_process
-from touchline.launch.processes import TOKENS, Page
-from touchline.launch.supervisor import AT_ONCE, Notice, Supervisor
+from touchline.launch.processes.child_process import ChildProcess
+from touchline.launch.processes.process_table import ProcessKind, library_process
+from touchline.launch.processes.programs import TOKENS, Page
+from touchline.launch.processes.supervisor import AT_ONCE, Notice, Supervisor
 
 
-def open_page(options: Mapping[str, Any]) -> Page:
-    """The page for these options, on a port that is listened on from now on.
+def open_page(web: WebSettings) -> Page:
+    """The page with these settings, on a port that is listened on from now on.
 
     Raises:
         TouchlineError: the port is in use, or a package is missing.
     """
     need_web()
-    web = from_options(WebSettings, **options)
     listener = listen(web.listen_web, web.port)
     return Page(web.model_copy(update={"port": listener.getsockname()[1]}), listener)
 

@@ -8,8 +8,8 @@ from runtime.bus.outcome_file import read_outcome
 from schemas.errors import TouchlineError
 from schemas.topic import Party
 from schemas.topics import TOPICS
-from touchline.launch.processes import MatchPlan
-from touchline.launch.supervisor import ending
+from touchline.launch.processes.programs import MatchPlan
+from touchline.launch.processes.supervisor import ending
 
 
 @dataclass(frozen=True, slots=True)

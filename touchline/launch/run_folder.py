@@ -10,7 +10,7 @@ from runtime.process.clock import Clock
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from touchline.launch.own_address import names_for_others
-from touchline.launch.processes import CREDENTIALS, MatchPlan
+from touchline.launch.processes.programs import CREDENTIALS, MatchPlan
 
 RUNS = Path("runs")
 RECORDING = "match.mcap"

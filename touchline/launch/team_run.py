@@ -14,18 +14,18 @@ from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
 from schemas.side import Side
-from touchline.launch.child_process import ChildProcess
-from touchline.launch.confinement import team_confinements, team_isolation_note
-from touchline.launch.fork_server import ROBOTS
-from touchline.launch.log_notes import LogWatch
-from touchline.launch.process_table import Process
-from touchline.launch.robot_process import robot_process
-from touchline.launch.stop_signals import StopSignals
-from touchline.launch.supervisor import AT_ONCE, Supervisor
-from touchline.launch.team_code import team_program
+from touchline.launch.confinement.robot_confinement import team_confinements, team_isolation_note
+from touchline.launch.confinement.team_code import team_program
+from touchline.launch.processes.child_process import ChildProcess
+from touchline.launch.processes.fork_server import ROBOTS
+from touchline.launch.processes.log_notes import LogWatch
+from touchline.launch.processes.process_table import Process
+from touchline.launch.processes.robot_process import robot_process
+from touchline.launch.processes.stop_signals import StopSignals
+from touchline.launch.processes.supervisor import AT_ONCE, Supervisor
+from touchline.launch.terminal.screen import Screen
+from touchline.launch.terminal.status_line import status_line
 from touchline.timing import POLL_S
-from touchline.watch.screen import Screen
-from touchline.watch.status_line import status_line
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,10 +18,10 @@ from touchline.matches.drill.drill_match import drill_match
 from touchline.matches.judging.judge import verdict_of
 from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
 from touchline.matches.series.team_names import brain_of
-from touchline.play import BrainSource, InProcessMatch
+from touchline.play.play_match import BrainSource, InProcessMatch
+from touchline.play.tick_messages import played_ticks
 from touchline.testing.facts import Facts
 from touchline.testing.runs import Runs
-from touchline.tick_messages import played_ticks
 
 DEFAULT_SECONDS = 10.0
 """Time in s for which a scene is played that has no verdict, if none is given."""

@@ -14,7 +14,7 @@ from schemas.messages.world import World
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
 from schemas.wire.message import VERSION
 from schemas.wire.part_faults import validated
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 STARTED = "2026-07-01T15:00:00.000+00:00"
 

@@ -14,7 +14,7 @@ from recordings.stats.match_statistics import figures_of_recording
 from schemas.game import EventKind, GameStage, Phase, Score
 from schemas.league.findings import Findings
 from support.msl_log import START_MS, Log, record, robot
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 PERIOD_MS = 40
 

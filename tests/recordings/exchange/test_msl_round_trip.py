@@ -21,7 +21,7 @@ from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD
 from support.recorder_rig import RecorderRig
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 PRECISION = 0.5e-3 + 1e-9
 """Three digits after the point."""

@@ -9,8 +9,8 @@ from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.messages.command import Drive
 from schemas.topics import APPLIED
-from touchline.play import InProcessMatch
-from touchline.replay.ghost import Ghost, check_ghosts, inputs_of, teams_of
+from touchline.play.ghost import Ghost, check_ghosts, inputs_of, teams_of
+from touchline.play.play_match import InProcessMatch
 from touchline.verify.compare_brain import compare_brain
 
 SIMPLE, NUBOT = "robot_agent.teams.simple:Simple", "robot_agent.teams.nubot:NuBot"

@@ -12,7 +12,7 @@ from robot_agent.sdk.contract import Briefing
 from robot_agent.teams.simple import Simple
 from schemas.config.match_config import load_match
 from support.stepped_clock import SteppedClock
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 
 @pytest.fixture

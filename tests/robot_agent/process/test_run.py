@@ -20,7 +20,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP, SIGHT
 from support.process_story import descendants, is_running, wait_for
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 BRAIN = "robot_agent.teams.nubot:NuBot"
 LIMIT_S = 60.0

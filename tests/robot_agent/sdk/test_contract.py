@@ -10,7 +10,7 @@ from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 
 def test_a_briefing_has_number_side_and_teammates(setup):

@@ -13,7 +13,7 @@ from schemas.config.match_config import load_match
 from schemas.game import EventKind
 from schemas.messages.command import Command, Drive, KickMode
 from sim_host.match.simulation import Simulation
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 TEAMS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
 SCENE = """

@@ -18,7 +18,7 @@ from schemas.side import Side
 from sim_host.match import subsystems
 from sim_host.match.world_fields import Fields
 from sim_host.sensing.random_streams import Floats, RandomStreams, StreamId, Words
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 TEAMS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
 ROUNDING = 1e-9

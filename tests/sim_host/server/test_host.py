@@ -8,7 +8,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.game import Phase
 from schemas.messages.world import World
 from schemas.topics import APPLIED, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
-from touchline.play import play_match
+from touchline.play.play_match import play_match
 
 SHIPPED = {
     "duration": 1,

@@ -14,8 +14,8 @@ from schemas.topics import ADMISSION
 from sim_host.server.admission.recorder_admission import Admission
 from support.fake_host import FakeHost
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
 from touchline.commands import admit
+from touchline.commands.cli.command_line import app
 
 
 @pytest.fixture

@@ -21,8 +21,8 @@ from schemas.topics import HEALTH
 from support.fake_host import FakeHost
 from support.host_rig import TEAMS, HostRig
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
 from touchline.commands import health
+from touchline.commands.cli.command_line import app
 
 
 class PlayingClock(SteppedClock):

@@ -7,8 +7,8 @@ from typer.testing import CliRunner
 
 from schemas.config.match_config import load_match
 from schemas.side import Side
-from touchline.command_line import app
-from touchline.play import play_match
+from touchline.commands.cli.command_line import app
+from touchline.play.play_match import play_match
 
 run = CliRunner()
 

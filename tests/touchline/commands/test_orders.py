@@ -18,8 +18,8 @@ from schemas.messages.setup import Setup
 from schemas.topics import SETUP
 from support.fake_host import FakeHost
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
 from touchline.commands import orders
+from touchline.commands.cli.command_line import app
 
 
 class Host(FakeHost):

@@ -18,8 +18,8 @@ from schemas.messages.parameters import ParametersReply
 from schemas.topics import PARAMETERS
 from sim_host.match.live_parameters import LiveParameters
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
 from touchline.commands import parameters
+from touchline.commands.cli.command_line import app
 
 
 @pytest.fixture(autouse=True)

@@ -15,7 +15,7 @@ from schemas.game import Phase
 from schemas.messages.game import GameState
 from schemas.topics import STATE
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 
 def touchline(*words: str | Path) -> Result:

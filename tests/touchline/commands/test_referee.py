@@ -18,8 +18,8 @@ from schemas.topics import ACTION, HEALTH, REFEREE_SEAT, STATE
 from sim_host.server.services.referee_seat import RefereeSeat
 from support.fake_host import FakeHost
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
 from touchline.commands import coach, referee
+from touchline.commands.cli.command_line import app
 
 
 class TalkingClock(SteppedClock):

@@ -20,9 +20,9 @@ from schemas.side import Side
 from schemas.topics import SCENE
 from sim_host.match.simulation import Simulation
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
 from touchline.commands import scene
-from touchline.play import InProcessMatch
+from touchline.commands.cli.command_line import app
+from touchline.play.play_match import InProcessMatch
 
 
 @pytest.fixture

@@ -20,7 +20,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.topics import STATE, WORLD
 from support.stepped_clock import SteppedClock
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 """How the compressed records of a chunk begin."""

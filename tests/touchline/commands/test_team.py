@@ -11,7 +11,7 @@ from runtime.bus.contract import PresenceKind
 from runtime.bus.endpoint import with_free_port
 from runtime.bus.zenoh.bus import open_host
 from runtime.process.clock import WallClock
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 from touchline.launch import team_run
 from touchline.launch.team_run import TeamPlan
 

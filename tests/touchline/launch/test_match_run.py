@@ -16,10 +16,10 @@ from schemas.messages.game import GameEvent, GameState
 from schemas.topics import EVENT, STATE
 from touchline.launch import match_run, recording_outcome
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
-from touchline.launch.process_table import Process, ProcessKind
-from touchline.launch.processes import MatchPlan
+from touchline.launch.processes.process_table import Process, ProcessKind
+from touchline.launch.processes.programs import MatchPlan
 from touchline.launch.result import MatchResult
-from touchline.watch.screen import Screen
+from touchline.launch.terminal.screen import Screen
 
 pytestmark = pytest.mark.processes
 

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from coach_gateway.web.settings import WebSettings
 from schemas.errors import TouchlineError
-from touchline.launch.child_process import ChildProcess
 from touchline.launch.page import Page, open_page
-from touchline.launch.process_table import Process, ProcessKind
+from touchline.launch.processes.child_process import ChildProcess
+from touchline.launch.processes.process_table import Process, ProcessKind
 
 SERVES = """
 from coach_gateway.ports import InheritedSockets
@@ -23,7 +24,7 @@ connection.sendall(b"served")
 
 @pytest.fixture
 def page():
-    page: Page = open_page({"port": 0})
+    page: Page = open_page(WebSettings(port=0))
     yield page
     page.listener.close()
 
@@ -31,7 +32,7 @@ def page():
 def test_the_port_of_a_page_is_the_page_s_from_the_moment_that_it_is_chosen(page: Page) -> None:
     assert page.settings.port == page.listener.getsockname()[1]
     with pytest.raises(TouchlineError, match=f"the page cannot be served on 127.0.0.1 port {page.settings.port}"):
-        open_page({"port": page.settings.port})
+        open_page(WebSettings(port=page.settings.port))
 
 
 @pytest.mark.processes

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from schemas.config.match_config import load_match
-from touchline.launch.processes import MatchPlan
+from touchline.launch.processes.programs import MatchPlan
 from touchline.launch.recording_outcome import finished_recording, outcome_of, unfinished_recording
 
 PATH, LOG = Path("runs/a/match.mcap"), Path("runs/a/recorder.log")

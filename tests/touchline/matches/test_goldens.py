@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 pytest.importorskip("scipy", reason="intervals need the extra sim")
 

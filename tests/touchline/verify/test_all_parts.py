@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from recordings.container.parts import parts_of
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 
 @pytest.fixture(scope="module")

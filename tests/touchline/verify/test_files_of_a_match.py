@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from recordings.reading.recording import Recording, open_recording
 from schemas.config.match_config import load_match
 from schemas.side import Side
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
 

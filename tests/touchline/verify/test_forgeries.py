@@ -37,7 +37,7 @@ from support.forgeries import (
     swap_worlds,
     switch_goal,
 )
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 ACTIONS = {
     60: RefereeAction(action=ActionName.START),

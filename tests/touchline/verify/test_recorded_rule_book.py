@@ -16,7 +16,7 @@ from schemas.config.number_files import NumberFiles
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 from touchline.verify import resimulate
 from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify

@@ -11,7 +11,7 @@ from recordings.reading.tick_index import SkipReason, tick_index_of
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 from touchline.verify import resimulate, segment_check
 from touchline.verify.resimulate import verify
 from touchline.verify.verdict import Verdict

@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import Any
 
-from touchline.cli.aligned import aligned
+from touchline.launch.terminal.aligned import aligned
 from touchline.matches.cup.cup_state import CupMatch, CupState, MatchState
 from touchline.matches.cup.match_result import score_text
 from touchline.matches.cup.site import signed

@@ -10,7 +10,7 @@ from typing import Any
 
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.launch.team_code import team_code
+from touchline.launch.confinement.team_code import team_code
 from touchline.matches.cup.cup_plan import CupPlan, config_with, digests_of, stored_plan
 from touchline.matches.cup.cup_state import CupState
 from touchline.matches.cup.report import RESULT, report_of

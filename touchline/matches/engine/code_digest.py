@@ -7,7 +7,7 @@ from pathlib import Path
 
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
-from touchline.launch.team_code import team_code
+from touchline.launch.confinement.team_code import team_code
 
 _CACHES = frozenset({"__pycache__", ".pytest_cache", ".mypy_cache", ".ruff_cache"})
 _SKIPPED = _CACHES | {".git", ".venv", "runs"}

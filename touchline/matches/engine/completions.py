@@ -4,7 +4,7 @@ from concurrent.futures import Future
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from touchline.launch.stop_signals import StopSignals
+from touchline.launch.processes.stop_signals import StopSignals
 from touchline.timing import POLL_S
 
 

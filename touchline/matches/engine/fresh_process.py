@@ -17,7 +17,7 @@ from typing import Any
 from pebble import ProcessExpired, concurrent
 
 from robot_agent.loading.brain_folders import added_folders, remove_folders
-from touchline.launch.supervisor import ending
+from touchline.launch.processes.supervisor import ending
 from touchline.matches.engine.hang_watch import Note, read_note
 
 _PRELOAD = "touchline.matches.engine.preload"

@@ -11,7 +11,6 @@ from schemas.errors import TouchlineError
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
-from touchline.match_recording import MatchRecording
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.hang_watch import HangWatch
 from touchline.matches.engine.measurement import Measurement
@@ -19,8 +18,9 @@ from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Playe
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.judging.judge import verdict_of
 from touchline.matches.judging.occurrences import OccurrenceTracker
-from touchline.play import InProcessMatch, RobotNotStartedError
-from touchline.tick_messages import played_ticks
+from touchline.play.match_recording import MatchRecording
+from touchline.play.play_match import InProcessMatch, RobotNotStartedError
+from touchline.play.tick_messages import played_ticks
 
 TRACEBACK = "traceback.txt"
 """The file with the traceback of a brain, in the folder of a match's logs."""

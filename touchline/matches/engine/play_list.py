@@ -8,7 +8,7 @@ from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.session import session_of
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 
 @dataclass(frozen=True, slots=True)

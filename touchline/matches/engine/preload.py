@@ -10,7 +10,7 @@ import gc
 from schemas.config.match_config import MatchConfig
 from touchline.matches.engine import verify as verify
 from touchline.matches.engine import worker as worker
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 InProcessMatch(MatchConfig()).close()
 gc.collect()

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import Protocol
 
 from runtime.process.clock import WallClock
-from touchline.cli.console import console
+from touchline.launch.terminal.console import console
 from touchline.matches.engine.run_counts import RunCounts
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from schemas.errors import TouchlineError
-from touchline.launch.stop_signals import StopSignals
+from touchline.launch.processes.stop_signals import StopSignals
 from touchline.matches.engine.completions import Completions
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.in_process import outcome_of_death

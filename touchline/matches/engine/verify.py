@@ -13,7 +13,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.side import Side
 from schemas.topics import APPLIED
-from touchline.launch.stop_signals import StopSignals
+from touchline.launch.processes.stop_signals import StopSignals
 from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.completions import Completions
 from touchline.matches.engine.fresh_process import DiedProcessError

@@ -21,17 +21,17 @@ from runtime.process.clock import WallClock
 from schemas.config.match_parts import RecordingConfig
 from schemas.errors import MatchFailedError, TouchlineError
 from touchline.launch.check_brains import check_teams
-from touchline.launch.confinement import team_confinements
+from touchline.launch.confinement.robot_confinement import team_confinements
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
-from touchline.launch.processes import CREDENTIALS, MatchPlan, check_robot_names
+from touchline.launch.processes.programs import CREDENTIALS, MatchPlan, check_robot_names
 from touchline.launch.run_folder import RECORDING, prepare_credentials
 from touchline.launch.team_error import TeamError, TeamLeftError
+from touchline.launch.terminal.screen import Screen
 from touchline.matches.engine.inputs_only import KEYS, has_inputs_only
 from touchline.matches.engine.measurement import measured
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.team_faults import fault_of, last_health
-from touchline.watch.screen import Screen
 
 LOG = "match.log"
 """The log of a match, next to the logs of its processes."""

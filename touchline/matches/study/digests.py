@@ -10,7 +10,7 @@ from robot_agent.loading.user_code import OWN_PACKAGES
 from runtime.process.installed import installed_version
 from schemas.side import Side
 from schemas.wire.message import VERSION
-from touchline.launch.team_code import team_code
+from touchline.launch.confinement.team_code import team_code
 from touchline.matches.engine.code_digest import code_digest, files_digest
 from touchline.matches.study.cells import Cell
 

@@ -7,7 +7,7 @@ from sim_host.match.simulation import Simulation
 from touchline.launch.check_brains import check_teams
 from touchline.matches.engine.planned_match import Way
 from touchline.matches.study.study_plan import StudyPlan
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 
 def check_study_teams(plan: StudyPlan) -> dict[str, str]:

@@ -15,7 +15,7 @@ from schemas.messages.command import Command, Drive
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from support.lone_robot import briefing_of, one_robot_and_a_ball
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 TICK = 0.02
 

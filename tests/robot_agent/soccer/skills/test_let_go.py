@@ -10,7 +10,7 @@ from robot_agent.soccer.skills.let_go import AHEAD, faster, let_go
 from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
 from support.lone_robot import briefing_of, one_robot_and_a_ball
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 
 class LetsGo:

@@ -10,7 +10,7 @@ from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from sim_host.match.simulation import TickResult
-from touchline.play import InProcessMatch
+from touchline.play.play_match import InProcessMatch
 
 REFERENCE = "robot_agent.teams.reference:Reference"
 

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from schemas.errors import TouchlineError
 from support.cups import CUP, mini_cup, play
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 from touchline.matches.cup.cup_config import load_cup
 from touchline.matches.cup.report import report_of
 from touchline.matches.cup.run_cup import CupRun

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from touchline.command_line import app
+from touchline.commands.cli.command_line import app
 
 BRAINS = """
 from touchline import Command, Drive

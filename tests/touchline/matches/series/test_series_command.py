@@ -16,8 +16,8 @@ from recordings.reading.recording import open_recording
 from recordings.stats.match_statistics import figures_of_recording
 from schemas.config.match_config import load_match
 from schemas.side import Side
-from touchline.command_line import app
-from touchline.play import play_match
+from touchline.commands.cli.command_line import app
+from touchline.play.play_match import play_match
 from touchline.verify.resimulate import verify
 
 

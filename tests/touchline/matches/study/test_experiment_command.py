@@ -7,8 +7,8 @@ from typer.testing import CliRunner
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 
-from touchline.command_line import app
 from touchline.commands import experiment
+from touchline.commands.cli.command_line import app
 
 STUDY = """
 seeds = "1-2"

@@ -1,0 +1,43 @@
+"""The entry of the command line: what it does before any other module is imported."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+import touchline
+from touchline.commands.cli.script import put_current_directory_last
+
+LIBRARY = str(Path(touchline.__file__).resolve().parents[1])
+
+
+@pytest.mark.parametrize("entry", ["{here}", ""])
+def test_the_current_directory_comes_last_on_the_module_path(
+    entry: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    here = entry.format(here=tmp_path)
+    path = [here, "/lib/python", LIBRARY, here]
+    put_current_directory_last(path)
+    assert path == ["/lib/python", LIBRARY, here]
+
+
+def test_a_module_path_without_the_current_directory_stays_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = ["/lib/python", LIBRARY]
+    put_current_directory_last(path)
+    assert path == ["/lib/python", LIBRARY]
+
+
+def test_a_checkout_that_is_the_current_directory_stays_first_and_later_processes_find_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(LIBRARY)
+    monkeypatch.setenv("PYTHONPATH", "/lib/a")
+    path = [LIBRARY, "/lib/python"]
+    for _ in range(2):
+        put_current_directory_last(path)
+        assert path == [LIBRARY, "/lib/python"]
+        assert os.environ["PYTHONPATH"] == f"{LIBRARY}:/lib/a"

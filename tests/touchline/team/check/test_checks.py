@@ -1,0 +1,179 @@
+"""Each check passes a brain that keeps the contract, and names what one does that breaks it."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from schemas.config.match_config import load_match
+from support.stepped_clock import SteppedClock
+from touchline.matches.series.team_names import brain_of, shipped_teams
+from touchline.team.check.checks import CHECKS, CheckResult, run_check, run_checks
+from touchline.team.check.examination import Examination
+from touchline.team.check.subject import Subject
+
+MODULE = "checked_team"
+BRAINS = """
+import itertools, time
+from touchline import Command, Drive, Kick, KickMode, Radio
+
+GROUND = KickMode.GROUND
+
+class Keeps:
+    def __init__(self, briefing):
+        self.briefing = briefing
+
+    def act(self, sight):
+        return Command(answers_tick=sight.tick, drive=Drive(vx=1.0), dribble=True)
+
+class Unbuildable(Keeps):
+    def __init__(self, briefing):
+        raise KeyError("model.bin")
+
+class Slow(Keeps):
+    def act(self, sight):
+        time.sleep(0.03)
+        return super().act(sight)
+
+class Counts(Keeps):
+    count = itertools.count()
+
+    def act(self, sight):
+        return Command(answers_tick=sight.tick, drive=Drive(omega=next(self.count) % 3))
+
+class Speeds(Keeps):
+    def act(self, sight):
+        return Command(answers_tick=sight.tick, drive=Drive(vx=15.0))
+
+class Kicks(Keeps):
+    def act(self, sight):
+        return Command(answers_tick=sight.tick, kick=Kick(mode=GROUND, speed=5.0))
+
+class SeesAlways(Keeps):
+    def act(self, sight):
+        if sight.tick > 100:
+            sight.ball.x
+        return super().act(sight)
+
+class KicksHeld(Keeps):
+    def act(self, sight):
+        kick = Kick(mode=GROUND, speed=5.0) if sight.holding else None
+        return Command(answers_tick=sight.tick, kick=kick)
+
+class PlaysAlone(Keeps):
+    def act(self, sight):
+        if sight.game.robots:
+            raise RuntimeError("a robot is missing")
+        return super().act(sight)
+
+class KicksTheirs(Keeps):
+    def act(self, sight):
+        near = sight.ball is not None and sight.game.phase.theirs
+        return Command(answers_tick=sight.tick, kick=Kick(mode=GROUND, speed=5.0) if near else None)
+
+class ReadsPlan(Keeps):
+    def act(self, sight):
+        for mate in sight.radio.values():
+            mate.extra["plan"]
+        return Command(answers_tick=sight.tick, radio=Radio(extra={"plan": 3}))
+
+class ReadsNumber(Keeps):
+    def act(self, sight):
+        plans = [mate.extra["plan"] + 1 for mate in sight.radio.values() if "plan" in mate.extra]
+        return Command(answers_tick=sight.tick, radio=Radio(extra={"plan": 3}))
+
+class OnceEach(Keeps):
+    last = -1
+
+    def act(self, sight):
+        assert sight.tick == self.last + 1 or sight.tick % 500 < 490 and sight.tick != self.last
+        self.last = sight.tick
+        return super().act(sight)
+
+class OtherTick(Keeps):
+    def act(self, sight):
+        return Command(answers_tick=7)
+
+class Nothing(Keeps):
+    def act(self, sight):
+        if sight.tick == 3:
+            return None
+        return super().act(sight)
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("brains")
+    (folder / f"{MODULE}.py").write_text(BRAINS)
+    return folder
+
+
+@pytest.fixture
+def examine(folder: Path) -> Callable[[str, str], CheckResult]:
+    """Runs one check on a brain of the module."""
+
+    def run(check: str, brain: str) -> CheckResult:
+        clock = {"clock": SteppedClock()} if brain != "Slow" else {}
+        seconds = 2.0 if brain != "Slow" else 0.2
+        config = load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 1, "teams.cyan.remote": True})
+        examination = Examination(Subject(config, f"{MODULE}:{brain}", folder=folder), seconds, **clock)
+        return run_check(next(row for row in CHECKS if row.name == check), examination)
+
+    return run
+
+
+@pytest.mark.parametrize("check", [row.name for row in CHECKS])
+def test_a_brain_that_keeps_the_contract_passes(examine: Callable[[str, str], CheckResult], check: str) -> None:
+    result = examine(check, "Keeps")
+    assert result.kept, result.sentence
+    assert "{" not in result.sentence and result.figures
+
+
+BROKEN = [
+    ("build", "Unbuildable", "Unbuildable(briefing) raised KeyError: 'model.bin'"),
+    ("time", "Slow", " ms or more, and a tick lasts 20 ms"),
+    ("repeatable", "Counts", "decides differently at tick 0 of two equal runs: {"),
+    ("limits", "Speeds", "cyan1 at tick 0: drive is 15.00 m/s, the limit is 4"),
+    ("limits", "Kicks", "kick"),
+    ("ball_unseen", "SeesAlways", "the ball never seen, play: cyan1: act raised at tick"),
+    ("stopped", "KicksHeld", "pre_game: cyan1 kicks the ball although the game does not run"),
+    ("sent_off", "PlaysAlone", "the robot off the field (second_yellow): cyan1: act raised"),
+    ("set_pieces", "KicksTheirs", "before START: cyan1 kicks the ball although the game does not run"),
+    ("radio_fields", "ReadsPlan", "radio without fields: cyan1: act raised"),
+    ("radio_fields", "ReadsNumber", "radio with text in place of each value in extra: cyan1: act raised"),
+    ("twice", "OnceEach", "a sight twice: cyan1: act raised"),
+    ("time", "OtherTick", "answers_tick is 7 for the sight of tick 0; return Command(answers_tick=sight.tick"),
+    ("limits", "Nothing", "act returned None at tick 3"),
+]
+
+
+@pytest.mark.parametrize(("check", "brain", "words"), BROKEN, ids=lambda value: str(value).split()[0])
+def test_a_brain_that_breaks_the_contract_is_named_with_the_remedy(
+    examine: Callable[[str, str], CheckResult], check: str, brain: str, words: str
+) -> None:
+    result = examine(check, brain)
+    assert not result.kept
+    assert words in result.sentence
+    assert result.sentence.endswith(next(row.remedy for row in CHECKS if row.name == check))
+    assert "\n" not in result.sentence
+
+
+def test_every_check_has_a_brain_that_breaks_it() -> None:
+    assert {check for check, _, _ in BROKEN} == {row.name for row in CHECKS}
+
+
+def test_without_a_brain_no_other_check_is_run(folder: Path) -> None:
+    subject = Subject(load_match(None, {"teams.cyan.remote": True}), f"{MODULE}:Unbuildable", folder=folder)
+    (result,) = run_checks(Examination(subject, clock=SteppedClock()))
+    assert (result.name, result.kept) == ("build", False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "team", [pytest.param(team, marks=() if team == "simple" else pytest.mark.long) for team in shipped_teams()]
+)
+def test_the_teams_that_ship_keep_the_contract(team: str) -> None:
+    subject = Subject(load_match(None, {"teams.cyan.remote": True}), brain_of(team))
+    examination = Examination(subject, 6.0, SteppedClock())
+    assert [result.sentence for result in run_checks(examination) if not result.kept] == []

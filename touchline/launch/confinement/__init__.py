@@ -1,0 +1,1 @@
+"""What a robot's process may see and use of the machine."""

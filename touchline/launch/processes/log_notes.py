@@ -1,0 +1,63 @@
+"""Watches the logs of a match: limits them, and finds what their processes want to be shown to the user."""
+
+from pathlib import Path
+
+from runtime.process.process_log import NOTE, message_of
+from touchline.launch.processes.log_limit import LogLimit
+from touchline.launch.processes.supervisor import Notice
+from touchline.launch.terminal.screen import Screen
+
+_MOST_BYTES = 1_000_000
+"""Bytes of a log that one search reads; of a longer one, the newest."""
+
+
+class LogWatch:
+    """Shows on the screen what is to be known of processes and their logs."""
+
+    def __init__(self, screen: Screen) -> None:
+        self._screen = screen
+        self._limit, self._notes = LogLimit(), LogNotes()
+
+    def update(self, log: Path) -> None:
+        """Show what was added to a log since the last call."""
+        for sentence in filter(None, (self._limit.check(log), *self._notes.update(log))):
+            self._screen.warn(sentence)
+
+    def show(self, notice: Notice) -> None:
+        """Show a notice with the last lines of the log."""
+        self._screen.warn(notice.sentence)
+        for line in notice.log:
+            self._screen.warn(f"  {notice.name}: {line}")
+
+
+class LogNotes:
+    """Reads logs as they grow; of notes with equal subjects, such as a team's robots, the first one counts."""
+
+    def __init__(self) -> None:
+        self._read: dict[Path, int] = {}
+        self._subjects: set[str] = set()
+
+    def update(self, log: Path) -> list[str]:
+        """The notes in the lines that were added to a log since the last call."""
+        size = log.stat().st_size if log.exists() else 0
+        start = max(self._read.get(log, 0), size - _MOST_BYTES)
+        if size <= start:
+            self._read[log] = size  # it may have been cut
+            return []
+        with log.open("rb") as file:
+            file.seek(start)
+            added = file.read(size - start)
+        whole = added[: added.rfind(b"\n") + 1]
+        self._read[log] = start + len(whole)
+        if NOTE.encode() not in whole:
+            return []
+        return [note for line in whole.decode("utf-8", "replace").splitlines() if (note := self._note(line))]
+
+    def _note(self, line: str) -> str:
+        """The note in a line; empty if it has none, or one with a known subject."""
+        message = message_of(line)
+        subject, _, _ = message.removeprefix(NOTE).partition(": ")
+        if not message.startswith(NOTE) or subject in self._subjects:
+            return ""
+        self._subjects.add(subject)
+        return message.removeprefix(NOTE)

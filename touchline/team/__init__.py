@@ -1,0 +1,1 @@
+"""For a team's authors: a new team's folder, its check, its robots step by step."""

@@ -1,0 +1,103 @@
+"""A short match in one process in which everything the checked team does is measured."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from runtime.process.clock import Clock
+from schemas.messages.command import Command, KickMode
+from schemas.messages.setup import Setup
+from schemas.messages.sight import Sight
+from schemas.wire.part import encode
+from touchline.play.play_match import play_match
+from touchline.team.check.subject import CheckedRobot, Subject
+
+OPPONENT = "robot_agent.teams.simple:Simple"
+_MARGIN = 1.001
+"""A demand above a limit by less than this factor is a rounding."""
+
+
+@dataclass(slots=True)
+class Decision:
+    """One decision of the checked team."""
+
+    tick: int
+    robot: str
+    seconds: float
+    """Wall time of `act`."""
+    payload: bytes
+    """The command, encoded."""
+
+
+@dataclass(slots=True)
+class Played:
+    """What the checked team did in a match."""
+
+    decisions: list[Decision] = field(default_factory=list)
+    excesses: list[str] = field(default_factory=list)
+    """A sentence for each demand beyond a limit of its robot."""
+    refusals: list[str] = field(default_factory=list)
+    """A sentence for each part of a command that the host has refused."""
+    sights: dict[str, Sight] = field(default_factory=dict)
+    """Robot → its last sight."""
+
+
+def play_checked(subject: Subject, seconds: float, clock: Clock) -> Played:
+    """Play a match of `seconds` of simulated time against the team `simple`.
+
+    Raises:
+        BreachError: the checked team breaks the contract.
+    """
+    config, setup, played = subject.config, subject.setup(), Played()
+    changes = {"brain": OPPONENT, "command": None, "stdio": None, "remote": False}
+    teams = config.teams.model_copy(update={"magenta": config.teams.magenta.model_copy(update=changes)})
+    robots: dict[str, CheckedRobot] = {}
+    try:
+        for robot in subject.robots:
+            robots[robot] = subject.start(robot, setup)
+        brains: dict[str, Any] = {name: _Measured(one, setup, played, clock.now) for name, one in robots.items()}
+        play_match(config.model_copy(update={"teams": teams}), brains, until=seconds, brain_folder=subject.folder)
+    finally:
+        for one in robots.values():
+            one.close()
+    return played
+
+
+class _Measured:
+    """A brain around another robot's."""
+
+    def __init__(self, robot: CheckedRobot, setup: Setup, played: Played, now: Callable[[], float]) -> None:
+        self._robot, self._played, self._now = robot, played, now
+        self._limits = setup.for_robot(robot.robot)
+
+    def act(self, sight: Sight) -> Command:
+        """The command of the robot's own brain."""
+        began = self._now()
+        command = self._robot.act(sight)
+        took = self._now() - began
+        played, name = self._played, self._robot.robot
+        played.decisions.append(Decision(sight.tick, name, took, encode(command)))
+        played.refusals += [f"{name} at tick {sight.tick}: {reason}" for reason in sight.outcome.refused]
+        played.excesses += [f"{name} at tick {sight.tick}: {excess}" for excess in excesses(command, self._limits)]
+        played.sights[name] = sight
+        return command
+
+
+def excesses(command: Command, setup: Setup) -> list[str]:
+    """A sentence for each demand of a command beyond a limit of the robot whose setup this is."""
+    drive, kick, limits, kicker = command.drive, command.kick, setup.drive, setup.kicker
+    most_kick = 0.0
+    if kick is not None:
+        most = {KickMode.LOB: kicker.max_lob_speed, KickMode.LOFT: kicker.max_air_speed}
+        most_kick = most.get(kick.mode, kicker.max_ground_speed)
+    demands = (
+        ("drive", math.hypot(drive.vx, drive.vy), limits.max_speed, "m/s"),
+        ("drive.omega", abs(drive.omega), limits.max_turn_rate, "rad/s"),
+        ("kick.speed", kick.speed if kick is not None else 0.0, most_kick, "m/s"),
+    )
+    return [
+        f"{name} is {demand:.2f} {unit}, the limit is {most:g}"
+        for name, demand, most, unit in demands
+        if demand > most * _MARGIN
+    ]
