@@ -17,7 +17,7 @@ from runtime.process.process_log import configure_log, log_line
 from schemas.errors import TouchlineError
 
 if TYPE_CHECKING:
-    from coach_gateway.web.server import WebServer
+    from coach_gateway.web.serving.server import WebServer
 
 
 def run(settings: GatewaySettings) -> int:
@@ -47,8 +47,8 @@ def run(settings: GatewaySettings) -> int:
 def _page(settings: GatewaySettings, web: WebSettings, tokens: Tokens, listener: socket.socket | None) -> "WebServer":
     """The server of the page; prints where the page is before there is a match."""
     need_web()
-    from coach_gateway.web.binding import bind_page
-    from coach_gateway.web.server import WebServer
+    from coach_gateway.web.serving.binding import bind_page
+    from coach_gateway.web.serving.server import WebServer
 
     binding = bind_page(web, tokens, settings.tokens, listener)
     for line in binding.lines():

@@ -10,7 +10,7 @@ from coach_gateway.access.roles import Role
 from coach_gateway.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
-from coach_gateway.web.protocol import read_request
+from coach_gateway.web.pages.protocol import read_request
 from schemas.messages.coach import REQUIRED_FIELDS
 from schemas.wire.part import Part
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser
 
-from coach_gateway.web.match_result import FILE
+from coach_gateway.web.pages.match_result import FILE
 from recordings.reading.recording import open_recording
 from recordings.stats.page import page_of
 from runtime.bus.in_process_bus import SharedState

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from coach_gateway.access.tokens import tokens_of
 from coach_gateway.service import together
-from coach_gateway.web.binding import bind_page
-from coach_gateway.web.server import WebServer
+from coach_gateway.web.serving.binding import bind_page
+from coach_gateway.web.serving.server import WebServer
 from coach_gateway.web.settings import WebSettings
 from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock

@@ -9,7 +9,7 @@ from playwright.sync_api import BrowserContext, Locator, Page
 from support.page_gateway import SOON, TOKENS
 
 _APART_S = 0.5
-"""Above `APART_MS` of `coach_gateway/web/page/presses.js`, s."""
+"""Above `APART_MS` of `coach_gateway/web/page/deeds/presses.js`, s."""
 
 
 class Tab:

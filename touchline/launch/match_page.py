@@ -3,8 +3,8 @@
 import shlex
 from collections.abc import Iterator
 
-from coach_gateway.web.match_result import STATISTICS, STATISTICS_ADDRESS
-from coach_gateway.web.protocol import ResultUpdate
+from coach_gateway.web.pages.match_result import STATISTICS, STATISTICS_ADDRESS
+from coach_gateway.web.pages.protocol import ResultUpdate
 from schemas.errors import TouchlineError
 from touchline.launch.processes.programs import MatchPlan
 

@@ -37,7 +37,7 @@ from touchline.launch.terminal.screen import Screen
 from touchline.timing import LAST_MESSAGES_S, PAGE_CLOSES_S, POLL_S, WATCH_S
 
 if TYPE_CHECKING:
-    from coach_gateway.web.protocol import ResultUpdate
+    from coach_gateway.web.pages.protocol import ResultUpdate
 
 _AFTER_THE_RESULT = frozenset({ProcessKind.PAGE})
 """Processes that go on after the match, until the page with its result is closed."""
@@ -111,7 +111,7 @@ class MatchRun:
 
         `result` is what the page is given, one piece after another while the page is open.
         """
-        from coach_gateway.web.match_result import write_result
+        from coach_gateway.web.pages.match_result import write_result
 
         with StopSignals() as stop:
             for part in result:

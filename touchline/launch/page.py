@@ -7,7 +7,7 @@ from pathlib import Path
 
 from coach_gateway.access.tokens import page_address, read_or_make
 from coach_gateway.settings import GatewaySettings
-from coach_gateway.web.listener import listen, origin_of
+from coach_gateway.web.serving.listener import listen, origin_of
 from coach_gateway.web.settings import WebSettings, need_web
 from runtime.process.clock import Clock
 from touchline.launch.processes.child_process import ChildProcess

@@ -4,8 +4,8 @@ import asyncio
 
 import pytest
 
-from coach_gateway.web.frame_pace import FramePace
-from coach_gateway.web.send_queue import MOST, SendQueue
+from coach_gateway.web.pages.frame_pace import FramePace
+from coach_gateway.web.pages.send_queue import MOST, SendQueue
 
 
 def drained(queue: SendQueue, count: int) -> list[str]:

@@ -9,7 +9,8 @@ from collections.abc import Callable
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from coach_gateway.web import listener, send_queue, uvicorn_server
+from coach_gateway.web.pages import send_queue
+from coach_gateway.web.serving import listener, uvicorn_server
 from schemas.messages.world import ObstacleTruth
 from schemas.topics import WORLD
 from support.fake_host import FakeHost

@@ -7,8 +7,8 @@ import pytest
 
 from coach_gateway.access.rights import RIGHTS
 from coach_gateway.access.roles import Role
-from coach_gateway.web.protocol import read_request
-from coach_gateway.web.requests import refusal
+from coach_gateway.web.pages.protocol import read_request
+from coach_gateway.web.pages.requests import refusal
 from schemas.game import ActionName
 from schemas.side import Side
 

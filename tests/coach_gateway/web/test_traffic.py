@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from coach_gateway.web.rounding import rounded_json
+from coach_gateway.web.pages.rounding import rounded_json
 from schemas.config.match_config import load_match
 from schemas.messages.radio import BallBelief, Radio
 from schemas.messages.world import BallTruth

@@ -63,7 +63,7 @@ def test_a_badge_is_whole_in_every_panel(crowd, visit, width: int) -> None:
 
 
 LABELLED = """async (first) => {
-    const { drawRoleLabels } = await import("/role_labels.js");
+    const { drawRoleLabels } = await import("/field/role_labels.js");
     const places = { a: [0, 0], b: [1.2, 0], c: [6, 4], d: [6, 3.2] };
     const bodies = Object.entries(places).map(([name, [x, y]]) => ({ name, truth: { x, y }, radius: 0.25 }));
     const labels = bodies.filter(({ name }) => name !== "d").map((body) => ({ ...body, text: "right supporter" }));

@@ -163,7 +163,7 @@ def test_what_a_robot_believes_is_drawn_beside_what_is_true(match, visit) -> Non
 def test_restart_distances_are_those_of_the_rules_while_they_matter(match, visit) -> None:
     tab = visit(match)
     circles = """async () => {
-        const { circlesOf } = await import("/distances.js"), { setup } = window.touchline.match;
+        const { circlesOf } = await import("/field/distances.js"), { setup } = window.touchline.match;
         const of = (phase, side) => circlesOf({ phase, side }, setup);
         return { free: of("free_kick", "cyan"), drop: of("drop_ball", null), play: of("play", null) };
     }"""
@@ -177,7 +177,7 @@ def test_restart_distances_are_those_of_the_rules_while_they_matter(match, visit
 
 def test_between_two_pictures_bodies_move_evenly_and_those_set_down_jump(match, visit) -> None:
     script = """async () => {
-        const { FrameBuffer } = await import("/frame_buffer.js"), frames = new FrameBuffer();
+        const { FrameBuffer } = await import("/link/frame_buffer.js"), frames = new FrameBuffer();
         const wrapped = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
         const world = (tick) => ({ tick, time: 0.02 * tick, episode: 1, ball: { x: tick < 20 ? 0 : 9, y: 0, z: 0 },
             robots: { a: { x: 0.08 * tick, y: 0, z: 0, heading: wrapped(0.2 * tick) } } });

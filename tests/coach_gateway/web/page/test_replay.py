@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from coach_gateway.web.broadcaster import PageBroadcaster
+from coach_gateway.web.pages.broadcaster import PageBroadcaster
 from schemas.game import EventKind
 from schemas.messages.replay import ReplayReply
 from schemas.messages.world import World

@@ -1,0 +1,75 @@
+// Requests for deeds: each reply is shown beside its button or field, and kept in a log.
+
+import { byId, element } from "../parts/elements.js";
+
+const ACCEPTED_MS = 2500;
+const REFUSED_MS = 9000;
+const MOST = 200; // lines of the log
+
+export class Requests {
+  #bubbles = new Map();
+
+  constructor(connection) {
+    this.connection = connection;
+    addEventListener("scroll", () => this.#follow(), { capture: true, passive: true });
+    addEventListener("resize", () => this.#follow());
+  }
+
+  /** Requests a deed that people know as `words`; the verdict is shown beside the element `source`, if there is one. */
+  async ask(source, words, deed, content) {
+    source?.classList.add("asking");
+    const reply = await this.connection.ask(deed, content);
+    source?.classList.remove("asking");
+    this.show(source, words, reply);
+    return reply;
+  }
+
+  /** Shows a verdict. */
+  show(source, words, { accepted, reason }) {
+    const verdict = accepted ? "accepted" : `refused: ${reason}`;
+    this.#note(words, verdict, accepted);
+    if (source?.isConnected) this.#bubble(source, `${accepted ? "✓" : "✗"} ${verdict}`, accepted);
+  }
+
+  #note(words, verdict, accepted) {
+    const log = byId("log");
+    const time = new Date().toTimeString().slice(0, 8);
+    log.prepend(
+      element("li", { class: accepted ? "accepted" : "refused" }, element("time", {}, time), element("b", {}, words), ` ${verdict}`),
+    );
+    while (log.childElementCount > MOST) log.lastElementChild.remove();
+  }
+
+  #bubble(source, text, accepted) {
+    this.#remove(source);
+    const bubble = element("div", { class: `verdict ${accepted ? "accepted" : "refused"}`, aria: { hidden: "true" } }, text);
+    document.body.append(bubble);
+    lay(bubble, source);
+    const gone = setTimeout(() => this.#remove(source), accepted ? ACCEPTED_MS : REFUSED_MS);
+    this.#bubbles.set(source, { bubble, gone });
+  }
+
+  #remove(source) {
+    const there = this.#bubbles.get(source);
+    if (there === undefined) return;
+    clearTimeout(there.gone);
+    there.bubble.remove();
+    this.#bubbles.delete(source);
+  }
+
+  /** Moves the verdicts with their elements, and removes the verdicts of hidden ones. */
+  #follow() {
+    for (const [source, { bubble }] of [...this.#bubbles]) {
+      if (source.offsetParent === null) this.#remove(source);
+      else lay(bubble, source);
+    }
+  }
+}
+
+/** Places a bubble below its element, or above it for lack of room, and within the window. */
+function lay(bubble, source) {
+  const place = source.getBoundingClientRect(), size = bubble.getBoundingClientRect();
+  const below = place.bottom + size.height + 8 < innerHeight;
+  bubble.style.left = `${Math.max(6, Math.min(place.left, innerWidth - size.width - 6))}px`;
+  bubble.style.top = `${below ? place.bottom + 4 : place.top - size.height - 4}px`;
+}

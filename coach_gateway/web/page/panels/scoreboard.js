@@ -1,0 +1,90 @@
+// The head of the page: names, score, clock, phase, role, cards, and notices.
+
+import { byId, mark, setText, show } from "../parts/elements.js";
+import { clockText, halfText, phaseText, readable } from "../parts/text.js";
+
+export class Scoreboard {
+  #score = null;
+
+  constructor(match, connection) {
+    Object.assign(this, { match, connection });
+    match.on("welcome state host refbox replay", () => this.update());
+  }
+
+  /** Updates score, phase and cards; the clock follows the drawn frames. */
+  update() {
+    const { match } = this;
+    this.#notice();
+    if (match.setup === null) return;
+    const { teams } = match.setup;
+    document.title = `${teams.cyan.name} – ${teams.magenta.name}`;
+    setText(byId("cyan-name"), teams.cyan.name);
+    setText(byId("magenta-name"), teams.magenta.name);
+    const { state } = match;
+    this.#announce(state, teams);
+    setText(byId("score"), state ? `${state.score.cyan} : ${state.score.magenta}` : "– : –");
+    setText(byId("phase"), state ? phaseText(state, teams) : "Not begun");
+    byId("phase").dataset.side = state?.side ?? "";
+    const heard = this.connection.up && !this.connection.silent && match.hostThere;
+    mark(byId("phase"), "running", heard && state?.running === true);
+    setText(byId("half"), state ? halfText(state) : "");
+    setText(byId("left"), state?.left !== null && state?.left !== undefined ? `${Math.ceil(state.left)} s left` : "");
+    setText(byId("people"), state ? disciplineLine(state) : "");
+    byId("people").title = byId("people").textContent;
+  }
+
+  /** Announces a changed score to those who hear the page, not the score that it begins with. */
+  #announce(state, teams) {
+    const before = this.#score;
+    this.#score = state?.score ?? null;
+    if (before === null || this.#score === null) return;
+    const scored = ["cyan", "magenta"].filter((side) => this.#score[side] > before[side]);
+    const changed = scored.length > 0 || ["cyan", "magenta"].some((side) => this.#score[side] < before[side]);
+    if (!changed) return;
+    const what = scored.length ? `Goal for ${scored.map((side) => teams[side].name).join(" and ")}.` : "The score is corrected.";
+    setText(byId("announcer"), `${what} ${teams.cyan.name} ${this.#score.cyan}, ${teams.magenta.name} ${this.#score.magenta}.`);
+  }
+
+  /** Shows the clock of the drawn frame. */
+  tick(world) {
+    if (world !== null) setText(byId("clock"), clockText(world.clock));
+  }
+
+  #notice() {
+    const { match, connection } = this;
+    const words = [];
+    const over = match.over && (!connection.up || !match.hostThere);
+    if (over) words.push("The match is over. This page keeps its result until it is closed.");
+    else if (connection.closeReason) words.push(`The gateway closed the connection: ${connection.closeReason}. The page reconnects by itself.`);
+    else if (!connection.up) words.push("The connection is broken; the page reconnects by itself.");
+    else if (connection.silent) words.push("Nothing arrives any more; the connection may be broken.");
+    else if (match.setup === null) words.push("No host plays this match yet; the page waits for it.");
+    else if (!match.hostThere) words.push(match.live ? "The host has left; the page waits for it." : "The replay has ended.");
+    if (match.refbox.connected) {
+      const whom = match.refbox.team ? ` of ${match.refbox.team}` : "";
+      words.push(`A referee box commands the match${whom}; all buttons but Stop and its questions are locked.`);
+    }
+    show(byId("notice"), words.length > 0);
+    setText(byId("notice"), words.join(" "));
+    byId("notice").title = words.join(" ");
+    mark(document.body, "away", !over && (!connection.up || connection.silent || !match.hostThere));
+  }
+}
+
+/** Robots with cards, and robots off the field with the reason: `cyan3 1 yellow, off: repair, 12 s`. */
+function disciplineLine(state) {
+  return Object.entries(state.robots)
+    .map(([name, discipline]) => [name, disciplineText(discipline)])
+    .filter(([, words]) => words)
+    .map(([name, words]) => `${name} ${words}`)
+    .join(" · ");
+}
+
+/** A robot's cards, and why it is off the field. */
+export function disciplineText({ yellow, red, off_field: away, left }) {
+  const words = [];
+  if (yellow) words.push(`${yellow} yellow`);
+  if (red) words.push(`${red} red`);
+  if (away) words.push(`off: ${readable(away)}${left === null || left === undefined ? "" : `, ${Math.ceil(left)} s`}`);
+  return words.join(", ");
+}

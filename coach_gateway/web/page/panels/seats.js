@@ -1,0 +1,66 @@
+// Seats: who looks at the page, and which parts of it that person has. A part names its seats in `data-for`.
+
+import { byId, setText, show } from "../parts/elements.js";
+
+const KEY = "touchline.seat";
+const NAMES = { spectator: "watching", referee: "referee", operator: "operator", cyan: "coach of cyan", magenta: "coach of magenta" };
+
+/** The seat of a role: a coach of either side, the referee, or the operator, who has the referee's token, too. */
+export function seatOf(role, operates) {
+  if (role === "cyan" || role === "magenta") return "coach";
+  return role === "referee" && operates ? "operator" : role;
+}
+
+export class Seats {
+  #operates = kept();
+
+  /** `changed` is called when the seat has changed. */
+  constructor(match, changed) {
+    Object.assign(this, { match, changed });
+    for (const button of document.querySelectorAll(".swap-seat")) button.addEventListener("click", () => this.#swap());
+    match.on("welcome", () => this.update());
+    this.update();
+  }
+
+  get seat() {
+    return this.match.live ? seatOf(this.match.role, this.#operates) : "spectator";
+  }
+
+  /** Shows the parts of this seat alone. */
+  update() {
+    const { match, seat } = this;
+    Object.assign(document.body.dataset, { role: match.role, live: match.live, seat });
+    for (const part of document.querySelectorAll("[data-for]")) {
+      show(part, match.live && part.dataset.for.split(" ").includes(seat));
+    }
+    setText(byId("role"), match.live ? NAMES[seat === "coach" ? match.role : seat] : "recording");
+    for (const button of document.querySelectorAll(".swap-seat")) {
+      show(button, match.live && match.role === "referee");
+      setText(button, seat === "operator" ? "Referee’s page" : "Operator’s page");
+    }
+    this.changed(seat);
+  }
+
+  #swap() {
+    this.#operates = !this.#operates;
+    keep(this.#operates);
+    this.update();
+  }
+}
+
+/** Whether this tab is the operator's. */
+function kept() {
+  try {
+    return sessionStorage.getItem(KEY) === "operator";
+  } catch {
+    return false; // storage may be forbidden
+  }
+}
+
+function keep(operates) {
+  try {
+    sessionStorage.setItem(KEY, operates ? "operator" : "referee");
+  } catch {
+    // storage may be forbidden: the choice lasts until the page is closed
+  }
+}

@@ -1,0 +1,1 @@
+"""The open pages: what they are sent, and what they request."""

@@ -1,0 +1,1 @@
+"""The web server: its ports, its files, and the WebSocket of a page."""
