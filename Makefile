@@ -50,7 +50,7 @@ bench-scheduling: $(READY) ## measure plans of many matches, for example: make b
 soak: $(READY) ## play in real time and fail if memory, threads or descriptors grow: make soak ARGS="--minutes 10"
 	@.venv/bin/python benchmarks/check_soak.py $(ARGS)
 
-LOWEST_TESTS := tests/schemas tests/robot_agent tests/recordings tests/coach_gateway/access tests/touchline/commands/cli \
+LOWEST_TESTS := tests/schemas tests/runtime tests/robot_agent tests/recordings tests/coach_gateway/access \
 	tests/touchline/commands
 
 lowest: $(READY) ## run tests with the lowest supported versions of all dependencies, in .venv-lowest
