@@ -136,10 +136,9 @@ class Host:
                 return
 
     def _lacks_remote_side(self) -> bool:
-        stats = self.inbox.agent_stats
-        return not all(
-            any(stats[name].alive for name in self._config.robots(side)) for side in self._config.remote_sides
-        )
+        sides, stats = self._sides(), self.inbox.agent_stats
+        there = {side for name, side in sides.items() if stats[name].alive}
+        return any(side in self._config.remote_sides and side not in there for side in sides.values())
 
     def begin(self) -> None:
         """Publish tick 0."""

@@ -4,7 +4,8 @@ import pytest
 
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
-from schemas.topics import APPLIED, COMMAND, WORLD
+from schemas.messages.scene import SceneOperation, SceneRequest
+from schemas.topics import APPLIED, COMMAND, SCENE, WORLD
 from sim_host.server.admission.agent_stats import SILENT_TICKS
 from support.host_rig import TEAMS
 
@@ -203,6 +204,22 @@ def test_a_remote_side_is_waited_for_until_one_of_its_robots_is_there(rig_of, mo
     monkeypatch.setattr(rig.host.presence, "update", update)
     rig.host.wait_for_all()
     assert rig.clock.now() == pytest.approx(begins_at, abs=0.15)
+
+
+def test_a_remote_side_whose_robots_an_operator_has_removed_is_waited_for_no_longer(rig_of, monkeypatch):
+    rig = rig_of(teams={**TEAMS, "magenta": {**TEAMS["magenta"], "remote": True}}, patience={"remote": 0.5})
+    rig.join("cyan1")  # cyan2 is missing, too: the wait does not end with its roster
+    rig.outside.query(SCENE, SceneRequest(operation=SceneOperation.REMOVE, remove=["magenta1"]))
+    look = rig.host.presence.update
+
+    def update(timeout: float = 0.0) -> None:
+        look()
+        rig.pass_time(0.1)
+        assert rig.clock.now() < 2.0
+
+    monkeypatch.setattr(rig.host.presence, "update", update)
+    rig.host.wait_for_all()
+    assert "magenta1" not in rig.host.simulation.roster.names
 
 
 def test_a_stopped_host_waits_for_no_robot_and_ends_its_tick(rig):
