@@ -22,8 +22,8 @@ from runtime.bus.contract import Bus, Subscription
 from runtime.bus.zenoh.bus import open_client
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
-from schemas.game import TeamPhase
 from schemas.side import Side
+from schemas.soccer.game import TeamPhase
 from schemas.topics import SIGHT
 
 SECONDS = 8.0

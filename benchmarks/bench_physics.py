@@ -22,7 +22,7 @@ from rich.table import Table
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.frames import Pose
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
@@ -31,10 +31,10 @@ from sim_host.match.radio import RadioAir
 from sim_host.match.sights import Sights
 from sim_host.match.world import World
 from sim_host.physics.engine import Engine
-from sim_host.referee.core import Referee
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster, Snapshot
+from sim_host.soccer.referee.core import Referee
 
 SIZES = (2, 6, 10, 22, 100)
 PROFILES = ("msl", "omni")

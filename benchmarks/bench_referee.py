@@ -17,8 +17,8 @@ from functools import partial
 from typing import NamedTuple
 
 from schemas.config.match_config import load_match
-from schemas.config.rule_book import load_rule_book
-from schemas.game import Phase
+from schemas.config.soccer.rule_book import load_rule_book
+from schemas.soccer.game import Phase
 from touchline.play.play_match import InProcessMatch
 
 RULES = "msl"

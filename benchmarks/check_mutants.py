@@ -16,8 +16,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 AREAS = {
-    "referee": "sim_host.referee.",
+    "referee": "sim_host.soccer.referee.",
     "actuation": "sim_host.actuation.",
+    "ball": "sim_host.soccer.ball.",
     "sensing": "sim_host.sensing.",
     "bus": "runtime.bus.",
     "recordings": "recordings.",

@@ -22,8 +22,8 @@ from functools import partial
 from typing import Any
 
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.game import EventKind
 from schemas.side import Side
+from schemas.soccer.game import EventKind
 from sim_host.match.simulation import TickResult
 from touchline.play.play_match import play_match
 

@@ -5,18 +5,18 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 
-from coach_gateway import refbox
 from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK, InheritedSockets, bound_socket
-from coach_gateway.refbox.audience_feed import AudienceFeed
-from coach_gateway.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.refbox.framing import BoxProtocol
-from coach_gateway.refbox.identity import SENT
-from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
 from coach_gateway.settings import BridgeOptions
+from coach_gateway.soccer import refbox
+from coach_gateway.soccer.refbox.audience_feed import AudienceFeed
+from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.soccer.refbox.framing import BoxProtocol
+from coach_gateway.soccer.refbox.identity import SENT
+from coach_gateway.soccer.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.udp.server import UdpServer
 from runtime.bus.contract import Bus
 from schemas.errors import TouchlineError

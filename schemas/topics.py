@@ -10,18 +10,18 @@ from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
-from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
 from schemas.messages.health import Health, Invalid
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.radio import Belief
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderProgress
-from schemas.messages.referee_seat import SeatReply, SeatRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.soccer.referee_seat import SeatReply, SeatRequest
 from schemas.messages.world import BallFrame, RobotFrame, World
 from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES
 from schemas.topic import Delivery, Party, Topic

@@ -117,9 +117,9 @@ def test_tests_use_no_more_of_our_private_members_than_they_did():
     "line",
     [
         "rig.host._outbox._sights",
-        "from sim_host.referee.rules import _occasions, _rules_to_ask",
+        "from sim_host.soccer.referee.rules import _occasions, _rules_to_ask",
         'monkeypatch.setattr(module, "_SILENCE_S", 0.1)\nrig._x',
-        'monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 1)\nbox._peers',
+        'monkeypatch.setattr("coach_gateway.soccer.refbox.client._UNREAD", 1)\nbox._peers',
     ],
 )
 def test_each_use_of_our_private_members_counts(line):

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from robot_agent.teams.player import Player as Player
     from schemas.config.match_config import MatchConfig as MatchConfig
     from schemas.config.match_config import load_match as load_match
-    from schemas.game import TeamPhase as TeamPhase
     from schemas.messages.coach import CoachOrder as CoachOrder
     from schemas.messages.command import Command as Command
     from schemas.messages.command import Drive as Drive
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     from schemas.messages.radio import Motion as Motion
     from schemas.messages.radio import Radio as Radio
     from schemas.messages.sight import Sight as Sight
+    from schemas.soccer.game import TeamPhase as TeamPhase
     from touchline import skills as skills
     from touchline.play.play_match import MatchOutcome as MatchOutcome
     from touchline.play.play_match import play_match as play_match
@@ -42,7 +42,7 @@ _NAMES = {
     "robot_agent.teams.player": ("Player",),
     "robot_agent.sdk.world_model": ("SeenBall", "Teammate", "WorldBelief", "WorldModel"),
     "schemas.config.match_config": ("MatchConfig", "load_match"),
-    "schemas.game": ("TeamPhase",),
+    "schemas.soccer.game": ("TeamPhase",),
     "schemas.messages.coach": ("CoachOrder",),
     "schemas.messages.command": ("Command", "Drive", "Kick", "KickMode"),
     "schemas.messages.debug": ("Debug",),

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 from coach_gateway.access.roles import COACHES, Role
 from schemas.errors import did_you_mean
-from schemas.game import ActionName
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 
 _REFEREE = frozenset({Role.REFEREE})
 _BENCH = frozenset({Role.REFEREE, *COACHES})

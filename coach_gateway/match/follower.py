@@ -13,13 +13,13 @@ from coach_gateway.match.orders import OrderBook, OrderFollower
 from coach_gateway.timing import POLL_S, STATE_SETTLES_S
 from runtime.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
 from runtime.bus.host_watch import HostWatch
-from schemas.game import Phase
-from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.recorder import RecorderProgress
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.soccer.game import Phase
 from schemas.topics import BELIEF, EVENT, HEALTH, RECORDER_PROGRESS, STATE, WORLD
 from schemas.wire.message import BadMessageError
 

@@ -9,9 +9,9 @@ from coach_gateway.timing import POLL_S, REPLY_S
 from runtime.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
-from schemas.messages.game import ActionReply, RefereeAction
-from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.messages.setup import Setup, SetupRequest
+from schemas.messages.soccer.game import ActionReply, RefereeAction
+from schemas.messages.soccer.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, REFEREE_SEAT, SETUP

@@ -1,8 +1,8 @@
 """The match in plain words: one line for a state, one for an event."""
 
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
-from schemas.game import SIDED, GameStage
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.soccer.game import SIDED, GameStage
 
 
 def clock_text(seconds: float) -> str:

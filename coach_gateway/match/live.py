@@ -15,14 +15,14 @@ from coach_gateway.service import pause
 from coach_gateway.timing import CATCH_UP_S, HOST_RETRY_S, POLL_S
 from runtime.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
-from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachOrder
-from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.radio import Belief
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import ActionReply, GameState, RefereeAction
 from schemas.messages.world import World
 from schemas.natural_order import natural_order
 from schemas.side import Side
+from schemas.soccer.game import REFBOX, ActionName
 
 _REQUESTS = 4
 """Requests at the same time; further ones wait. A stop, and what a league's box commands, wait for no others."""

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from schemas.config.match_config import MatchConfig
-from schemas.game import Score
 from schemas.messages.setup import Setup
 from schemas.side import Side
+from schemas.soccer.game import Score
 
 _SIDES = re.compile(rf"\b({'|'.join(Side)})\b")
 

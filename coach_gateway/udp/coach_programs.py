@@ -23,10 +23,10 @@ from coach_gateway.udp.protocol import (
     ProgramRequest,
 )
 from coach_gateway.udp.session import Address, SequenceStatus, Session
-from schemas.game import ActionName
 from schemas.messages.coach import CoachMode
-from schemas.messages.game import RefereeAction
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import decoded
 

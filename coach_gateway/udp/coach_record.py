@@ -7,9 +7,9 @@ whether the ball is taken along and whether obstacles are avoided.
 from enum import StrEnum
 from typing import NamedTuple
 
-from schemas.game import ActionName, TeamPhase
 from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
+from schemas.soccer.game import ActionName, TeamPhase
 
 
 class MatchMode(StrEnum):

@@ -11,8 +11,8 @@ from msgspec import Meta
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
 from coach_gateway.udp.coach_record import MatchMode
-from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.radio import Belief
+from schemas.messages.soccer.game import GameEvent, GameState, RefereeAction
 from schemas.side import Side
 from schemas.wire.message import PRINTABLE, Name
 from schemas.wire.part import Part

@@ -15,8 +15,8 @@ from coach_gateway.udp.coach_record import MatchMode
 from coach_gateway.udp.protocol import Ack, BeliefUpdate, BelievedObstacle, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import Address, Session
 from schemas.errors import TouchlineError
-from schemas.game import TeamPhase
 from schemas.side import Side
+from schemas.soccer.game import TeamPhase
 from schemas.wire.part import Part
 
 _EVENTS_AT_ONCE = 50

@@ -4,27 +4,27 @@ from msgspec import Raw
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
-from schemas.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
 from schemas.messages.admission import AdmissionReply, AdmissionRequest
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.debug import Debug, DebugCircle, DebugLine, RobotDebug
-from schemas.messages.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
 from schemas.messages.health import AccountHealth, Health, Invalid, RobotHealth
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderProgress
-from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import BallSight, Obstacle, Outcome, ReceivedRadio, Sight
+from schemas.messages.soccer.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
+from schemas.messages.soccer.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.messages.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
 from schemas.side import Side
+from schemas.soccer.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
 from schemas.wire.message import Message
 
 _TICK, _TIME = 412, 8.24

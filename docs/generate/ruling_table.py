@@ -15,8 +15,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import NamedTuple
 
-from schemas.game import EventKind
-from sim_host.referee.rules import RULES, SHOOT_OUT, Rule
+from schemas.soccer.game import EventKind
+from sim_host.soccer.referee.rules import RULES, SHOOT_OUT, Rule
 
 LABELS = ("Section", "Measures", "Not judged")
 """The labels that the docstring of every rule has, in this order, after the description of the rule."""
@@ -36,7 +36,7 @@ _RESTARTS = re.compile(
 )
 _KINDS_OF_RESTART = re.compile(r"\b(free kick|a penalty|corner|goal kick|throw-in|kick-off|dropped)\b")
 _KIND = re.compile(r"EventKind\.(\w+)")
-_TESTS = Path("tests") / "sim_host" / "referee"
+_TESTS = Path("tests") / "sim_host" / "soccer" / "referee"
 
 
 class Row(NamedTuple):
@@ -126,7 +126,7 @@ def _kinds(module: ModuleType) -> tuple[EventKind, ...]:
     for node in ast.walk(ast.parse(inspect.getsource(module))):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "EventKind":
             found[EventKind[node.attr]] = None
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("sim_host.referee.rules."):
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("sim_host.soccer.referee.rules."):
             imported = [getattr(sys.modules[str(node.module)], one.name) for one in node.names]
             for function in filter(inspect.isfunction, imported):
                 found |= dict.fromkeys(EventKind[name] for name in _KIND.findall(inspect.getsource(function)))

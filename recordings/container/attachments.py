@@ -3,7 +3,7 @@
 from recordings.container.json_schema import whole_schema
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import FILES as PROFILES
-from schemas.config.rule_book import FILES as RULE_BOOKS
+from schemas.config.soccer.rule_book import FILES as RULE_BOOKS
 from schemas.topic import Delivery
 from schemas.topics import TOPICS
 from schemas.wire.message import Message
@@ -14,7 +14,7 @@ MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
 PROFILE = "profile.json"
 """The attachment with the profile and the profiles that it extends, for `schemas.config.profile.profile_of`."""
 RULE_BOOK = "rules.json"
-"""The attachment with the rule book and those that it extends, for `schemas.config.rule_book.rule_book_of`."""
+"""The attachment with the rule book and those that it extends, for `schemas.config.soccer.rule_book.rule_book_of`."""
 
 
 def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:

@@ -7,8 +7,8 @@ from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from runtime.process.clock import Clock
 from schemas.config.match_config import MatchConfig
-from schemas.game import Phase, Score
 from schemas.messages.setup import Setup
+from schemas.soccer.game import Phase, Score
 from schemas.topics import EVENT
 from schemas.wire.message import VERSION, Name
 from schemas.wire.part import Part

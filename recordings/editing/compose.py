@@ -15,9 +15,9 @@ from recordings.recorder.sequence_tracker import LossCounts
 from runtime.bus.contract import ReceivedMessage, Stamp
 from runtime.process.clock import WallClock
 from runtime.process.whole_file import written_whole
-from schemas.game import Phase
-from schemas.messages.game import GameState
+from schemas.messages.soccer.game import GameState
 from schemas.messages.world import World
+from schemas.soccer.game import Phase
 from schemas.topic import Topic
 from schemas.topics import STATE
 from schemas.wire.message import Message

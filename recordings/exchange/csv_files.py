@@ -11,11 +11,11 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.editing.atomic_output import ExportSummary, atomic_output
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import COMMAND, DEBUG, EVENT, STATE, WORLD

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from recordings.exchange.atomic_output import ExportSummary
-    from recordings.exchange.msl.import_log import ImportSummary
+    from recordings.editing.atomic_output import ExportSummary
     from recordings.reading.recording import Recording
+    from recordings.soccer.league.import_log import ImportSummary
 
 
 class Exporter(NamedTuple):
@@ -55,11 +55,11 @@ class Importer(NamedTuple):
 
 EXPORTERS = {
     "csv": Exporter("recordings.exchange.csv_files", "-csv", "tables of robots, ball, events, states and commands"),
-    "msl-log": Exporter("recordings.exchange.msl.export", ".msl.zip", "the log of the league's referee box"),
+    "msl-log": Exporter("recordings.soccer.league.export", ".msl.zip", "the log of the league's referee box"),
     "protobuf": Exporter("recordings.exchange.protobuf.export", "-protobuf.mcap", "MCAP with typed messages"),
     "ros2": Exporter("recordings.exchange.ros2", "-ros2", "a ROS 2 bag of clock, transforms, odometry and twists"),
 }
 """Format → its exporter."""
 
-IMPORTERS = {"msl-log": Importer("recordings.exchange.msl.import_log")}
+IMPORTERS = {"msl-log": Importer("recordings.soccer.league.import_log")}
 """Format → its importer."""

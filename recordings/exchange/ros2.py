@@ -12,14 +12,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.editing.atomic_output import ExportSummary, atomic_output
 from recordings.reading.recording import Recording
 from recordings.viz.transforms import BALL, MAP, base
 from schemas.errors import TouchlineError
 from schemas.frames import Pose, to_body
 from schemas.messages.command import Command
-from schemas.messages.game import GameEvent, GameState
 from schemas.messages.radio import Belief
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.topics import BELIEF, COMMAND, EVENT, STATE, WORLD

@@ -10,11 +10,11 @@ from recordings.container.manifest import MANIFEST, EndReason, KeyCount, Result
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import ChannelFacts, Recording
 from recordings.recorder.sequence_tracker import LossCounts
-from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
+from schemas.config.soccer.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
-from schemas.messages.game import GameState
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameState
 from schemas.natural_order import natural_order
 from schemas.topics import APPLIED, EVENT, STATE
 

@@ -37,10 +37,10 @@ def trace(path: Path, out: Path) -> None:
         TouchlineError: as for `draw`.
     """
     _need_matplotlib()
-    from recordings.picture.heat_map import draw_goals, draw_heat
     from recordings.picture.picture_data import PictureData
     from recordings.picture.pitch import draw_pitch
     from recordings.picture.sheet import Sheet
+    from recordings.picture.soccer import draw_goals, draw_heat
 
     data = PictureData(path)
     worlds = data.in_play()

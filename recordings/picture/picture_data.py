@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 from recordings.reading.recording import RecordedMessage, open_recording
 from schemas.errors import TouchlineError
-from schemas.game import EventKind, Phase, Score
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topics import EVENT, STATE, WORLD
 
 TRAIL_S = 3.0

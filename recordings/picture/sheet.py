@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from recordings.picture.bodies import COLOURS
 from recordings.picture.picture_data import PictureData
 from schemas.errors import TouchlineError
-from schemas.game import Score
 from schemas.side import Side
+from schemas.soccer.game import Score
 
 _INK = "#10241a"
 _FAINT = "#5d6b63"

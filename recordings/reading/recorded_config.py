@@ -8,7 +8,7 @@ from recordings.container.attachments import PROFILE, RULE_BOOK
 from recordings.reading.recording import Recording
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 
 

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 from pydantic_core import from_json
 
 from recordings.reading.recording import RecordedMessage, Recording
-from schemas.game import Phase
 from schemas.messages.applied import Applied
-from schemas.messages.game import GameState
+from schemas.messages.soccer.game import GameState
+from schemas.soccer.game import Phase
 from schemas.topics import APPLIED, STATE, WORLD
 from schemas.wire.message import BadMessageError
 

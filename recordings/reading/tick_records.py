@@ -10,9 +10,9 @@ from recordings.reading.command_check import CommandCheck
 from recordings.reading.record_order import RecordOrder
 from recordings.reading.recording import RecordedMessage, Recording
 from recordings.reading.tick_index import Segment
-from schemas.game import EventKind
 from schemas.messages.applied import Applied
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
+from schemas.soccer.game import EventKind
 from schemas.topics import APPLIED, BELIEF, COMMAND, EVENT, STATE, WORLD
 from schemas.wire.message import BadMessageError
 

@@ -8,9 +8,9 @@ from recordings.container.applied_changes import changes_in
 from recordings.container.manifest import EndReason, KeyCount, Result
 from runtime.bus.contract import ReceivedMessage
 from schemas.config.roster import RosterEntry
-from schemas.game import EventKind, Phase
 from schemas.messages.applied import Applied
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.soccer.game import EventKind, Phase
 from schemas.topics import APPLIED, EVENT, STATE
 from schemas.wire.message import BadMessageError
 

@@ -11,11 +11,11 @@ from recordings.timing import LATCHED_S, REPLAY_POLL_S, REPLAY_STEP_S
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
 from runtime.process.timing import PARTING_S
-from schemas.messages.game import ActionReply
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import ActionReply
 from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 from schemas.wire.message import VERSION, BadMessageError, Message

@@ -14,8 +14,8 @@ from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
 from recordings.timing import GROWTH_S
 from runtime.process.clock import Clock
 from schemas.errors import TouchlineError
-from schemas.messages.game import GameEvent
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.soccer.game import GameEvent
 from schemas.topic import Topic
 from schemas.topics import ACTIVE_ORDER, APPLIED, BELIEF, COMMAND, DEBUG, HEALTH, ORDER, SIGHT, STATE, WORLD
 

@@ -12,7 +12,7 @@ from recordings.replay.player import PlaybackRange, Player
 from recordings.replay.seek_targets import time_in
 from runtime.process.clock import Clock
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
 from schemas.topics import EVENT
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.game import EventKind, Phase
+from schemas.soccer.game import EventKind, Phase
 from schemas.topics import EVENT, STATE
 
 _TICK = re.compile(r"tick:(\d+)")

@@ -12,15 +12,15 @@ from recordings.viz.debug import debug_entity
 from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
-from recordings.viz.game import log_entry, scoreboard
 from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
+from recordings.viz.soccer import log_entry, scoreboard
 from recordings.viz.transforms import Transforms
 from runtime.bus.contract import ReceivedMessage
 from schemas.messages.applied import Applied
 from schemas.messages.debug import RobotDebug
-from schemas.messages.game import GameEvent, GameState
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import ObstacleTruth
 from schemas.topics import APPLIED, DEBUG, EVENT, STATE, WORLD
 from schemas.wire.message import BadMessageError

@@ -14,9 +14,9 @@ from robot_agent.sdk.contract import Briefing
 from robot_agent.sdk.opponents import Opponents
 from schemas.config.rolling import Rolling
 from schemas.frames import wrap
-from schemas.messages.game import GameView
 from schemas.messages.radio import Motion
 from schemas.messages.sight import BallSight, ReceivedRadio, Sight
+from schemas.messages.soccer.game import GameView
 
 FRESH = 0.2
 """s; a ball seen longer ago than this by the robot itself may have been seen later by a teammate."""

@@ -5,7 +5,7 @@ import math
 from robot_agent.sdk.skills.keep_out import Area
 from robot_agent.sdk.world_model import WorldBelief
 from robot_agent.teams.fair_play import RuleLimits
-from schemas.game import TeamPhase
+from schemas.soccer.game import TeamPhase
 
 LEAVES_BEFORE = 2.0
 """s before its time is up, when a robot leaves."""

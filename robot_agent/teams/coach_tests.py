@@ -23,10 +23,10 @@ from robot_agent.soccer.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
 from schemas.config.rolling import Rolling
 from schemas.frames import wrap
-from schemas.game import Point
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.command import Drive, KickMode
 from schemas.messages.setup import Setup
+from schemas.soccer.game import Point
 
 ROLE = "test"
 ARRIVED = 0.1

@@ -10,8 +10,8 @@ from robot_agent.sdk.bodies import Body
 from robot_agent.sdk.world_model import WorldBelief
 from robot_agent.soccer.skills.take_ball import HAS_IT
 from schemas.frames import Point
-from schemas.game import TeamPhase
 from schemas.messages.setup import Setup
+from schemas.soccer.game import TeamPhase
 
 SHORT_STAY = 2.0
 """s; a shorter time is too short to leave an area."""

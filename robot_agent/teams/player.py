@@ -25,11 +25,11 @@ from robot_agent.teams.reports import radio_message, why_refused
 from robot_agent.teams.set_piece import PENALTIES
 from schemas.config.rolling import Rolling
 from schemas.config.roster import goalkeeper_of
-from schemas.game import GameStage, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command, Drive
-from schemas.messages.game import GameView
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import GameView
+from schemas.soccer.game import GameStage, TeamPhase
 
 RADIO_EVERY = 5
 """Ticks between two radio messages: 10 Hz at a tick of 20 ms."""

@@ -5,9 +5,9 @@ from collections.abc import Collection
 
 from robot_agent.sdk.world_model import WorldBelief
 from robot_agent.teams.action import Action
-from schemas.game import Point
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.radio import MAX_OBSTACLES, BallBelief, Motion, Radio
+from schemas.soccer.game import Point
 
 _MOST = 80
 """Characters of a reason, as of `schemas.wire.message.ShortText`."""

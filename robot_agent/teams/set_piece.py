@@ -10,12 +10,12 @@ from robot_agent.sdk.skills.keep_out import Area
 from robot_agent.sdk.skills.turn_to import turn_rate
 from robot_agent.soccer.skills.keep_off import inside, keep_off, way_around
 from robot_agent.soccer.skills.line_up import line_up
-from schemas.config.rule_book import Restarts
 from schemas.config.sections import Pitch
-from schemas.game import TeamPhase
+from schemas.config.soccer.rule_book import Restarts
 from schemas.messages.command import Drive
-from schemas.messages.game import GameView
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameView
+from schemas.soccer.game import TeamPhase
 
 MARGIN = 0.2
 """m beyond the required distance, for the noise of positions."""

@@ -13,10 +13,10 @@ from robot_agent.sdk.world_model import WorldBelief
 from robot_agent.soccer.skills.kick_at import kick_at
 from robot_agent.teams.set_piece import step_in
 from schemas.config.sections import Pitch
-from schemas.game import TeamPhase
 from schemas.messages.command import Drive, Kick
-from schemas.messages.game import GameView
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameView
+from schemas.soccer.game import TeamPhase
 
 WAITS = 0.7
 """m before the halfway line where the kicker waits, in the centre circle."""

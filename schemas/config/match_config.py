@@ -30,15 +30,15 @@ from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import FILES as PROFILES
 from schemas.config.profile import Profile, load_profile, profile_of
 from schemas.config.roster import MAX_ROBOTS, RESERVED
-from schemas.config.rule_book import FILES as RULE_BOOKS
-from schemas.config.rule_book import RuleBook, load_rule_book, rule_book_of
 from schemas.config.scene import REMEDIES as SCENE_REMEDIES
 from schemas.config.scene import Scene, load_scene
 from schemas.config.settings import DEFAULT_MATCH
+from schemas.config.soccer.rule_book import FILES as RULE_BOOKS
+from schemas.config.soccer.rule_book import RuleBook, load_rule_book, rule_book_of
 from schemas.config.toml_file import read_tables, validate_tables
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.game import OfficiatingMode
 from schemas.side import Side
+from schemas.soccer.game import OfficiatingMode
 from schemas.wire.message import Name
 
 REMOTE = "remote"

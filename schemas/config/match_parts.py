@@ -11,8 +11,8 @@ from schemas.config.noise import PRESETS
 from schemas.config.roster import MAX_ROBOTS
 from schemas.config.settings import RecordOptions
 from schemas.errors import did_you_mean
-from schemas.game import OfficiatingMode
 from schemas.side import Side
+from schemas.soccer.game import OfficiatingMode
 from schemas.wire.message import Name
 
 Parameter = bool | int | float | Annotated[str, Field(max_length=1000)]

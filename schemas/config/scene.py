@@ -10,14 +10,14 @@ from typing import Annotated
 from pydantic import Field, StringConstraints, model_validator
 
 from schemas.config.config_model import ConfigModel
-from schemas.config.drill import Drill, Variation
 from schemas.config.number_files import NumberFiles
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
+from schemas.config.soccer.drill import Drill, Variation
 from schemas.config.toml_file import validate_tables
 from schemas.errors import did_you_mean
-from schemas.game import RESTARTS, SIDED, Phase
 from schemas.side import Side
+from schemas.soccer.game import RESTARTS, SIDED, Phase
 from schemas.wire.message import Name
 
 Speed = Annotated[float, Field(ge=-40, le=40)]

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from schemas.config.roster import RosterEntry
-from schemas.config.rule_book import SHIPPED, RuleBook, load_rule_book
+from schemas.config.soccer.rule_book import SHIPPED, RuleBook, load_rule_book
 from schemas.errors import TouchlineError
 from schemas.side import Side
 

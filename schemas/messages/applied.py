@@ -7,10 +7,10 @@ import msgspec
 
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.roster import Placement, RosterEntry
-from schemas.game import EventKind
 from schemas.messages.command import Drive, Kick
-from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.parameters import ParameterName, Setting
+from schemas.messages.soccer.game import GameEvent, RefereeAction
+from schemas.soccer.game import EventKind
 from schemas.wire.message import BadMessageError, Message, Name
 from schemas.wire.part import Part, encode
 

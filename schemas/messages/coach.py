@@ -7,8 +7,8 @@ from typing import Annotated
 from msgspec import Meta
 
 from schemas.config.sections import Pitch
-from schemas.game import Point
 from schemas.messages.command import KickMode, KickSpeed
+from schemas.soccer.game import Point
 from schemas.wire.checked import Checked
 from schemas.wire.message import Message, Name, ShortText
 from schemas.wire.units import MAX_WHOLE

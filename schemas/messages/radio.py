@@ -4,7 +4,7 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from schemas.game import Point
+from schemas.soccer.game import Point
 from schemas.wire.checked import Checked
 from schemas.wire.message import Message, Name, ShortText
 from schemas.wire.part import Part

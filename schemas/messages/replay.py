@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar
 
 from msgspec import Meta
 
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
 from schemas.wire.message import Message
 
 

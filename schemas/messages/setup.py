@@ -3,18 +3,18 @@
 from collections.abc import Mapping
 from typing import Any, Self
 
-from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig, Parameter
 from schemas.config.number_files import UNVERSIONED
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
-from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
-from schemas.config.rule_book import Discipline, People, Periods, Restarts, RuleBook, Stall
 from schemas.config.sections import Ball, CameraView, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
-from schemas.game import OfficiatingMode
+from schemas.config.soccer.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
+from schemas.config.soccer.rule_book import SECTIONS as RULE_SECTIONS
+from schemas.config.soccer.rule_book import Discipline, People, Periods, Restarts, RuleBook, Stall
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
+from schemas.soccer.game import OfficiatingMode
 from schemas.wire.message import Message, Name
 from schemas.wire.part import Part
 

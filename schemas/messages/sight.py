@@ -1,8 +1,8 @@
 """What one robot knows at one tick, in its team frame: each team attacks +x in its own frame."""
 
 from schemas.messages.coach import CoachOrder
-from schemas.messages.game import GameView
 from schemas.messages.radio import BallBelief, Motion, RadioContent
+from schemas.messages.soccer.game import GameView
 from schemas.side import Side
 from schemas.wire.message import Message, Name
 from schemas.wire.part import Part

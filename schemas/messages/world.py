@@ -1,8 +1,8 @@
 """The truth of one tick, in the field frame."""
 
 from schemas.config.obstacle import Shape
-from schemas.game import OffField
 from schemas.side import Side
+from schemas.soccer.game import OffField
 from schemas.wire.message import Message, Name
 from schemas.wire.part import Part
 

@@ -3,18 +3,18 @@
 from dataclasses import replace
 
 from schemas.config.roster import Placement
-from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
+from schemas.config.soccer.rule_book import RuleBook
 from schemas.errors import TouchlineError
-from schemas.game import EventKind, Phase
 from schemas.messages.applied import OperatorChange
 from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest, Setting
 from schemas.messages.scene import SceneReply, SceneRequest
+from schemas.soccer.game import EventKind, Phase
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.subsystems import Subsystems
-from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import BALL, Snapshot
+from sim_host.soccer.referee.game.referee_state import RefereeState
 from sim_host.staging.layout import Layout, LayoutChange, Specs
 from sim_host.staging.operations import ResetScenes, apply_request
 

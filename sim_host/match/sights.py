@@ -11,10 +11,10 @@ from schemas.messages.radio import Motion
 from schemas.messages.sight import BallSight, Outcome, Sight
 from schemas.side import Side
 from sim_host.match.radio import RadioAir
-from sim_host.referee.game.referee_state import RefereeState
-from sim_host.referee.game_views import game_views
 from sim_host.sensing.perception import Percept, Perception
 from sim_host.snapshot import Roster, Snapshot
+from sim_host.soccer.referee.game.referee_state import RefereeState
+from sim_host.soccer.referee.game_views import game_views
 
 Send = Callable[[str, bytes], None]
 """Sends a robot, by its name, its encoded sight."""

@@ -11,16 +11,16 @@ from msgspec import Raw
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
-from schemas.config.rule_book import RuleBook
-from schemas.game import Phase
+from schemas.config.soccer.rule_book import RuleBook
 from schemas.messages.applied import AppliedInput, chained_part
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.game import ActionReply, GameEvent, RefereeAction
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, TeamSetup
+from schemas.messages.soccer.game import ActionReply, GameEvent, RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import Phase
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 from sim_host.match.live_parameters import LiveParameters
@@ -28,15 +28,15 @@ from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.radio_use import RadioUse
 from sim_host.match.sights import Send
-from sim_host.match.start_scene import opening_layout
 from sim_host.match.subsystems import Subsystems
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, world_fields
 from sim_host.physics.fingerprint import fingerprint
-from sim_host.referee.core import Referee, Ruling
-from sim_host.referee.fingerprint import referee_fingerprint
-from sim_host.referee.game.state_json import state_json
 from sim_host.snapshot import Roster, Snapshot
+from sim_host.soccer.referee.core import Referee, Ruling
+from sim_host.soccer.referee.fingerprint import referee_fingerprint
+from sim_host.soccer.referee.game.state_json import state_json
+from sim_host.soccer.start_scene import opening_layout
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,17 +6,17 @@ from dataclasses import replace
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import RosterEntry
-from schemas.config.rule_book import RuleBook
+from schemas.config.soccer.rule_book import RuleBook
 from sim_host.actuation.latest_commands import CommandLimits, LatestCommands
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.radio import RadioAir
 from sim_host.match.radio_use import RadioUse
-from sim_host.match.referee_factory import make_referee
 from sim_host.match.sights import Sights
-from sim_host.referee.core import Referee
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
+from sim_host.soccer.referee.core import Referee
+from sim_host.soccer.referee_factory import make_referee
 
 
 class Subsystems:

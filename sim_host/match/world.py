@@ -8,13 +8,13 @@ from schemas.config.obstacle import StaticObstacle
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.messages.applied import AppliedInput
-from sim_host.actuation.ball_handling import BallHandling, BallReport
 from sim_host.actuation.chassis import Chassis
 from sim_host.physics.collision_candidates import CollisionCandidates
 from sim_host.physics.continuous_collision import ContinuousCollision
 from sim_host.physics.engine import Engine
 from sim_host.physics.impacts import ImpactDetector
 from sim_host.snapshot import BALL, BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.soccer.ball.ball_handling import BallHandling, BallReport
 
 _NOTHING = BallReport()
 

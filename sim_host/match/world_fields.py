@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import ObstacleState, Snapshot
+from sim_host.soccer.referee.game.referee_state import RefereeState
 
 Fields = dict[str, Any]
 """The fields of a message as plain values, as its model defines them."""

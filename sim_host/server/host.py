@@ -7,9 +7,9 @@ from runtime.bus.contract import Bus, PresenceKind, ReceivedMessage
 from runtime.process.timing import PARTING_S
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
-from schemas.game import ActionName
-from schemas.messages.game import RefereeAction
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.admission.account_limits import AccountLimits
 from sim_host.server.admission.eligibility import Eligibility

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field, replace
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement, RosterEntry
-from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene, SceneGame, check_names, check_sides
 from schemas.config.sections import Ball, Pitch
+from schemas.config.soccer.rule_book import RuleBook
 from schemas.config.team_sizes import check_team_sizes
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side

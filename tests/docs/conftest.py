@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.game import EventKind
+from schemas.soccer.game import EventKind
 from sim_host.match.simulation import TickResult
 from touchline.play.play_match import play_match
 

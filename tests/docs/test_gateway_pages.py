@@ -7,7 +7,7 @@ import pytest
 
 from coach_gateway.access.rights import RIGHTS
 from coach_gateway.access.roles import Role
-from coach_gateway.refbox.forwarding import FORWARD
+from coach_gateway.soccer.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
 from coach_gateway.web.pages.protocol import read_request

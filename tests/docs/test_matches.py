@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.config.rule_book import load_rule_book
 from schemas.config.scene import Scene
-from schemas.game import EventKind
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.side import Side
+from schemas.soccer.game import EventKind
 from touchline.launch.check_brains import check_teams
 from touchline.play.play_match import play_match
 

@@ -13,11 +13,11 @@ from msgspec.structs import fields
 
 from robot_agent.process.stdio import answers, program
 from schemas.config.profile import load_profile
-from schemas.game import TeamPhase
 from schemas.messages.command import Command, Drive, Kick, KickMode
-from schemas.messages.game import GameView
 from schemas.messages.radio import Radio
 from schemas.messages.sight import BallSight, Motion, Obstacle, Outcome, Sight
+from schemas.messages.soccer.game import GameView
+from schemas.soccer.game import TeamPhase
 from touchline.team.check.checks import CHECKS
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from rules import DECIDED_BY_PEOPLE, PROCEDURES, page
 from ruling_table import LABELS, clause, not_judged, parts_of_module, parts_of_rule, rows
-from schemas.config.rule_book import SECTIONS, SHIPPED, load_rule_book
-from sim_host.referee.rules import RULES, SHOOT_OUT
+from schemas.config.soccer.rule_book import SECTIONS, SHIPPED, load_rule_book
+from sim_host.soccer.referee.rules import RULES, SHOOT_OUT
 
 TEXT_ROOT = Path(__file__).parents[2]
 TEXT = (TEXT_ROOT / "docs" / "rules.md").read_text("utf-8")
@@ -59,7 +59,9 @@ def test_what_people_decide_is_listed():
 def test_every_situation_has_its_clause_its_event_its_restart_and_a_test_that_shows_it(row):
     assert row.situation and row.clause and row.events and row.restart
     path, _, name = row.test.partition("::")
-    assert path, f"no test in tests/sim_host/referee names the rule: compare `event.rule` with {row.rule!r} in one"
+    assert path, (
+        f"no test in tests/sim_host/soccer/referee names the rule: compare `event.rule` with {row.rule!r} in one"
+    )
     assert name in (TEXT_ROOT / path).read_text("utf-8")
     assert f"| {row.situation} | {row.clause} |" in TEXT
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from schemas.config.drill import OCCURRENCES
 from schemas.config.scene import load_scene, shipped_scenes
+from schemas.config.soccer.drill import OCCURRENCES
 from touchline.testing import Facts
 
 

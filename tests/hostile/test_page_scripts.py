@@ -10,15 +10,15 @@ from playwright.sync_api import Browser
 
 from coach_gateway.web.pages.match_result import FILE
 from recordings.reading.recording import open_recording
-from recordings.stats.page import page_of
+from recordings.soccer.stats.page import page_of
 from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.game import EventKind, Phase
 from schemas.messages.coach import CoachOrder
-from schemas.messages.game import GameEvent
 from schemas.messages.health import Health
 from schemas.messages.radio import Radio
+from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase
 from schemas.topics import EVENT, HEALTH
 from support.fake_host import FakeHost
 from support.page_gateway import Gateway

@@ -5,11 +5,11 @@ from contextlib import asynccontextmanager
 
 import pytest
 
-from coach_gateway.refbox import signal_queue
-from coach_gateway.refbox.client import RefBoxClient
-from coach_gateway.refbox.framing import BoxProtocol
-from schemas.game import ActionName, Phase
-from schemas.messages.game import ActionReply
+from coach_gateway.soccer.refbox import signal_queue
+from coach_gateway.soccer.refbox.client import RefBoxClient
+from coach_gateway.soccer.refbox.framing import BoxProtocol
+from schemas.messages.soccer.game import ActionReply
+from schemas.soccer.game import ActionName, Phase
 from support.box_client import connected
 from support.gateway_bench import Bench, until
 from support.referee_box import Box

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.refbox import peers
-from coach_gateway.refbox.audience_feed import AudienceFeed
-from coach_gateway.refbox.framing import BoxProtocol, Framer
-from coach_gateway.refbox.server import ServerAddress
+from coach_gateway.soccer.refbox import peers
+from coach_gateway.soccer.refbox.audience_feed import AudienceFeed
+from coach_gateway.soccer.refbox.framing import BoxProtocol, Framer
+from coach_gateway.soccer.refbox.server import ServerAddress
 from schemas.side import Side
 from support.base_stations import Boxed, boxed
 from support.gateway_bench import until

@@ -13,10 +13,10 @@ import pytest
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.frames import wrap
-from schemas.game import EventKind, Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Point
 from sim_host.match.simulation import TickResult
 from touchline.play.play_match import InProcessMatch
 

@@ -25,12 +25,12 @@ from runtime.bus.contract import Bus, PendingReply
 from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.config.scene import Scene, load_scene
-from schemas.game import ActionName, Phase, TeamPhase
 from schemas.messages.coach import CoachMode, CoachTest
-from schemas.messages.game import RefereeAction
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName, Phase, TeamPhase
 from schemas.topics import SCENE
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep

@@ -8,9 +8,9 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from coach_gateway.ports import bound_socket
-from coach_gateway.refbox.server import RefBoxServer, ServerAddress
-from schemas.game import Phase
+from coach_gateway.soccer.refbox.server import RefBoxServer, ServerAddress
 from schemas.side import Side
+from schemas.soccer.game import Phase
 from support.gateway_bench import Bench, opened, until
 
 NAMES = {"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"}

@@ -4,8 +4,8 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
 
-from coach_gateway.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.refbox.framing import BoxProtocol
+from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.soccer.refbox.framing import BoxProtocol
 from schemas.side import Side
 from support.gateway_bench import Bench, opened, until
 from support.referee_box import Box

@@ -10,16 +10,16 @@ from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import Clock, WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
-from schemas.game import Phase
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.debug import Debug, RobotDebug
-from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import ActionReply, GameState, RefereeAction
 from schemas.messages.world import BallTruth, World
 from schemas.side import Side
+from schemas.soccer.game import Phase
 from schemas.topic import Topic
 from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, DEBUG, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD
 from schemas.wire.message import Message

@@ -16,9 +16,9 @@ from schemas.messages.command import Command
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from schemas.side import Side
-from sim_host.referee.game.referee_state import RefereeState
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
+from sim_host.soccer.referee.game.referee_state import RefereeState
 from support.answers import answer_next
 from support.fake_host import MATCH, FakeHost
 from support.stepped_clock import SteppedClock

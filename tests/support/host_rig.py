@@ -9,13 +9,13 @@ from robot_agent.process.runner import Runner
 from robot_agent.sdk.contract import Brain, Briefing
 from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig
-from schemas.game import EventKind
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
 from schemas.messages.health import Health
 from schemas.messages.recorder import RecorderProgress
 from schemas.messages.sight import Sight
 from schemas.side import Side
+from schemas.soccer.game import EventKind
 from schemas.topic import Topic
 from schemas.topics import APPLIED, EVENT, HEALTH, RECORDER_PROGRESS, WORLD
 from sim_host.server.host import Host

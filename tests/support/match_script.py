@@ -4,23 +4,23 @@ from collections.abc import Iterable
 from typing import Any
 
 from recordings.container.manifest import Manifest
-from recordings.stats.figures import MatchFigures
-from recordings.stats.match_statistics import MatchStatistics
-from recordings.stats.match_tick import MatchTick, match_ticks
-from recordings.stats.page.content import content_of
-from recordings.stats.page.game_history import GameHistory
-from recordings.stats.tracks import Tracks
+from recordings.soccer.stats.figures import MatchFigures
+from recordings.soccer.stats.match_statistics import MatchStatistics
+from recordings.soccer.stats.match_tick import MatchTick, match_ticks
+from recordings.soccer.stats.page.content import content_of
+from recordings.soccer.stats.page.game_history import GameHistory
+from recordings.soccer.stats.tracks import Tracks
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.roster import Placement, RosterEntry
-from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, Phase, Score
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
-from schemas.messages.game import GameEvent, GameState
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import BallTruth, World
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase, Score
 from support.messages import make_robot
 
 TICK = 0.1

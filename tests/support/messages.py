@@ -4,13 +4,13 @@ from typing import Any
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, TeamPhase
-from schemas.messages.game import GameEvent, GameView
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.setup import Setup
 from schemas.messages.sight import BallSight, Motion, Obstacle, ReceivedRadio, Sight
+from schemas.messages.soccer.game import GameEvent, GameView
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
+from schemas.soccer.game import EventKind, TeamPhase
 
 TICK = 0.02
 """s."""

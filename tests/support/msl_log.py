@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from recordings.exchange.msl.import_log import ImportSummary, import_log
 from recordings.reading.recording import Recording, open_recording
+from recordings.soccer.league.import_log import ImportSummary, import_log
 
 START_MS = 1467540000000
 

@@ -10,12 +10,12 @@ import pytest
 from coach_gateway.web.settings import WebSettings
 from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
-from schemas.game import ActionName
-from schemas.messages.game import ActionReply, GameEvent, RefereeAction
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply
+from schemas.messages.soccer.game import ActionReply, GameEvent, RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from schemas.topic import Topic
 from schemas.topics import (
     ACTION,

@@ -12,13 +12,13 @@ from robot_agent.sdk.contract import Briefing
 from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
-from schemas.game import ActionName
 from schemas.messages.command import Command
-from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.radio import Radio
-from schemas.messages.referee_seat import SeatOperation
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import GameEvent, GameState, RefereeAction
+from schemas.messages.soccer.referee_seat import SeatOperation
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from schemas.topics import EVENT, Topic
 from sim_host.server.host import Host
 from support.answers import answer_next

@@ -15,11 +15,11 @@ from runtime.access.accounts import Account
 from runtime.bus.contract import ReceivedMessage, Subscription
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.process.clock import WallClock
-from schemas.game import EventKind
 from schemas.messages.applied import Applied
-from schemas.messages.game import GameEvent
 from schemas.messages.health import Health, Invalid, RobotHealth
+from schemas.messages.soccer.game import GameEvent
 from schemas.messages.world import World
+from schemas.soccer.game import EventKind
 from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
 from schemas.wire.message import BadMessageError
 

@@ -12,8 +12,8 @@ from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command
-from schemas.messages.game import RefereeAction
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import RefereeAction
 from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.reports.debug_publisher import DebugPublisher

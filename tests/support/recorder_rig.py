@@ -13,15 +13,15 @@ from runtime.bus.contract import Bus, Publisher, ReceivedMessage, Server
 from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.config.settings import RecordOptions
-from schemas.game import EventKind, Phase, Score
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Command, Drive
-from schemas.messages.game import GameEvent, GameState
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import BallTruth, World
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topic import Topic
 from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
 from support.messages import make_robot

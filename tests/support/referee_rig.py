@@ -6,14 +6,14 @@ from typing import Any
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.frames import Pose
-from schemas.game import ActionName, EventKind, Phase, Point
-from schemas.messages.game import GameEvent, RefereeAction
+from schemas.messages.soccer.game import GameEvent, RefereeAction
 from schemas.side import Side
-from sim_host.referee.core import Referee, Ruling
-from sim_host.referee.match_constants import MatchConstants
+from schemas.soccer.game import ActionName, EventKind, Phase, Point
 from sim_host.snapshot import BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.soccer.referee.core import Referee, Ruling
+from sim_host.soccer.referee.match_constants import MatchConstants
 
 
 class RefereeRig:

@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.game import EventKind
+from schemas.soccer.game import EventKind
 from touchline.play.play_match import MatchOutcome, play_match
 
 PLAYED_S = 60.0

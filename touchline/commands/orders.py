@@ -9,10 +9,10 @@ import typer
 from coach_gateway.match.host_client import HostClient
 from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
-from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.side import Side
+from schemas.soccer.game import Point
 from schemas.wire.part_faults import validated
 from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client

@@ -11,9 +11,9 @@ from coach_gateway.match.host_client import HostClient
 from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError
-from schemas.game import ActionName
-from schemas.messages.game import RefereeAction
-from schemas.messages.referee_seat import SeatOperation
+from schemas.messages.soccer.game import RefereeAction
+from schemas.messages.soccer.referee_seat import SeatOperation
+from schemas.soccer.game import ActionName
 from touchline.commands import admit
 from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client

@@ -10,7 +10,7 @@ from schemas.side import Side
 from touchline.commands.cli import options
 
 if TYPE_CHECKING:
-    from recordings.stats.figures import MatchFigures
+    from recordings.soccer.stats.figures import MatchFigures
 
 
 def stats(
@@ -25,8 +25,8 @@ def stats(
     Example: touchline stats match.mcap --html match.html
     """
     from recordings.reading.recording import open_recording
-    from recordings.stats.match_statistics import figures_of_recording
-    from recordings.stats.page import page_of, write_page
+    from recordings.soccer.stats.match_statistics import figures_of_recording
+    from recordings.soccer.stats.page import page_of, write_page
 
     recording = open_recording(file)
     if html is not None:
@@ -43,7 +43,7 @@ def stats(
 
 
 def _show(figures: "MatchFigures") -> None:
-    from recordings.stats.table import ROBOT_HEADINGS, headline, remarks, robot_rows, side_rows
+    from recordings.soccer.stats.table import ROBOT_HEADINGS, headline, remarks, robot_rows, side_rows
     from touchline.launch.terminal.console import console as new_console
     from touchline.launch.terminal.console import table
 

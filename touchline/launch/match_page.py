@@ -17,8 +17,8 @@ def result_parts(plan: MatchPlan) -> Iterator[ResultUpdate]:
     known = ResultUpdate(replay=f"touchline replay {shlex.quote(str(plan.recording))} --web")
     yield known
     from recordings.reading.recording import open_recording
-    from recordings.stats.page import page_of, write_page
-    from recordings.stats.table import side_rows
+    from recordings.soccer.stats.page import page_of, write_page
+    from recordings.soccer.stats.table import side_rows
 
     try:
         figures, page = page_of(open_recording(plan.recording))

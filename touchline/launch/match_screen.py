@@ -8,8 +8,8 @@ from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from runtime.bus.announcement import Announcement
 from runtime.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint, parse_endpoint
 from runtime.process.clock import Clock
-from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
 from touchline.launch.join_command import join_lines
 from touchline.launch.processes.programs import MatchPlan

@@ -11,9 +11,9 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
-from schemas.game import EventKind, Score
-from schemas.messages.game import DisciplinaryRecord, GameEvent
+from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Score
 from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
 
 NOTABLE = frozenset(

@@ -14,11 +14,11 @@ from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.game import Score
 from schemas.messages.command import Command
-from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import GameEvent, RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import Score
 from sim_host.match.simulation import Simulation, TickResult
 
 BrainSource = Brain | type[Brain] | str

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from recordings.stats.match_tick import MatchTick, match_ticks
+from recordings.soccer.stats.match_tick import MatchTick, match_ticks
 from schemas.messages.applied import Applied
 from schemas.messages.world import World
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import TickResult
-from sim_host.match.state_schedule import StateSchedule
+from sim_host.soccer.state_schedule import StateSchedule
 from touchline.play.play_match import InProcessMatch
 
 
@@ -21,7 +21,7 @@ def played_ticks(match: InProcessMatch, after: Callable[[TickResult], None] = la
 
 
 def _messages(match: InProcessMatch, after: Callable[[TickResult], None]) -> Iterator[tuple[int, Any]]:
-    """The messages that statistics read, `recordings.stats.match_tick.KEYS`, each with its log time in ns."""
+    """The messages that statistics read, `recordings.soccer.stats.match_tick.KEYS`, each with its log time in ns."""
     simulation, schedule = match.simulation, StateSchedule(match.simulation.profile.time.tick)
     tick = simulation.now
     while True:

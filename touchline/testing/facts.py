@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.stats.kicks import PASSES, SHOTS, KickRecord
-from schemas.config.drill import OCCURRENCES
+from recordings.soccer.stats.kicks import PASSES, SHOTS, KickRecord
 from schemas.config.sections import Pitch
+from schemas.config.soccer.drill import OCCURRENCES
 from schemas.errors import did_you_mean
-from schemas.game import Score
 from schemas.messages.command import Command
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
-from sim_host.referee.areas import in_goal_area, in_penalty_area
+from schemas.soccer.game import Score
+from sim_host.soccer.referee.areas import in_goal_area, in_penalty_area
 from touchline.matches.judging.judge import Verdict
 from touchline.matches.judging.occurrences import Occurrence
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from recordings.stats.match_tick import MatchTick
+from recordings.soccer.stats.match_tick import MatchTick
 from schemas.config.match_config import MatchConfig
 from schemas.config.scene import Scene, load_scene
 from schemas.messages.command import Command
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
 from touchline.matches.drill.drill_match import drill_match
 from touchline.matches.judging.judge import verdict_of

@@ -5,11 +5,11 @@ from itertools import zip_longest
 from typing import Any
 
 from recordings.reading.recording import RecordedMessage
-from schemas.game import EventKind
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.soccer.game import EventKind
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
-from sim_host.match.referee_resimulation import OfficiatedTick
+from sim_host.soccer.referee_resimulation import OfficiatedTick
 from touchline.verify.command_difference import field_differences
 from touchline.verify.verdict import Detail
 

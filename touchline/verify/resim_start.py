@@ -16,9 +16,9 @@ from schemas.messages.world import World
 from schemas.wire.message import BadMessageError
 from schemas.wire.part import encode
 from sim_host.match.live_parameters import LiveParameters
-from sim_host.match.referee_factory import opening_state
 from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleTickError, parameters_of
-from sim_host.referee.game.referee_state import RefereeState
+from sim_host.soccer.referee.game.referee_state import RefereeState
+from sim_host.soccer.referee_factory import opening_state
 from touchline.verify.verdict import Detail
 
 

@@ -19,9 +19,9 @@ from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
 from runtime.process.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.topics import WORLD
-from sim_host.match.referee_resimulation import OfficiatingSettings
 from sim_host.physics.fingerprint import fingerprint
-from sim_host.referee.fingerprint import referee_fingerprint
+from sim_host.soccer.referee.fingerprint import referee_fingerprint
+from sim_host.soccer.referee_resimulation import OfficiatingSettings
 from touchline.verify.recorded_keys import is_recorded, not_checked
 from touchline.verify.segment_check import SegmentResult, resimulate_segment
 from touchline.verify.verdict import Verdict

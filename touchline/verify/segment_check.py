@@ -13,9 +13,9 @@ from recordings.reading.tick_records import TickRecord, command_check_of, tick_r
 from schemas.messages.applied import Applied, chained_part_of
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
-from sim_host.match.referee_resimulation import OfficiatedTick, OfficiatingSettings, RefereeResimulation
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation
 from sim_host.match.world_difference import differences
+from sim_host.soccer.referee_resimulation import OfficiatedTick, OfficiatingSettings, RefereeResimulation
 from touchline.verify.game_comparison import event_differences, state_differences
 from touchline.verify.recorded_keys import is_recorded
 from touchline.verify.resim_start import opening_conflict, resim_start, tick_length

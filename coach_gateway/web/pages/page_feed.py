@@ -11,8 +11,8 @@ from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.pages.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
 from coach_gateway.web.pages.rounding import rounded_json
 from runtime.bus.contract import Bus
-from schemas.messages.game import GameEvent
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameEvent
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import BELIEF, HEALTH, STATE, WORLD

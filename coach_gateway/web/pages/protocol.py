@@ -16,15 +16,15 @@ from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
 from schemas.messages.coach import CoachOrder
 from schemas.messages.debug import RobotDebug
-from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.health import Health
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersRequest
 from schemas.messages.radio import Belief
-from schemas.messages.referee_seat import SeatOperation
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneRequest
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameEvent, GameState, RefereeAction
+from schemas.messages.soccer.referee_seat import SeatOperation
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.faults import FaultError, FaultKind

@@ -21,10 +21,10 @@ from coach_gateway.web.pages.protocol import (
 )
 from runtime.bus.contract import Bus, Publisher
 from schemas.errors import TouchlineError
-from schemas.game import ActionName
 from schemas.messages.coach import CoachOrder
 from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from schemas.topics import MANUAL, PARAMETERS, REPLAY_CONTROL, SCENE
 from schemas.wire.message import Message
 

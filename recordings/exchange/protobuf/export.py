@@ -9,7 +9,7 @@ from google.protobuf.message_factory import GetMessageClass
 from recordings.container.environment import library
 from recordings.container.file_descriptors import file_descriptor_set
 from recordings.container.mcap_writer import mcap_writer
-from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.editing.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.protobuf.message_type import message_type
 from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording

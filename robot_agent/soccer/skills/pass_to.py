@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from robot_agent.sdk.bodies import DriveLimits, Moving
 from robot_agent.soccer.skills.kick_at import kick_at
 from robot_agent.soccer.skills.shoot import lane_width
-from schemas.config.kicked import Kicked
+from schemas.config.soccer.kicked import Kicked
 from schemas.frames import Point, wrap
 from schemas.messages.command import Drive, Kick
 from schemas.messages.setup import Setup

@@ -19,9 +19,9 @@ from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import KICK_OFFS, stand, step_in, wait_behind
 from robot_agent.teams.zones import owner_of
-from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.command import KickMode
+from schemas.soccer.game import TeamPhase
 
 HOMES = (
     (-10.5, 0.0),

@@ -18,9 +18,9 @@ from robot_agent.teams.keeper import fetch
 from robot_agent.teams.player import Player
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from schemas.frames import Point
-from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import KickMode
+from schemas.soccer.game import TeamPhase
 
 LASTS = (1.0, 4.0)
 """s for which a robot goes on with what it has drawn, at least and at most."""

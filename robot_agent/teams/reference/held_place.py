@@ -8,7 +8,7 @@ from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import chance
 from robot_agent.teams.reference.roles import Role
 from schemas.frames import Point
-from schemas.game import TeamPhase
+from schemas.soccer.game import TeamPhase
 
 DEFENDS = (Role.BLOCKER, Role.MARKER)
 """Roles that follow their place closely, at full speed."""

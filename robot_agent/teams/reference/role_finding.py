@@ -15,7 +15,7 @@ from robot_agent.teams.set_piece import before_own_goal
 from robot_agent.teams.zones import owner_of
 from schemas.config.rolling import Rolling
 from schemas.frames import Point
-from schemas.game import TeamPhase
+from schemas.soccer.game import TeamPhase
 
 
 class RoleFinder:

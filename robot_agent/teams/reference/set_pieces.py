@@ -10,8 +10,8 @@ from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, passes
 from schemas.config.sections import Pitch
 from schemas.frames import Point
-from schemas.game import TeamPhase
 from schemas.messages.setup import Setup
+from schemas.soccer.game import TeamPhase
 
 KICK_OFF_TO = (0.8, 3.0)
 """m; target of a kick-off: ahead, so that the taker waits behind the ball in its own half."""

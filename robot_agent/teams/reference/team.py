@@ -31,10 +31,10 @@ from robot_agent.teams.reference.roles import Candidate, Role
 from robot_agent.teams.reference.set_pieces import Restart, restart_kick
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from schemas.frames import Point
-from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
+from schemas.soccer.game import TeamPhase
 
 CLEAR = "clear"
 """Intention of a keeper that leaves its line for the ball."""

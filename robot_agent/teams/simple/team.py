@@ -20,9 +20,9 @@ from robot_agent.teams.simple.roles import Candidate, Role, share_places, strike
 from robot_agent.teams.simple.striker import SHOT_ERROR, StrikerSituation, is_pressed, play_ball
 from robot_agent.teams.zones import owner_of
 from schemas.frames import Point
-from schemas.game import TeamPhase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Drive, Kick
+from schemas.soccer.game import TeamPhase
 
 THREAT = 0.75
 """Share of the own half, from the middle, beyond which an opponent with the ball is met by the defender, too."""

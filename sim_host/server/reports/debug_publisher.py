@@ -8,8 +8,8 @@ from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
 from schemas.side import Side
 from schemas.topics import DEBUG
-from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster
+from sim_host.soccer.referee.game.referee_state import RefereeState
 
 
 class DebugPublisher:

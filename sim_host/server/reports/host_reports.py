@@ -3,8 +3,8 @@
 import logging
 from typing import Any
 
-from schemas.game import EventKind
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
+from schemas.soccer.game import EventKind
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.admission.account_limits import AccountLimits
 from sim_host.server.admission.presence_tracker import PresenceTracker

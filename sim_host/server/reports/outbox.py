@@ -4,13 +4,13 @@ from typing import Any
 
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Publisher, ReceivedMessage, Stamp
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from sim_host.match.simulation import TickResult
-from sim_host.match.state_schedule import StateSchedule
-from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster
+from sim_host.soccer.referee.game.referee_state import RefereeState
+from sim_host.soccer.state_schedule import StateSchedule
 
 _LISTENER_CHECK_TICKS = 50
 """Ticks between two checks for subscribers to single bodies."""

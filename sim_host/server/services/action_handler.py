@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from runtime.bus.contract import Bus, Query
-from schemas.messages.game import ActionReply, RefereeAction
+from schemas.messages.soccer.game import ActionReply, RefereeAction
 from schemas.topics import ACTION
 from schemas.wire.message import BadMessageError
 from sim_host.server.admission.invalid_log import InvalidLog

@@ -7,9 +7,9 @@ they may request. A box takes the seat by connecting, since it is connected for 
 
 from typing import NamedTuple
 
-from schemas.game import REFBOX, ActionName
-from schemas.messages.game import RefereeAction
-from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
+from schemas.messages.soccer.game import RefereeAction
+from schemas.messages.soccer.referee_seat import SeatOperation, SeatReply, SeatRequest
+from schemas.soccer.game import REFBOX, ActionName
 
 FREE = (ActionName.STOP, ActionName.NAME_ROBOT, ActionName.REPAIR, ActionName.SUBSTITUTE, ActionName.ENTER)
 """Actions that need no seat: a stop for safety, and what coaches may request."""

@@ -6,10 +6,10 @@ from runtime.bus.contract import Bus, PresenceKind
 from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
-from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.game import ActionReply, RefereeAction
+from schemas.messages.soccer.game import ActionReply, RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from schemas.topics import ACTION, ACTIVE_ORDER, ORDER
 from support.fake_host import FakeHost
 from support.stepped_clock import SteppedClock

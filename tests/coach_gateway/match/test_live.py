@@ -7,13 +7,13 @@ from typing import Any
 import pytest
 
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.refbox.call_generator import CallGenerator
+from coach_gateway.soccer.refbox.call_generator import CallGenerator
 from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
-from schemas.game import REFBOX, ActionName, Phase, Score
-from schemas.messages.game import GameState, RefereeAction
+from schemas.messages.soccer.game import GameState, RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import REFBOX, ActionName, Phase, Score
 from schemas.topics import SETUP, STATE
 from support.gateway_bench import kicked_off, opened, until
 from support.messages import make_setup

@@ -3,9 +3,9 @@ import pytest
 from coach_gateway.match.lines import event_line, state_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.config.match_config import load_match
-from schemas.game import EventKind, Phase, Score
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase, Score
 from support.messages import make_event
 
 

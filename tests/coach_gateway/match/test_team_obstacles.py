@@ -1,8 +1,8 @@
 """Opponents and other bodies as a team believes them, fused from what its robots have sent."""
 
 from coach_gateway.match.team_obstacles import TeamObstacle, team_obstacles
-from schemas.game import Point
 from schemas.messages.radio import Belief, Motion, Radio
+from schemas.soccer.game import Point
 
 
 def belief(robot: str, x: float, *places: tuple[float, float], time: float = 9.9) -> Belief:

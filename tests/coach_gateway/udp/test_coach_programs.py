@@ -10,9 +10,9 @@ from coach_gateway.timing import SILENCE_S
 from coach_gateway.udp.coach_programs import MOST_OF_A_ROLE, MOST_WAITING, CoachPrograms, DatagramResult
 from coach_gateway.udp.protocol import MAX_BYTES, Ack
 from coach_gateway.udp.session import KEPT
-from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
+from schemas.soccer.game import REFBOX, ActionName
 
 TOKENS = {"": Role.SPECTATOR, "cyan-token": Role.CYAN, "magenta-token": Role.MAGENTA, "referee-token": Role.REFEREE}
 ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}

@@ -10,9 +10,9 @@ from coach_gateway.udp.coach_record import (
     for_coach,
     for_referee,
 )
-from schemas.game import ActionName, TeamPhase
 from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
+from schemas.soccer.game import ActionName, TeamPhase
 
 RECORD = {
     **{0: "stop", 1: "our_kick_off", 2: "their_kick_off", 3: "our_throw_in", 4: "their_throw_in", 5: "our_penalty"},

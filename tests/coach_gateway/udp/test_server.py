@@ -15,11 +15,11 @@ from coach_gateway.access.tokens import Tokens
 from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.udp import session as session_module
 from coach_gateway.udp.server import UdpServer
-from schemas.game import Phase, Point
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.game import ActionReply
 from schemas.messages.radio import Motion, Radio
+from schemas.messages.soccer.game import ActionReply
 from schemas.side import Side
+from schemas.soccer.game import Phase, Point
 from schemas.topics import ACTIVE_ORDER
 from support.gateway_bench import kicked_off, opened, until
 

@@ -9,8 +9,8 @@ from coach_gateway.access.rights import RIGHTS
 from coach_gateway.access.roles import Role
 from coach_gateway.web.pages.protocol import read_request
 from coach_gateway.web.pages.requests import refusal
-from schemas.game import ActionName
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 
 ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
 

@@ -5,8 +5,8 @@ import pytest
 from runtime.access.accounts import Account
 from runtime.bus.zenoh.bus import open_client
 from runtime.process.clock import WallClock
-from schemas.game import EventKind
 from schemas.messages.setup import SetupRequest
+from schemas.soccer.game import EventKind
 from schemas.topics import SETUP
 from support.attacker import ATTACKS, RAW_ATTACKS
 from support.process_story import SHORT_LIMIT

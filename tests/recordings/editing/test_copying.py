@@ -10,9 +10,9 @@ from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
-from schemas.game import Phase, Score
 from schemas.messages.command import Command, Drive
 from schemas.messages.health import Health
+from schemas.soccer.game import Phase, Score
 from schemas.topics import HEALTH
 from support.recorder_rig import ONE_PART
 

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from recordings.editing.atomic_output import ExportSummary
 from recordings.exchange import csv_files, ros2
-from recordings.exchange.atomic_output import ExportSummary
-from recordings.exchange.msl import export as msl
 from recordings.exchange.protobuf import export as protobuf
 from recordings.reading.recording import Recording
+from recordings.soccer.league import export as msl
 from support.recorder_rig import RecorderRig
 
 EXPORTS: dict[str, Callable[[Recording, Path], ExportSummary]] = {

@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from recordings.exchange.msl.event_log import TeamNames, read_events
-from recordings.exchange.msl.import_log import ImportSummary
 from recordings.reading.recording import Recording, open_recording
-from recordings.stats.match_statistics import figures_of_recording
-from schemas.game import EventKind, GameStage, Phase, Score
-from schemas.league.findings import Findings
+from recordings.soccer.league.event_log import TeamNames, read_events
+from recordings.soccer.league.import_log import ImportSummary
+from recordings.soccer.stats.match_statistics import figures_of_recording
+from schemas.messages.soccer.league.findings import Findings
+from schemas.soccer.game import EventKind, GameStage, Phase, Score
 from support.msl_log import START_MS, Log, record, robot
 from touchline.commands.cli.command_line import app
 

@@ -10,14 +10,14 @@ from zipfile import ZipFile
 
 import pytest
 
-from recordings.exchange.msl.import_log import ImportSummary, import_log
-from recordings.exchange.msl.team_log import read_team
 from recordings.reading.recording import Recording, open_recording
+from recordings.soccer.league.import_log import ImportSummary, import_log
+from recordings.soccer.league.team_log import read_team
 from schemas.errors import TouchlineError
-from schemas.game import Phase, Score
-from schemas.league.findings import Findings
-from schemas.messages.game import GameState
+from schemas.messages.soccer.game import GameState
+from schemas.messages.soccer.league.findings import Findings
 from schemas.messages.world import World
+from schemas.soccer.game import Phase, Score
 from schemas.topics import STATE, WORLD
 from support.msl_log import START_MS, Log, record, robot
 

@@ -12,13 +12,13 @@ import pytest
 from typer.testing import CliRunner
 
 from recordings.exchange.formats import EXPORTERS, IMPORTERS
-from recordings.exchange.msl import LOG_PERIOD
 from recordings.reading.recording import Recording, open_recording
-from recordings.stats.match_statistics import figures_of_recording
-from schemas.game import EventKind, Phase
-from schemas.messages.game import GameState
+from recordings.soccer.league import LOG_PERIOD
+from recordings.soccer.stats.match_statistics import figures_of_recording
+from schemas.messages.soccer.game import GameState
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase
 from schemas.topics import EVENT, STATE, WORLD
 from support.recorder_rig import RecorderRig
 from touchline.commands.cli.command_line import app

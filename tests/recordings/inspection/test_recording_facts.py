@@ -4,7 +4,7 @@ from dataclasses import replace
 from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
 from recordings.inspection.recording_facts import CUT_OFF, facts_of
 from recordings.reading.recording import open_recording
-from schemas.game import Phase, Score
+from schemas.soccer.game import Phase, Score
 
 
 def test_the_facts_are_those_that_were_written(recorded):

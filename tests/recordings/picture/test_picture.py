@@ -13,12 +13,12 @@ from recordings.picture.picture_data import PictureData
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.game import Phase, Score
 from schemas.messages.setup import Setup
 from schemas.messages.world import ObstacleTruth
 from schemas.side import Side
+from schemas.soccer.game import Phase, Score
 
 
 def share_of(path, colour: str) -> float:

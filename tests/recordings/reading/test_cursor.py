@@ -11,7 +11,7 @@ from recordings.reading.recording import RecordedMessage, open_recording
 from recordings.replay.player import is_latched
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
-from schemas.game import Phase, Score
+from schemas.soccer.game import Phase, Score
 
 TICKS = 200
 

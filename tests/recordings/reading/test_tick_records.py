@@ -2,10 +2,10 @@
 
 from recordings.reading.tick_index import Segment, StartTick
 from recordings.reading.tick_records import command_check_of
-from schemas.game import EventKind
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Drive
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
+from schemas.soccer.game import EventKind
 from support.recorder_rig import ROBOTS, RecorderRig
 
 WITHOUT_COMMANDS = {name: AppliedInput(drive=Drive(vx=2.0), dribble=False, answers_tick=200) for name in ROBOTS}

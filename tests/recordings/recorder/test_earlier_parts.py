@@ -16,8 +16,8 @@ from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
-from schemas.game import Phase, Score
 from schemas.recovery_window import KEPT_BATCHES
+from schemas.soccer.game import Phase, Score
 from schemas.topics import COMMAND
 from support.recorder_rig import ONE_PART, RecorderRig
 

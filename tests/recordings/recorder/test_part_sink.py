@@ -8,7 +8,7 @@ from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
-from schemas.game import Phase, Score
+from schemas.soccer.game import Phase, Score
 
 
 def ticks_in(path) -> list[int]:

@@ -15,8 +15,8 @@ from runtime.bus.endpoint import with_free_port
 from runtime.bus.zenoh.bus import open_client, open_host
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
-from schemas.game import Phase, Score
 from schemas.messages.world import World
+from schemas.soccer.game import Phase, Score
 from schemas.topics import RECORDER_PROGRESS
 
 LIMIT = 60.0

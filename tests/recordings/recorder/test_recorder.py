@@ -8,9 +8,9 @@ from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
 from recordings.recorder.recording_writer import RecordingWriter
 from runtime.bus.contract import Bus, ReceivedMessage, Stamp
-from schemas.game import Phase, Score
 from schemas.messages.health import Health
 from schemas.messages.world import World
+from schemas.soccer.game import Phase, Score
 from schemas.topics import (
     COMMAND,
     EVENT,

@@ -7,7 +7,7 @@ import pytest
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording
 from recordings.replay.player import PlaybackRange, Player
-from schemas.game import Phase, Score
+from schemas.soccer.game import Phase, Score
 from support.player_rig import PlayerRig
 from support.stepped_clock import SteppedClock
 

@@ -14,10 +14,10 @@ from recordings.replay.replay import Replay, ReplaySettings
 from runtime.bus.contract import NoReplyError
 from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.errors import TouchlineError
-from schemas.game import ActionName
-from schemas.messages.game import RefereeAction
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.messages.setup import SetupRequest
+from schemas.messages.soccer.game import RefereeAction
+from schemas.soccer.game import ActionName
 from schemas.topics import ACTION, EVENT, REPLAY_CONTROL, SETUP, WORLD
 from support.stepped_clock import SteppedClock
 

@@ -14,13 +14,13 @@ from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape
 from schemas.config.profile import load_profile
 from schemas.config.roster import RosterEntry
-from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, OffField, Phase, Score
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.applied import Applied
-from schemas.messages.game import GameEvent, GameState
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
 from schemas.side import Side
+from schemas.soccer.game import EventKind, OffField, Phase, Score
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
 from schemas.wire.part import encode
 

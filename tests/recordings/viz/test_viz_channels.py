@@ -13,11 +13,11 @@ from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
-from recordings.stats.match_statistics import figures_of_recording
+from recordings.soccer.stats.match_statistics import figures_of_recording
 from recordings.viz.drawing import BALL, DRAWINGS, EVENTS, FIELD, GAME, ROBOTS, SCHEMAS, TF
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
-from schemas.game import Phase, Score
+from schemas.soccer.game import Phase, Score
 from touchline.verify.resimulate import verify
 
 ALWAYS = sorted(SCHEMAS.keys() - {DRAWINGS})

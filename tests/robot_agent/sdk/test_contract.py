@@ -4,7 +4,7 @@ from robot_agent.sdk.bodies import DriveLimits
 from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup

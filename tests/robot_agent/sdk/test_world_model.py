@@ -9,9 +9,9 @@ from robot_agent.sdk.opponents import REMEMBERED
 from robot_agent.sdk.world_model import LOST, STALE, WorldModel
 from schemas.config.profile import load_profile
 from schemas.config.rolling import Rolling
-from schemas.game import Point, TeamPhase
 from schemas.messages.radio import BallBelief
 from schemas.messages.sight import BallSight, Motion, ReceivedRadio
+from schemas.soccer.game import Point, TeamPhase
 
 ROLLING = Rolling.of(load_profile("msl").ball)
 

@@ -3,9 +3,9 @@
 import pytest
 
 from robot_agent.teams.coach_tests import LEAVES
-from schemas.game import Point, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Drive
+from schemas.soccer.game import Point, TeamPhase
 
 TEAMS = ("simple", "nubot")
 STARTS = {1: (-10.5, 0.0, 0.0), 2: (2.0, 1.0, 0.0), 3: (-2.0, -1.0, 0.0)}

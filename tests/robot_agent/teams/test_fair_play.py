@@ -13,11 +13,11 @@ from robot_agent.teams.fair_play import HALFWAY, PAUSE, Possession, RuleLimits, 
 from robot_agent.teams.simple import Simple
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
-from schemas.game import TeamPhase
-from schemas.messages.game import GameView
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Motion, ReceivedRadio
+from schemas.messages.soccer.game import GameView
+from schemas.soccer.game import TeamPhase
 
 AT, NOBODYS = Body(-3.0, 0.0, 0.0), Possession()
 RELEASED = 0.455

@@ -10,8 +10,8 @@ from robot_agent.sdk.contract import Briefing
 from robot_agent.sdk.skills.go_to import drive
 from robot_agent.soccer.skills.kick_at import kick_at
 from schemas.config.match_config import load_match
-from schemas.game import EventKind
 from schemas.messages.command import Command, Drive, KickMode
+from schemas.soccer.game import EventKind
 from sim_host.match.simulation import Simulation
 from touchline.play.play_match import play_match
 

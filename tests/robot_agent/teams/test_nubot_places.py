@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from schemas.game import Point, TeamPhase
+from schemas.soccer.game import Point, TeamPhase
 
 
 @pytest.mark.parametrize("ball", [(8.0, 3.0), (-8.0, -3.0), (0.0, 6.0)])

@@ -11,11 +11,11 @@ from robot_agent.sdk.contract import Briefing
 from robot_agent.teams.player import RADIO_EVERY
 from robot_agent.teams.set_piece import required_distance
 from robot_agent.teams.simple.striker import PATIENCE
-from schemas.game import OffField, Point, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.command import Drive
-from schemas.messages.game import DisciplinaryRecord
+from schemas.messages.soccer.game import DisciplinaryRecord
 from schemas.side import Side
+from schemas.soccer.game import OffField, Point, TeamPhase
 
 TEAMS = ("simple", "nubot")
 PLAYING = {"simple": "striker", "nubot": "plays the ball"}

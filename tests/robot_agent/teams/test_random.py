@@ -8,7 +8,7 @@ import pytest
 from robot_agent.sdk.skills.keep_out import Area
 from robot_agent.teams.set_piece import required_distance
 from schemas.config.match_config import load_match
-from schemas.game import EventKind, Point, TeamPhase
+from schemas.soccer.game import EventKind, Point, TeamPhase
 from touchline.play.play_match import play_match
 
 RANDOM = "robot_agent.teams.random:Random"

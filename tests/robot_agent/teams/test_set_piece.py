@@ -7,8 +7,8 @@ import pytest
 from robot_agent.sdk.bodies import Body, DriveLimits
 from robot_agent.sdk.skills.keep_out import Area
 from robot_agent.teams.set_piece import stand
-from schemas.game import Point, TeamPhase
-from schemas.messages.game import GameView
+from schemas.messages.soccer.game import GameView
+from schemas.soccer.game import Point, TeamPhase
 
 SPOT = (-10.7, 6.7)
 """m; of a corner of the other side."""

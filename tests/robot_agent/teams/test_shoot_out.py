@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from schemas.game import GameStage, OffField, TeamPhase
 from schemas.messages.command import Drive
-from schemas.messages.game import DisciplinaryRecord
+from schemas.messages.soccer.game import DisciplinaryRecord
+from schemas.soccer.game import GameStage, OffField, TeamPhase
 
 MARK = {"x": 7.4, "y": 0.0}
 SHOOT_OUT = {"stage": GameStage.SHOOT_OUT}

@@ -16,9 +16,9 @@ from robot_agent.teams.reports import radio_message
 from robot_agent.teams.simple.formation import APART, CLEAR, places
 from robot_agent.teams.simple.roles import Role
 from schemas.config.roster import MAX_ROBOTS
-from schemas.game import GameStage, Point, TeamPhase
 from schemas.messages.command import Drive
 from schemas.messages.radio import MAX_OBSTACLES
+from schemas.soccer.game import GameStage, Point, TeamPhase
 from support.messages import make_setup
 
 TEAMS = pytest.mark.parametrize("team", ["simple", "nubot"])

@@ -13,10 +13,10 @@ from runtime.bus.endpoint import with_free_port
 from runtime.bus.in_process_bus import SharedState
 from runtime.bus.zenoh.bus import open_client, open_host
 from runtime.process.clock import WallClock
-from schemas.game import ActionName, Phase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.game import ActionReply, GameState, RefereeAction
+from schemas.messages.soccer.game import ActionReply, GameState, RefereeAction
+from schemas.soccer.game import ActionName, Phase
 from schemas.topic import Topic
 from schemas.topics import ACTION, COMMAND, ORDER, SETUP, SIGHT, STATE, WORLD_BALL, WORLD_ROBOT
 from schemas.wire.message import BadMessageError

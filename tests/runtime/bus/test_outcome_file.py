@@ -2,8 +2,8 @@ from pathlib import Path
 
 from runtime.bus.contract import ReceivedMessage, Stamp
 from runtime.bus.outcome_file import read_outcome, write_outcome
-from schemas.game import EventKind, Phase, Score
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topics import EVENT, STATE
 
 GOAL = GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3")

@@ -7,10 +7,10 @@ from pytest import approx
 
 from schemas.config.profile import SHIPPED, load_profile
 from schemas.config.quantity import Quantity, meanings
-from schemas.config.rule_book import SECTIONS as RULE_SECTIONS
-from schemas.config.rule_book import SHIPPED as RULE_BOOKS
-from schemas.config.rule_book import load_rule_book
 from schemas.config.sections import SECTIONS
+from schemas.config.soccer.rule_book import SECTIONS as RULE_SECTIONS
+from schemas.config.soccer.rule_book import SHIPPED as RULE_BOOKS
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 
 

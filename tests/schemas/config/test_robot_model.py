@@ -8,7 +8,7 @@ from pytest import approx
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import models_of, types_of
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.side import Side

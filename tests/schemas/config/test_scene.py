@@ -6,8 +6,8 @@ import pytest
 
 from schemas.config.scene import Scene, load_scene, shipped_scenes
 from schemas.errors import TouchlineError
-from schemas.game import Phase
 from schemas.side import Side
+from schemas.soccer.game import Phase
 
 GOOD = """
 description = "Two robots."

@@ -10,10 +10,11 @@ from typing import Any
 
 import pytest
 
-from schemas.config import profile, rule_book
+from schemas.config import profile
 from schemas.config.number_files import UNVERSIONED, versioned_name
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer import rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 
 DIGESTS = {

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from schemas.game import Point
 from schemas.messages.coach import REQUIRED_FIELDS, CoachMode, CoachOrder, CoachTest
+from schemas.soccer.game import Point
 from schemas.wire.faults import FaultError
 
 WHOLE: dict[str, Any] = {

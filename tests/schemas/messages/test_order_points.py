@@ -3,8 +3,8 @@
 import pytest
 
 from schemas.config.profile import load_profile
-from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
+from schemas.soccer.game import Point
 
 PITCH = load_profile("msl").field
 X, Y = PITCH.goal_line + PITCH.border, PITCH.touch_line + PITCH.border

@@ -11,8 +11,8 @@ from protocol_fields import rows
 from recordings.container.json_schema import flat_schema, whole_schema
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
-from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
+from schemas.config.soccer.rule_book import RuleBook
 from schemas.messages.manual import ManualDrive
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight

@@ -12,19 +12,19 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from message_examples import examples
-from schemas.game import ActionName, Phase, Point, TeamPhase
 from schemas.messages.applied import Applied, AppliedInput, OperatorChange
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command, Drive, Kick, KickMode
-from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.messages.record_batch import BatchEntry
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Obstacle, Sight
+from schemas.messages.soccer.game import GameEvent, RefereeAction
 from schemas.messages.world import BallTruth, World
 from schemas.side import Side
+from schemas.soccer.game import ActionName, Phase, Point, TeamPhase
 from schemas.topics import TOPICS
 from schemas.wire.faults import FaultError
 from schemas.wire.message import BadMessageError, Message

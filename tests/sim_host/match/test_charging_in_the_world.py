@@ -3,12 +3,12 @@
 import pytest
 
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.config.scene import SceneGame
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.frames import Pose
-from schemas.game import EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.core import Referee
+from schemas.soccer.game import EventKind, Phase
+from sim_host.soccer.referee.core import Referee
 from support.world_rig import WorldRig, tell
 
 PHASES = [0.0, 0.013, 0.031, 0.047]

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import pytest
 
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.messages.game import GameEvent
+from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
 from sim_host.match import subsystems
 from sim_host.match.world_fields import Fields

@@ -6,12 +6,12 @@ from typing import Any
 import pytest
 
 from schemas.config.match_config import load_match
-from schemas.game import ActionName, OffField
 from schemas.messages.command import Command, Drive
-from schemas.messages.game import RefereeAction
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import RefereeAction
 from schemas.messages.world import World
+from schemas.soccer.game import ActionName, OffField
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 

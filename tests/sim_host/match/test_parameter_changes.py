@@ -8,11 +8,11 @@ import pytest
 from pytest import approx
 
 from schemas.config.match_config import load_match
-from schemas.game import EventKind
 from schemas.messages.command import Command, Drive
 from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest
 from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
+from schemas.soccer.game import EventKind
 from sim_host.match.simulation import Simulation, TickResult
 
 

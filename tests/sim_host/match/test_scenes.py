@@ -11,7 +11,6 @@ from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.roster import Placement
 from schemas.config.scene import Scene, SceneBall, SceneGame, SceneRobot, load_scene, shipped_scenes
-from schemas.game import EventKind, Phase, TeamPhase
 from schemas.messages.applied import Applied
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
@@ -19,6 +18,7 @@ from schemas.messages.radio import Radio
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase, TeamPhase
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 

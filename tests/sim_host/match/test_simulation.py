@@ -9,7 +9,6 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.errors import TouchlineError
-from schemas.game import EventKind, TeamPhase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.radio import Belief, Motion, Radio
@@ -17,6 +16,7 @@ from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.soccer.game import EventKind, TeamPhase
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 from schemas.wire.part_faults import validated

@@ -7,12 +7,12 @@ order has a number, and each robot acknowledges it.
 import pytest
 
 from runtime.bus.contract import Bus
-from schemas.game import Point
 from schemas.messages.coach import MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command
 from schemas.messages.setup import SetupRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
+from schemas.soccer.game import Point
 from schemas.topics import ACTIVE_ORDER, INVALID, ORDER, SETUP
 from schemas.wire.units import MAX_WHOLE
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.game import Phase
 from schemas.messages.world import World
+from schemas.soccer.game import Phase
 from schemas.topics import APPLIED, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from touchline.play.play_match import play_match
 

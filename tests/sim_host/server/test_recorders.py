@@ -3,11 +3,11 @@
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.game import ActionName
-from schemas.messages.game import RefereeAction
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderProgress
+from schemas.messages.soccer.game import RefereeAction
 from schemas.recovery_window import RUN_AHEAD_TICKS
+from schemas.soccer.game import ActionName
 from schemas.topics import ACTION, RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
 from sim_host.server.admission.recorder_admission import MOST_UNNAMED
 from support.host_rig import TEAMS, HostRig

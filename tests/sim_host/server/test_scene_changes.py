@@ -3,10 +3,10 @@
 import pytest
 
 from schemas.config.scene import Scene, SceneRobot
-from schemas.game import EventKind
 from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
 from schemas.messages.setup import SetupRequest
 from schemas.side import Side
+from schemas.soccer.game import EventKind
 from schemas.topics import EVENT, HEALTH, INVALID, SCENE, SETUP, SIGHT, STATE, WORLD
 
 

@@ -3,12 +3,12 @@
 import pytest
 
 from runtime.bus.contract import NoReplyError
-from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachOrder
-from schemas.messages.game import ActionReply, RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.setup import SetupRequest
+from schemas.messages.soccer.game import ActionReply, RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import REFBOX, ActionName, Phase
 from schemas.topics import ACTION, APPLIED, EVENT, INVALID, PARAMETERS, SETUP, STATE
 
 

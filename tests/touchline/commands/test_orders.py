@@ -11,10 +11,10 @@ from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
 from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
-from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.messages.setup import Setup
+from schemas.soccer.game import Point
 from schemas.topics import SETUP
 from support.fake_host import FakeHost
 from support.stepped_clock import SteppedClock

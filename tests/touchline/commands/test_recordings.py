@@ -11,8 +11,8 @@ from recordings.container.manifest import Result as Ending
 from recordings.recorder.recording_writer import RecordingWriter
 from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
-from schemas.game import Phase
-from schemas.messages.game import GameState
+from schemas.messages.soccer.game import GameState
+from schemas.soccer.game import Phase
 from schemas.topics import STATE
 from support.stepped_clock import SteppedClock
 from touchline.commands.cli.command_line import app

@@ -10,10 +10,10 @@ from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
 from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
-from schemas.game import ActionName, Phase, Score
-from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
+from schemas.messages.soccer.game import ActionReply, GameState, RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName, Phase, Score
 from schemas.topics import ACTION, HEALTH, REFEREE_SEAT, STATE
 from sim_host.server.services.referee_seat import RefereeSeat
 from support.fake_host import FakeHost

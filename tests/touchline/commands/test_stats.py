@@ -13,11 +13,11 @@ from recordings.recorder.recording_writer import RecordingWriter
 from runtime.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
-from schemas.game import Phase, Score
-from schemas.messages.game import GameState
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameState
 from schemas.messages.world import BallTruth, RobotTruth, World
+from schemas.soccer.game import Phase, Score
 from schemas.topics import STATE, WORLD
 from support.stepped_clock import SteppedClock
 from touchline.commands.cli.command_line import app

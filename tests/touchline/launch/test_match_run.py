@@ -11,8 +11,8 @@ from runtime.bus.contract import ReceivedMessage, Stamp
 from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import EventKind, Phase, Score
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topics import EVENT, STATE
 from touchline.launch import match_run, recording_outcome
 from touchline.launch.match_run import InterruptedMatchError, MatchRun
@@ -28,8 +28,8 @@ import os, pathlib, signal, sys
 from runtime.bus.announcement import Announcement, announced
 from runtime.bus.zenoh.bus import open_host
 from runtime.process.clock import WallClock
-from schemas.game import EventKind, Phase, Score
-from schemas.messages.game import GameEvent, GameState
+from schemas.soccer.game import EventKind, Phase, Score
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.topics import EVENT, STATE
 
 def play(announcement, seen, phase):

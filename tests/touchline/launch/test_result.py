@@ -6,9 +6,9 @@ from pathlib import Path
 from rich.console import Console
 
 from coach_gateway.match.team_names import TeamNames
-from schemas.game import EventKind, Score
-from schemas.messages.game import DisciplinaryRecord, GameEvent
+from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Score
 from touchline.launch.recording_outcome import RecordingOutcome
 from touchline.launch.result import MatchResult
 

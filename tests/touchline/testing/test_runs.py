@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from schemas.config.profile import load_profile
-from schemas.game import Score
 from schemas.side import Side
+from schemas.soccer.game import Score
 from touchline.matches.judging.occurrences import Occurrence
 from touchline.testing import Facts, Runs
 

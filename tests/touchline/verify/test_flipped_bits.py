@@ -13,7 +13,7 @@ from recordings.exchange import csv_files
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording, open_recording
-from recordings.stats.match_statistics import figures_of_recording
+from recordings.soccer.stats.match_statistics import figures_of_recording
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from touchline.verify.resimulate import verify

@@ -11,9 +11,9 @@ from typer.testing import CliRunner
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
-from schemas.game import ActionName
-from schemas.messages.game import RefereeAction
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from sim_host.match.simulation import Simulation
 from support.forgeries import (
     add_goal,

@@ -15,11 +15,11 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import tick_index_of
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
-from schemas.game import REFBOX, ActionName, OffField, Point
-from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.scene import SceneOperation, SceneRequest
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import REFBOX, ActionName, OffField, Point
 from sim_host.match.simulation import Simulation
 from touchline.verify.resimulate import verify
 from touchline.verify.segment_check import resimulate_segment

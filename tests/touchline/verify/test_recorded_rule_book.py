@@ -14,7 +14,7 @@ from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.config.number_files import NumberFiles
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from touchline.commands.cli.command_line import app
 from touchline.verify import resimulate

@@ -18,7 +18,7 @@ from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import SHIPPED as PROFILES
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import models_of
-from schemas.config.rule_book import SHIPPED as RULE_BOOKS
+from schemas.config.soccer.rule_book import SHIPPED as RULE_BOOKS
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.missing_engine import missing_engine_text
@@ -114,7 +114,7 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     book = config.load_rule_book()
     need_pybullet()
     from sim_host.match.live_parameters import LiveParameters
-    from sim_host.match.start_scene import opening_layout
+    from sim_host.soccer.start_scene import opening_layout
 
     opening_layout(config, LiveParameters.of(config), book)
     return config

@@ -10,16 +10,16 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, question_phrases
 from coach_gateway.match.orders import OrderBook
 from coach_gateway.match.team_names import TeamNames, printable
-from schemas.game import EventKind
-from schemas.league.robot_numbers import numbers_of
 from schemas.messages.coach import CoachOrder
 from schemas.messages.debug import RobotDebug
-from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.messages.health import Health
 from schemas.messages.radio import Radio
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import DisciplinaryRecord, GameState
+from schemas.messages.soccer.league.robot_numbers import numbers_of
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
+from schemas.soccer.game import EventKind
 from touchline.launch.terminal.debug_values import values
 from touchline.launch.terminal.status_line import losses_text, robots_text
 

@@ -9,8 +9,8 @@ from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
-from schemas.game import Card
 from schemas.side import Side
+from schemas.soccer.game import Card
 from touchline.matches.cup.cup_config import CupConfig, TeamEntry
 from touchline.matches.cup.cup_state import CupState, Ended, Slot, state_of
 from touchline.matches.cup.match_result import MatchResult, Pair

@@ -10,7 +10,7 @@ from typing import Any
 from markupsafe import Markup
 
 from recordings.reading.recording import open_recording
-from recordings.stats import page as statistics_page
+from recordings.soccer.stats import page as statistics_page
 from runtime.process.whole_file import written_whole
 from touchline.matches.cup.cup_config import TeamEntry
 from touchline.matches.cup.cup_state import CupMatch, CupState, Ended, MatchState, Slot

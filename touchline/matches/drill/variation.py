@@ -3,8 +3,8 @@
 from random import Random
 from typing import TypeVar
 
-from schemas.config.drill import Variation
 from schemas.config.scene import Scene, SceneBall, SceneRobot
+from schemas.config.soccer.drill import Variation
 
 Body = TypeVar("Body", SceneBall, SceneRobot)
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from recordings.container.parts import remove_parts
 from robot_agent.loading.user_code import place_of
 from schemas.errors import TouchlineError
-from schemas.messages.game import RefereeAction
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
 from touchline.matches.engine.fresh_process import DiedProcessError

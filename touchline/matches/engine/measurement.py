@@ -3,11 +3,11 @@
 from pathlib import Path
 
 from recordings.reading.recording import open_recording
-from recordings.stats.match_statistics import MatchStatistics, match_ticks_of
-from recordings.stats.match_tick import MatchTick
+from recordings.soccer.stats.match_statistics import MatchStatistics, match_ticks_of
+from recordings.soccer.stats.match_tick import MatchTick
 from schemas.errors import TouchlineError
-from schemas.messages.game import GameState
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import GameState
 from touchline.matches.engine.outcome import Played
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from msgspec import ValidationError
 
-from recordings.stats.figures import MatchFigures
+from recordings.soccer.stats.figures import MatchFigures
 from schemas.side import Side
 from schemas.wire.part import decoder, encode
 from touchline.matches.judging.judge import Verdict

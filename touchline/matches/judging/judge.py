@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from schemas.config.drill import Drill, DrillResult
+from schemas.config.soccer.drill import Drill, DrillResult
 from touchline.matches.judging.occurrences import Occurrence
 
 NO_CONDITION = "none of the conditions"

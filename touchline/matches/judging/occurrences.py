@@ -3,16 +3,16 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from recordings.stats.kicks import SHOTS, KickOutcome, KickRecord, KickTracker
-from recordings.stats.match_tick import MatchTick
-from schemas.game import EventKind
+from recordings.soccer.stats.kicks import SHOTS, KickOutcome, KickRecord, KickTracker
+from recordings.soccer.stats.match_tick import MatchTick
 from schemas.messages.setup import Setup
 from schemas.side import Side
+from schemas.soccer.game import EventKind
 
 
 @dataclass(frozen=True, slots=True)
 class Occurrence:
-    """Something that happened; `name` is a key of `schemas.config.drill.OCCURRENCES`."""
+    """Something that happened; `name` is a key of `schemas.config.soccer.drill.OCCURRENCES`."""
 
     name: str
     time: float

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from recordings.stats.figures import MatchFigures
+from recordings.soccer.stats.figures import MatchFigures
 from schemas.side import Side
 from touchline.matches.engine.outcome import Failed, Outcome, Played
 from touchline.matches.series.plan import SeedMatch, SeriesPlan

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from recordings.stats.figures import MatchFigures
+from recordings.soccer.stats.figures import MatchFigures
 from schemas.side import Side
 
 Value = float | int | None

@@ -5,11 +5,11 @@ from typing import Any, NamedTuple
 
 from msgspec.structs import replace
 
-from schemas.game import GameStage, OffField, Point, TeamPhase
-from schemas.messages.game import DisciplinaryRecord
 from schemas.messages.radio import BallBelief, Motion
 from schemas.messages.setup import Setup
 from schemas.messages.sight import BallSight, ReceivedRadio, Sight
+from schemas.messages.soccer.game import DisciplinaryRecord
+from schemas.soccer.game import GameStage, OffField, Point, TeamPhase
 
 TICKS = 15
 """Sights in a row of each situation."""

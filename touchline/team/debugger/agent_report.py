@@ -10,9 +10,9 @@ import typer
 from coach_gateway.match.lines import event_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from recordings.reading.recording import Recording
-from schemas.game import Score
-from schemas.messages.game import GameEvent
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import GameEvent
+from schemas.soccer.game import Score
 from schemas.topics import EVENT, STATE
 from touchline.verify.command_difference import FieldDifference
 from touchline.verify.compare_brain import BrainComparison

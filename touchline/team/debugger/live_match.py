@@ -11,12 +11,12 @@ from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import Score
 from schemas.messages.command import Command
-from schemas.messages.game import GameEvent
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
+from schemas.soccer.game import Score
 from sim_host.match.simulation import TickResult
 from touchline.play.match_recording import MatchRecording
 from touchline.play.play_match import InProcessMatch

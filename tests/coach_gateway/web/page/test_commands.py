@@ -6,10 +6,10 @@ import pytest
 
 from coach_gateway.match.host_client import HostClient
 from runtime.process.clock import WallClock
-from schemas.game import ActionName, Phase
 from schemas.messages.command import Kick, KickMode
-from schemas.messages.game import RefereeAction
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName, Phase
 from schemas.topics import MANUAL
 
 

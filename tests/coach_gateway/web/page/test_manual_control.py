@@ -5,7 +5,7 @@ import math
 import pytest
 
 from runtime.process.clock import WallClock
-from schemas.game import Phase
+from schemas.soccer.game import Phase
 from schemas.topics import MANUAL
 
 PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}

@@ -7,10 +7,10 @@ import pytest
 
 from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
-from schemas.game import ActionName, Card, EventKind, OffField, Phase
-from schemas.messages.game import DisciplinaryRecord, RobotQuestion, Score
 from schemas.messages.radio import Radio
+from schemas.messages.soccer.game import DisciplinaryRecord, RobotQuestion, Score
 from schemas.side import Side
+from schemas.soccer.game import ActionName, Card, EventKind, OffField, Phase
 from schemas.topics import EVENT
 from support.fake_host import FakeHost
 from support.messages import make_event

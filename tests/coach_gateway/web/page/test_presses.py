@@ -2,7 +2,7 @@
 
 import pytest
 
-from schemas.game import Phase
+from schemas.soccer.game import Phase
 
 LATER_MS = 500
 """Longer than two clicks of a double click are apart."""

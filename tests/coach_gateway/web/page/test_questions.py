@@ -7,9 +7,9 @@ import pytest
 
 from runtime.bus.contract import Bus
 from runtime.process.clock import WallClock
-from schemas.game import ActionName
-from schemas.messages.game import RefereeAction
+from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
+from schemas.soccer.game import ActionName
 from schemas.topics import ACTION
 from support.page_gateway import SOON
 from support.page_match import Match

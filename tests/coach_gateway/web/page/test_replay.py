@@ -5,9 +5,9 @@ import threading
 import pytest
 
 from coach_gateway.web.pages.broadcaster import PageBroadcaster
-from schemas.game import EventKind
 from schemas.messages.replay import ReplayReply
 from schemas.messages.world import World
+from schemas.soccer.game import EventKind
 
 
 def world_at(replayed, time: float) -> World:

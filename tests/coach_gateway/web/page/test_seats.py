@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from schemas.game import Phase
 from schemas.messages.coach import CoachMode
 from schemas.side import Side
+from schemas.soccer.game import Phase
 
 DEAD = """[...document.querySelectorAll("button, select, input, textarea")]
     .filter((one) => one.checkVisibility() && one.disabled).map((one) => one.id || one.dataset.action)"""

@@ -8,9 +8,9 @@ import pytest
 from coach_gateway.web.pages.manual_control import ManualControl
 from coach_gateway.web.pages.open_pages import Page
 from coach_gateway.web.pages.protocol import PageDrive
-from schemas.game import ActionName
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.manual import TIMEOUT_S, ManualDrive
+from schemas.soccer.game import ActionName
 from support.fake_host import FakeHost
 from support.page_gateway import SOON, TOKENS, Gateway
 from support.visitor import Visitor, wait_for

@@ -14,8 +14,8 @@ from robot_agent.soccer.skills.pass_to import ARRIVING, best_receiver, pass_spee
 from robot_agent.soccer.skills.receive import receive
 from robot_agent.soccer.skills.shoot import best_place, lane_width
 from robot_agent.soccer.skills.take_ball import front_of_holder, take_ball
-from schemas.config.kicked import Kicked
 from schemas.config.rolling import Rolling
+from schemas.config.soccer.kicked import Kicked
 
 GAP = 0.35
 GROUND = Rolling(0.5)

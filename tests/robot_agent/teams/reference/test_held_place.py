@@ -8,8 +8,8 @@ from robot_agent.teams.reference.give_and_go import Run
 from robot_agent.teams.reference.held_place import HeldPlace
 from robot_agent.teams.reference.parameters import PARAMETERS
 from robot_agent.teams.reference.roles import Role
-from schemas.game import TeamPhase
-from schemas.messages.game import GameView
+from schemas.messages.soccer.game import GameView
+from schemas.soccer.game import TeamPhase
 
 TAKEN, OTHER = (4.0, 2.0), (-1.0, -4.0)
 """m; the place that is held, and another that the formation has later."""

@@ -11,7 +11,7 @@ from itertools import pairwise
 import pytest
 
 from schemas.config.profile import load_profile
-from sim_host.actuation.possession import can_hold
+from sim_host.soccer.ball.possession import can_hold
 
 MSL = load_profile("msl")
 RESISTS = MSL.ball.mass + MSL.ball.inertia / MSL.ball.radius**2

@@ -7,7 +7,7 @@ import pytest
 from pytest import approx
 
 from robot_agent.soccer.skills.pass_to import pass_speed
-from schemas.config.kicked import Kicked
+from schemas.config.soccer.kicked import Kicked
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
 

@@ -25,11 +25,11 @@ from schemas.config.sections import Dribble
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
 from schemas.side import Side
-from sim_host.actuation.carrying import PULL_SPEED
 from sim_host.match.world import World
 from sim_host.physics.engine import Engine
 from sim_host.physics.gravity import GRAVITY
 from sim_host.snapshot import RobotState, Roster, Snapshot
+from sim_host.soccer.ball.carrying import PULL_SPEED
 
 NAMES = tuple(f"{side.value}{number}" for side in Side for number in range(1, 6))
 SIDES = tuple(side for side in Side for _ in range(5))

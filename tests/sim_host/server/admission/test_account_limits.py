@@ -4,7 +4,6 @@ import pytest
 
 from runtime.bus.contract import NoReplyError
 from runtime.bus.refusals import Refusal
-from schemas.game import EventKind, Phase
 from schemas.messages.admission import AdmissionRequest
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
@@ -12,6 +11,7 @@ from schemas.messages.recorder import RecorderProgress
 from schemas.messages.setup import SetupRequest
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase
 from schemas.topics import ADMISSION, COMMAND, EVENT, ORDER, RECORDER_PROGRESS, SETUP
 from sim_host.server.admission import account_limits
 from sim_host.server.admission.account_limits import EXTRA_RATE, MOST_EXTRA, OVER_LIMIT, AccountLimits

@@ -8,9 +8,9 @@ from robot_agent.process.runner import Runner
 from runtime.bus.contract import NoReplyError, PresenceKind, RefusedQueryError
 from runtime.process.timing import LINK_GRACE_S
 from schemas.config.match_config import MatchConfig
-from schemas.game import EventKind
 from schemas.messages.claim import AgentClaim
 from schemas.messages.setup import SetupRequest
+from schemas.soccer.game import EventKind
 from schemas.topics import CLAIM, EVENT, SETUP
 from support.host_rig import TEAMS, Agent, Forward, HostRig
 

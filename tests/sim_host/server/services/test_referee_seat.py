@@ -6,11 +6,11 @@ import pytest
 
 from coach_gateway.access.referee_name import box_name, gateway_name, terminal_name
 from runtime.bus.contract import PresenceKind
-from schemas.game import REFBOX, ActionName
 from schemas.messages.applied import Applied
-from schemas.messages.game import ActionReply, RefereeAction
-from schemas.messages.referee_seat import SeatOperation, SeatReply, SeatRequest
+from schemas.messages.soccer.game import ActionReply, RefereeAction
+from schemas.messages.soccer.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.side import Side
+from schemas.soccer.game import REFBOX, ActionName
 from schemas.topics import ACTION, APPLIED, EVENT, REFEREE_SEAT
 from sim_host.server.services.referee_seat import BOX_DECIDES, FREE, RefereeSeat
 

@@ -6,14 +6,14 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from runtime.bus.contract import Bus
 from runtime.bus.in_process_bus import SharedState
-from schemas.game import ActionName, EventKind, OffField, Phase, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
-from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
+from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
+from schemas.soccer.game import ActionName, EventKind, OffField, Phase, Score
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
 from schemas.wire.part_faults import validated
 from support.messages import make_setup

@@ -9,10 +9,10 @@ from typer.testing import CliRunner
 
 from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
-from schemas.game import EventKind, Phase, Score
 from schemas.messages.debug import Debug, RobotDebug
-from schemas.messages.game import GameEvent, GameState
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topics import DEBUG, EVENT, STATE, WORLD
 from support.messages import make_setup, make_world
 from support.stepped_clock import SteppedClock

@@ -2,8 +2,8 @@
 
 from pytest import approx
 
-from schemas.config.drill import Variation
 from schemas.config.scene import load_scene
+from schemas.config.soccer.drill import Variation
 from touchline.matches.drill.variation import varied
 
 SCENE = load_scene("one_against_keeper").model_copy(

@@ -221,7 +221,7 @@ def _loaded_modules(note: Path) -> set[str]:
 def test_a_process_of_a_match_begins_with_the_modules_of_a_match(match_of: MatchOf) -> None:
     with FreshProcesses(1) as executor:
         loaded = executor.submit(_loaded_modules).result()
-    assert {"pybullet", "robot_agent.teams.simple.team", "recordings.stats.match_statistics"} <= loaded
+    assert {"pybullet", "robot_agent.teams.simple.team", "recordings.soccer.stats.match_statistics"} <= loaded
 
 
 class KilledWorkerError(Exception):

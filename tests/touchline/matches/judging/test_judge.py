@@ -2,8 +2,8 @@
 
 import pytest
 
-from schemas.config.drill import OCCURRENCES, Drill, DrillResult
 from schemas.config.scene import load_scene, shipped_scenes
+from schemas.config.soccer.drill import OCCURRENCES, Drill, DrillResult
 from schemas.side import Side
 from touchline.matches.judging.judge import Verdict, verdict_of
 from touchline.matches.judging.occurrences import Occurrence

@@ -2,9 +2,9 @@
 
 import pytest
 
-from recordings.stats.match_tick import match_ticks
-from schemas.game import EventKind, Score
+from recordings.soccer.stats.match_tick import match_ticks
 from schemas.side import Side
+from schemas.soccer.game import EventKind, Score
 from support.match_script import MatchScript
 from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
 

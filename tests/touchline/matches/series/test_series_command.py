@@ -13,7 +13,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from recordings.reading.recording import open_recording
-from recordings.stats.match_statistics import figures_of_recording
+from recordings.soccer.stats.match_statistics import figures_of_recording
 from schemas.config.match_config import load_match
 from schemas.side import Side
 from touchline.commands.cli.command_line import app

@@ -23,7 +23,7 @@ from runtime.bus.zenoh.bus import ZenohBus, open_host
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.setup import Setup
 from schemas.side import Side

@@ -1,0 +1,1 @@
+"""What the gateway knows of soccer: the league's referee box."""

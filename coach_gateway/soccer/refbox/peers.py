@@ -1,0 +1,86 @@
+"""The base stations that are connected to our box: which one gives way to another."""
+
+import asyncio
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+from coach_gateway.soccer.refbox.framing import BoxProtocol, Framer
+from coach_gateway.timing import SILENCE_S
+from schemas.side import Side
+
+MOST = 16
+"""Base stations at the same time. A further one replaces one that has not identified itself, or is turned away."""
+
+
+class Proof(IntEnum):
+    """How a base station has shown which team it belongs to; a weaker proof replaces no stronger one."""
+
+    NAME = 1
+    """By a name that everybody knows."""
+    PORT = 2
+    """By a port that one team alone uses."""
+    TOKEN = 3
+    """By the token of the team's coach."""
+
+
+@dataclass(eq=False)
+class Peer:
+    """One base station."""
+
+    writer: asyncio.StreamWriter
+    host: str
+    port: int
+    begun_at: float
+    side: Side | None = None
+    proof: Proof = Proof.NAME
+    protocol: BoxProtocol = BoxProtocol.JSON
+    """Protocol of the commands that are sent to it; its own messages are JSON in any case."""
+    framer: Framer = field(default_factory=lambda: Framer(BoxProtocol.JSON))
+
+    def __post_init__(self) -> None:
+        self.heard_at = self.begun_at
+        """Wall time in s of its last message."""
+
+    @property
+    def name(self) -> str:
+        """Its address, for people."""
+        return f"{self.host}:{self.port}"
+
+
+class Peers:
+    """All base stations."""
+
+    def __init__(self) -> None:
+        self._open: list[Peer] = []
+
+    def __iter__(self) -> Iterator[Peer]:
+        return iter(tuple(self._open))
+
+    def __len__(self) -> int:
+        return len(self._open)
+
+    def add(self, peer: Peer) -> None:
+        """Take in a base station."""
+        self._open.append(peer)
+
+    def remove(self, peer: Peer) -> None:
+        """Forget a base station that is gone."""
+        if peer in self._open:
+            self._open.remove(peer)
+
+    def to_make_room(self) -> Peer | None:
+        """The base station that gives way to a further one: the oldest without an identity; None where all have one."""
+        return next((peer for peer in self._open if peer.side is None), None)
+
+    def of(self, side: Side, but: Peer) -> list[Peer]:
+        """The other base stations of a side."""
+        return [other for other in self._open if other is not but and other.side is side]
+
+    def why_kept(self, other: Peer, proof: Proof, host: str, now: float) -> str:
+        """Why a base station is not replaced by one with this proof from this address; empty when it is."""
+        if other.proof > proof:
+            return "its base station has proven more; send the token of its coach in the hello"
+        if proof is not Proof.TOKEN and other.host != host and now - other.heard_at < SILENCE_S:
+            return "its base station at another address is in use; send the token of its coach in the hello"
+        return ""

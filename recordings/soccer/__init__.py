@@ -1,0 +1,1 @@
+"""What recordings know of soccer: statistics, and the logs of the league."""

@@ -1,0 +1,1 @@
+"""Configuration of soccer: the rule book, drills, and how a kicked ball moves."""

@@ -1,0 +1,1 @@
+"""Words of soccer: the states of its game."""

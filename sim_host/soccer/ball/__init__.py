@@ -1,0 +1,1 @@
+"""Possession, dribbling, kicks, and the motion of the free ball."""
