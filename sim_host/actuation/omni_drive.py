@@ -5,13 +5,14 @@ robot that is held back goes on pushing. The body keeps the engine's velocity, t
 change by the wheels' forces.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.messages.command import Drive
+from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
 from sim_host.actuation.ramp import Flags, Floats, Ramp
 from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
 from sim_host.actuation.wheels import WheelSets
@@ -22,7 +23,7 @@ _SAME_SPEED = 1e-9
 """m/s; a plan this near to the demand is set to the demand, so that wheels that shall rest get exactly zero."""
 
 
-class OmniDrive:
+class OmniDrive(DriveModel):
     """The drives of some robots, each with its own memory: rim speeds, and the last planned twist."""
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
@@ -33,7 +34,8 @@ class OmniDrive:
         self._remembers = False
         self._commanded = np.zeros((3, len(models)))
         self._speeds = np.zeros((4, len(models)))
-        self._plan: list[Floats] = []
+        self._way: list[Floats] = []
+        """The planned twist of each step of the tick."""
         self.held_back: Flags = np.zeros(len(models), dtype=bool)
         """Per robot, at the beginning of the tick: its motion is well below the last plan."""
 
@@ -41,8 +43,8 @@ class OmniDrive:
         """Clear the memory: in the next tick the wheels roll without slip at the measured twists."""
         self._remembers = False
 
-    def plan(self, robots: Sequence[RobotState], demands: Sequence[Drive]) -> None:
-        """Plan a tick of robots with these demanded velocities, in their body frames."""
+    def plan(self, robots: Sequence[RobotState], demands: Sequence[Drive], bodies: Bodies) -> Plan:
+        """The velocities of one tick; each step follows the bodies as they are when it begins."""
         twist, _ = _twist(robots)
         if not self._remembers:
             self._commanded, self._speeds = twist, self._wheels.rolling(twist)
@@ -56,13 +58,19 @@ class OmniDrive:
         velocities = np.where(np.abs(velocities - wanted) < _SAME_SPEED, wanted, velocities)
         turn_rates = self._turning.toward(self._commanded[2], omega)
         steps = zip(velocities.real, velocities.imag, turn_rates, strict=True)
-        self._plan = [self._wheels.within_limit(np.stack(step)) for step in steps]
-        self._commanded = self._plan[-1]
+        self._way = [self._wheels.within_limit(np.stack(step)) for step in steps]
+        self._commanded = self._way[-1]
+        return self._follow(bodies)
+
+    def _follow(self, bodies: Bodies) -> Iterator[list[FieldTwist]]:
+        """The velocities of each step."""
+        for number in range(len(self._way)):
+            yield self.step(number, bodies.now())
 
     def step(self, number: int, robots: Sequence[RobotState]) -> list[FieldTwist]:
         """The velocities with which the robots, in their present state, begin one physics step of the tick."""
         twist, turned = _twist(robots)
-        wheels = self._wheels.step(twist, self._speeds, self._wheels.rolling(self._plan[number]))
+        wheels = self._wheels.step(twist, self._speeds, self._wheels.rolling(self._way[number]))
         self._speeds = wheels.speeds
         vx, vy, omega = wheels.twist
         in_field = (vx + 1j * vy) * turned

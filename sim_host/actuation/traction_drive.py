@@ -17,10 +17,10 @@ import numpy as np
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.messages.command import Drive
+from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
 from sim_host.actuation.grip import Grip, accelerations
 from sim_host.actuation.ramp import Flags, Floats, Vectors
 from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
-from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotMotions, RobotStates
 
@@ -36,11 +36,13 @@ _TINY = np.array(1e-30)
 """Avoids a division by zero for a velocity that does not change."""
 
 
-class TractionDrive:
+class TractionDrive(DriveModel):
     """The drives of some robots, each with its own memory: the motion that was set last, in the field frame.
 
     Their motions are in one array: for each robot its velocity, x + iy, and then its turn rate.
     """
+
+    yields = True
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
         drives, steps = [model.drive for model in models], time.steps_per_tick
@@ -77,7 +79,7 @@ class TractionDrive:
         """Clear the memory: the next tick begins from the measured velocities."""
         self._remembers = False
 
-    def plan(self, robots: RobotStates, demands: Sequence[Drive]) -> list[list[FieldTwist]]:
+    def plan(self, robots: RobotStates, demands: Sequence[Drive], bodies: Bodies) -> Plan:
         """The velocities of one tick, per physics step and robot; `demands` are in the body frames.
 
         The demanded direction is taken at the heading halfway through the tick.
@@ -104,15 +106,12 @@ class TractionDrive:
         self._toward(now[::2], self._target, after[:, ::2])
         self._last[...] = after[-1]
         planned: list[list[FieldTwist]] = self._numbers.tolist()
-        return planned
+        return self._yielding(planned, bodies) if bodies.touching else planned
 
-    def yielding(
-        self, planned: list[list[FieldTwist]], touching: Sequence[tuple[int, int]], engine: Engine
-    ) -> Iterator[list[FieldTwist]]:
-        """The same plan, in which robots that may touch something change their motions by their grip at most.
-
-        `touching` has the index of each such robot in this drive, and in the roster.
-        """
+    def _yielding(self, planned: list[list[FieldTwist]], bodies: Bodies) -> Iterator[list[FieldTwist]]:
+        """The same plan, in which robots that may touch something change their motions by their grip at most."""
+        engine = bodies.engine
+        touching = [(robot, place) for robot, place in enumerate(bodies.indices) if place in bodies.touching]
         for number, twists in enumerate(planned, 1):
             for robot, place in touching:
                 twist = self._grip.limited(robot, twists[robot], engine.robot_twist(place))

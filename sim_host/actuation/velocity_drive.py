@@ -9,6 +9,7 @@ import numpy as np
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
 from schemas.messages.command import Drive
+from sim_host.actuation.drive_model import Bodies, DriveModel
 from sim_host.actuation.ramp import Flags, Ramp, Vectors
 from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
 from sim_host.physics.vectors import FieldTwist
@@ -21,7 +22,7 @@ _UNDISTURBED = np.array(1e-3)
 """m/s and rad/s; a robot whose measured motion differs by no more from the set one was not disturbed."""
 
 
-class VelocityDrive:
+class VelocityDrive(DriveModel):
     """The drives of some robots, each with its own memory.
 
     Their motions are in one array: for each robot its velocity, x + iy, and then its turn rate.
@@ -51,7 +52,7 @@ class VelocityDrive:
         self._last_in_body = np.zeros_like(self._last_in_body)
         self._last_in_field = np.full_like(self._last_in_field, np.inf)
 
-    def plan(self, robots: RobotStates, demands: Sequence[Drive]) -> list[list[FieldTwist]]:
+    def plan(self, robots: RobotStates, demands: Sequence[Drive], _bodies: Bodies) -> list[list[FieldTwist]]:
         """The velocities of one tick, per physics step and robot; `demands` are in the body frames."""
         twists = np.fromiter(chain.from_iterable(map(_twist, demands)), float, 3 * self._count)
         self._demand_numbers[...] = twists.reshape(-1, 3)

@@ -40,7 +40,7 @@ class World:
         self._engine = engine or Engine(profile, roster)
         self._chassis = Chassis(profile.time, roster.models, self._engine)
         self._ball = BallHandling(profile, roster.models, self._engine)
-        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field, profile.ball.radius)
+        self._candidates = CollisionCandidates(profile, roster.models, self._chassis.yielding)
         self._collision = ContinuousCollision(profile, self._engine)
         self.tick = 0
         self._obstacles: tuple[ObstacleState, ...] = ()
@@ -89,12 +89,12 @@ class World:
         self._engine = Engine(profile, roster)
         for obstacle in obstacles:
             self._engine.put_obstacle(ObstacleState.of(obstacle))
-        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field, profile.ball.radius)
+        self._chassis = Chassis(profile.time, roster.models, self._engine)
+        self._candidates = CollisionCandidates(profile, roster.models, self._chassis.yielding)
         self._collision = ContinuousCollision(profile, self._engine)
         self._update_obstacles()
         new_states = self._engine.robot_states(None)
         self._roster = roster
-        self._chassis = Chassis(profile.time, roster.models, self._engine)
         self._ball = BallHandling(profile, roster.models, self._engine)
         robots = [kept.get(name, state) for name, state in zip(roster.names, new_states, strict=True)]
         self._engine.rebuild(robots, ball)

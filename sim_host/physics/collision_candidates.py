@@ -8,8 +8,8 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
+from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
-from schemas.config.sections import Pitch, TimeSteps
 from sim_host.physics.pitch import fixed_boxes
 from sim_host.snapshot import BallState, ObstacleState, RobotState
 
@@ -44,16 +44,16 @@ class Candidates(NamedTuple):
 class CollisionCandidates:
     """Finds robots that may meet another body; the cost grows with their number."""
 
-    def __init__(self, time: TimeSteps, models: Sequence[RobotModel], pitch: Pitch, ball_radius: float) -> None:
-        self._tick = time.tick
-        self._ball_radius = ball_radius
-        self._yields = [model.drive.model == "traction" for model in models]
+    def __init__(self, profile: Profile, models: Sequence[RobotModel], yields: Sequence[bool]) -> None:
+        self._tick = tick = profile.time.tick
+        self._ball_radius, pitch = profile.ball.radius, profile.field
+        self._yields = yields
         """Per robot: its drive is no stronger than its grip where the robot touches something."""
-        self._fast = MAX_DEPTH / time.physics_step
+        self._fast = MAX_DEPTH / profile.time.physics_step
         self._reaches = [model.body.reach for model in models]
         self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
         """m from the axis to where a turning hull can strike; 0 for a round hull, which slides past."""
-        self._gains = [max(model.drive.acceleration, model.drive.deceleration) * time.tick for model in models]
+        self._gains = [max(model.drive.acceleration, model.drive.deceleration) * tick for model in models]
         self._boxes = [(box.x, box.y, box.half_x, box.half_y) for box in fixed_boxes(pitch)]
         self._free_x, self._free_y = pitch.goal_line, pitch.touch_line + pitch.border
         """m; no box of the pitch lies within these."""

@@ -54,11 +54,14 @@ class Floor:
 
     def tick(self, *told: Told, pull: complex = 0) -> RobotState:
         """One control tick, pulled at with a force in N; the first robot as it is then."""
-        self.drive.plan(self.robots, [Drive(vx=vx, vy=vy, omega=omega) for vx, vy, omega in told])
-        for number in range(TIME.steps_per_tick):
-            self._step(self.drive.step(number, self.robots), pull)
+        for twists in self.drive.plan(self.robots, [Drive(vx=vx, vy=vy, omega=omega) for vx, vy, omega in told], self):
+            self._step(twists, pull)
         self.time += TIME.tick
         return self.robots[0]
+
+    def now(self) -> list[RobotState]:
+        """The robots as the drive reads them between two steps."""
+        return self.robots
 
     def _step(self, drives: list[tuple[float, float, float]], pull: complex) -> None:
         dt = TIME.physics_step

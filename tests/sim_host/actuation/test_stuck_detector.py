@@ -1,6 +1,7 @@
 """The stuck flag: the progress of each robot, and what counts as held back in the velocity drive."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -43,12 +44,14 @@ def test_demands_that_flicker_do_not_hide_that_a_robot_stands() -> None:
 
 def held(told: tuple[float, float, float], measured: tuple[float, float, float]) -> list[bool]:
     """Three robots with the same demand for a while; the second one moves only as measured."""
+    bodies: Any = None  # this drive reads no bodies
     drive = VelocityDrive(MSL.time, [RobotModel.standard(MSL)] * 3)
     commands = [Drive(vx=told[0], vy=told[1], omega=told[2])] * 3
     last = [(0.0, 0.0, 0.0)] * 3
     for _ in range(50):
         moving = [last[0], measured, last[2]]
-        last = drive.plan(RobotStates(RobotState(0, 0, 0.4, 0, *twist, False) for twist in moving), commands)[-1]
+        robots = RobotStates(RobotState(0, 0, 0.4, 0, *twist, False) for twist in moving)
+        last = drive.plan(robots, commands, bodies)[-1]
     flags: list[bool] = drive.held_back.tolist()
     return flags
 
