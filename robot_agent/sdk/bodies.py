@@ -68,6 +68,8 @@ class DriveLimits(NamedTuple):
     deceleration: float
     turn_acceleration: float
     tick: float
+    sideways: bool = True
+    """The robot moves in any direction, whatever its heading; False on two wheels."""
 
     @classmethod
     def of(cls, setup: Setup) -> "DriveLimits":
@@ -80,6 +82,7 @@ class DriveLimits(NamedTuple):
             drive.deceleration,
             drive.turn_acceleration,
             setup.time.tick,
+            drive.sideways,
         )
 
     def capped(self, speed: float | None = None, turn_rate: float | None = None) -> "DriveLimits":

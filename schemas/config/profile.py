@@ -31,7 +31,7 @@ from schemas.config.sections import (
 )
 from schemas.errors import TouchlineError, did_you_mean
 
-SHIPPED = ("msl", "ideal", "omni", "omni3", "msl-2016", "paper")
+SHIPPED = ("msl", "ideal", "omni", "omni3", "differential", "msl-2016", "paper")
 """The profiles that the package ships."""
 FILES = NumberFiles("profile", "profiles", SHIPPED)
 """Where profiles are read from."""
@@ -161,7 +161,7 @@ def check_consistent(profile: Profile) -> None:
 
 
 def _check_robot(where: str, numbers: Mapping[str, Any], ball: Ball) -> None:
-    robot, wheels, dribble = numbers["robot"], numbers["wheels"], numbers["dribble"]
+    robot, dribble = numbers["robot"], numbers["dribble"]
     touching = robot.radius + ball.radius
     if dribble.gap > dribble.distance:
         raise TouchlineError(
@@ -177,8 +177,22 @@ def _check_robot(where: str, numbers: Mapping[str, Any], ball: Ball) -> None:
             f"{where}: robot.frame_width is {robot.frame_width} m, robot.frame_depth {robot.frame_depth} m; "
             "a frame has both, a robot without a frame has neither"
         )
+    _check_wheels(where, numbers["drive"], numbers["wheels"])
+
+
+def _check_wheels(where: str, drive: DriveLimits, wheels: Wheels) -> None:
     if wheels.max_speed > wheels.no_load_rim_speed:
         raise TouchlineError(
             f"{where}: wheels.max_speed is {wheels.max_speed} m/s; no_load_speed, radius and gear let a rim "
             f"reach {wheels.no_load_rim_speed:.2f} m/s at most"
+        )
+    if (wheels.count == 2) != (drive.model == "differential"):
+        needed = "2 wheels" if drive.model == "differential" else "3 or 4 wheels"
+        raise TouchlineError(
+            f'{where}: wheels.count is {wheels.count}; a robot whose drive.model is "{drive.model}" has {needed}'
+        )
+    if drive.model == "differential" and drive.max_speed > wheels.max_speed:
+        raise TouchlineError(
+            f"{where}: drive.max_speed is {drive.max_speed} m/s; two wheels with wheels.max_speed "
+            f"{wheels.max_speed} m/s drive no faster than that"
         )

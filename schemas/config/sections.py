@@ -134,18 +134,28 @@ class DriveLimits:
         str,
         Choice(
             "velocity sets the velocity, its change limited in the turning body frame; traction limits the change as a "
-            "vector in the field frame; omni drives wheels toward it",
-            ("velocity", "traction", "omni"),
+            "vector in the field frame; omni drives wheels toward it; differential has two wheels and no sideways "
+            "motion",
+            ("velocity", "traction", "omni", "differential"),
         ),
     ] = "velocity"
     stuck_window: Annotated[float, Quantity("s", "time over which progress is compared with demand", 0.02, 5)] = 0.5
 
+    @property
+    def sideways(self) -> bool:
+        """The drive moves the robot in any direction, whatever its heading."""
+        return self.model != "differential"
+
 
 @dataclass(frozen=True, slots=True)
 class Wheels:
-    """The wheels of a robot whose drive is `omni`: evenly spaced, axles toward the centre, with free rollers."""
+    """The wheels of a robot whose drive is `omni` or `differential`: evenly spaced, axles toward the centre.
 
-    count: Annotated[int, Quantity("1", "number of wheels", 3, 4)]
+    Those of `omni` have free rollers. `differential` has two with tyres, and reads `count`, `arm`, `max_speed` and
+    `traction` only.
+    """
+
+    count: Annotated[int, Quantity("1", "number of wheels; 2 of a differential drive", 2, 4)]
     angle: Annotated[float, Quantity("rad", "kick axis to the first wheel; the others follow evenly", -3.2, 3.2)]
     arm: Annotated[float, Quantity("m", "centre of the robot to the wheels", 0.05, 0.6)]
     radius: Annotated[float, Quantity("m", "radius of a wheel", 0.01, 0.2)]

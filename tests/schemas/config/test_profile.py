@@ -93,6 +93,24 @@ def test_nine_restart_spots_are_marked() -> None:
             '[wheels]\nmax_speed = { value = 7, unit = "m/s", origin = "x" }',
             "wheels.max_speed is 7.0 m/s; no_load_speed, radius and gear let a rim reach 6.62 m/s at most",
         ),
+        (
+            '[drive]\nmodel = { value = "diferential", origin = "x" }',
+            "drive.model is 'diferential'; did you mean \"differential\"?",
+        ),
+        (
+            '[drive]\nmodel = { value = "differential", origin = "x" }',
+            'wheels.count is 4; a robot whose drive.model is "differential" has 2 wheels',
+        ),
+        (
+            '[types.own.wheels]\ncount = { value = 2, unit = "1", origin = "x" }',
+            'types.own: wheels.count is 2; a robot whose drive.model is "traction" has 3 or 4 wheels',
+        ),
+        (
+            '[types.own.wheels]\ncount = { value = 2, unit = "1", origin = "x" }\n'
+            'max_speed = { value = 3, unit = "m/s", origin = "x" }\n'
+            '[types.own.drive]\nmodel = { value = "differential", origin = "x" }',
+            "types.own: drive.max_speed is 4.0 m/s; two wheels with wheels.max_speed 3.0 m/s drive no faster",
+        ),
         ("[feild]\nlength = 3", 'section [feild] is not known; did you mean "field"?'),
         ('[dribble]\ngap = { value = 0.6, unit = "m", origin = "x" }', "a held ball must stay within dribble.distance"),
         ("[field", "not TOML"),

@@ -18,6 +18,7 @@ from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 
 DIGESTS = {
+    "profiles/differential": (1, "703bf9aef137"),
     "profiles/ideal": (2, "6f1cfd502acd"),
     "profiles/msl": (2, "cee9e941c4a0"),
     "profiles/msl-2016": (2, "1391972edd03"),

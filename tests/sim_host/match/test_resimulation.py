@@ -33,6 +33,7 @@ CRATE = {"name": "crate", "shape": "box", "place": [1.5, 1.0], "heading": 0.4, "
 KINDS: dict[str, dict[str, Any]] = {
     "velocity drive": {},
     "wheels": {"profile": "omni"},
+    "two wheels": {"profile": "differential"},
     "the paper's robots": {"profile": "paper"},
     "dribble by velocity": {"types": {"own": {"dribble": {"method": "velocity"}}}},
     "dribble by force": {
