@@ -54,7 +54,7 @@ def text_of(page: Path) -> list[str]:
     return re.sub(r"<[^>]*>", " ", without_pictures).split()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_series_is_the_one_that_was_played_before() -> None:
     teams = ("--cyan", "simple", "--magenta", "nubot")
     found = printed("series", *teams, "--seeds", "1-2", "--both-sides", "--duration", "10", "--json")

@@ -22,9 +22,9 @@ from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.wire.part import encode
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation
-from support.recorded_match import match_recorder, played
+from support.recorded_match import match_recorder
 
-__all__ = ["match_recorder", "played"]
+__all__ = ["match_recorder"]
 
 Fields = dict[str, Any]
 Edit = Callable[[Fields], Fields | None]

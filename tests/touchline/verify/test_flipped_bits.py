@@ -18,7 +18,7 @@ from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from touchline.verify.resimulate import verify
 
-FLIPS = 40
+FLIPS = 20
 UNTIL_S = 2.0
 
 Entry = tuple[str, int, int, bytes]

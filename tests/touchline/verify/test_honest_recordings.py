@@ -1,6 +1,7 @@
 """Honest recordings of all kinds are identical, with their referee, from tick 0 and from each of their starts."""
 
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -103,22 +104,30 @@ KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }
 
 
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Callable[[str], Path]:
+    """Gives the recording of a kind, which is made once."""
+
+    @cache
+    def record(kind: str) -> Path:
+        match, options = KINDS[kind]
+        path = tmp_path_factory.mktemp("honest") / "match.mcap"
+        sizes = {} if "scene" in match else TWO_A_SIDE
+        match_recorder(path, load_match(None, {"seed": 4, **sizes, **match}), **options)
+        return path
+
+    return record
+
+
 @pytest.fixture(scope="module", params=KINDS)
-def honest(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, match_recorder) -> Path:
-    match, options = KINDS[request.param]
-    path = tmp_path_factory.mktemp("honest") / "match.mcap"
-    sizes = {} if "scene" in match else TWO_A_SIDE
-    match_recorder(path, load_match(None, {"seed": 4, **sizes, **match}), **options)
-    return path
+def honest(request: pytest.FixtureRequest, recorded: Callable[[str], Path]) -> Path:
+    return recorded(request.param)
 
 
 @pytest.fixture(scope="module")
-def officiated(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Path:
+def officiated(recorded: Callable[[str], Path]) -> Path:
     """A match in which people decide."""
-    match, options = KINDS["people who officiate"]
-    path = tmp_path_factory.mktemp("officiated") / "match.mcap"
-    match_recorder(path, load_match(None, {"seed": 4, **TWO_A_SIDE, **match}), **options)
-    return path
+    return recorded("people who officiate")
 
 
 def test_it_is_identical_with_its_referee(honest: Path) -> None:
@@ -174,11 +183,9 @@ def test_a_recording_of_some_keys_is_identical_and_the_others_are_named(officiat
 
 
 def test_the_recording_under_a_referee_box_has_its_questions_and_its_end(
-    tmp_path: Path, match_recorder: Callable[..., None]
+    recorded: Callable[[str], Path],
 ) -> None:
-    match, options = KINDS["a league's referee box"]
-    match_recorder(tmp_path / "box.mcap", load_match(None, {"seed": 4, **TWO_A_SIDE, **match}), **options)
-    recording = open_recording(tmp_path / "box.mcap")
+    recording = open_recording(recorded("a league's referee box"))
     texts = "\n".join(event.text for _, event in recording.decoded("game/event"))
     assert "repair for magenta2: magenta has not named a robot within 10 s" in texts
     assert "the league's referee box has been gone for 10 s" in texts and "half 1 ends after" in texts
