@@ -96,7 +96,9 @@ def side_by_side(one: MatchConfig, other: MatchConfig, seconds: float) -> Iterat
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kick_off", Side)
-@pytest.mark.parametrize("teams", [("simple", "nubot"), ("nubot", "nubot")], ids=" – ".join)
+@pytest.mark.parametrize(
+    "teams", [("simple", "nubot"), pytest.param(("nubot", "nubot"), marks=pytest.mark.long)], ids=" – ".join
+)
 def test_with_sides_brains_and_kick_off_exchanged_a_match_is_the_mirrored_match(teams, kick_off: Side) -> None:
     cyan, magenta = teams
     events: tuple[list[GameEvent], list[GameEvent]] = ([], [])
