@@ -34,6 +34,7 @@ from sim_host.physics.engine import Engine
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster, Snapshot
+from sim_host.soccer.ball.ball_handling import BallHandling
 from sim_host.soccer.referee.core import Referee
 
 SIZES = (2, 6, 10, 22, 100)
@@ -76,7 +77,7 @@ class TickRig:
     def __init__(self, profile_name: str, count: int) -> None:
         self.profile = profile = load_profile(profile_name)
         self.roster = roster_of(count, RobotModel.standard(profile))
-        self.world = World(profile, self.roster)
+        self.world = World(profile, self.roster, BallHandling)
         self.raw = Engine(profile, self.roster)
         self.world.place(self._spread())
         self.world.make_checkpoint()
@@ -144,7 +145,8 @@ class TickRig:
         self.step_world()
         ruling = self.referee.step(self.state, self.snapshot, (), self.profile.time.tick)
         self.state = ruling.state
-        self.sights.at(self.snapshot, self.state, 1, self.advance.stuck, {}, {}, {}, discard)
+        views = self.referee.views(self.state, 1)
+        self.sights.at(self.snapshot, self.state.cyan_attacks, views, self.advance.stuck, {}, {}, {}, discard)
 
     def ready(self) -> None:
         """Set the raw engine to the world's state."""

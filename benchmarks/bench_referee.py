@@ -51,7 +51,7 @@ def flow_of(seed: int, duration: float) -> Flow:
     """Play one match in this process."""
     table = InProcessMatch(load_match(None, {"seed": seed, "rules": RULES, "duration": duration}))
     simulation = table.simulation
-    judge, judging = simulation.referee.step, 0.0
+    judge, judging = simulation.judge.step, 0.0
 
     def timed_judge(*arguments: object) -> object:
         nonlocal judging
@@ -60,7 +60,7 @@ def flow_of(seed: int, duration: float) -> Flow:
         judging += time.thread_time() - began
         return ruling
 
-    simulation.referee.step = timed_judge  # type: ignore[assignment, method-assign]
+    simulation.judge.step = timed_judge  # type: ignore[assignment, method-assign]
     step, stepping = simulation.step, 0.0
 
     def timed_step(*arguments: object) -> object:

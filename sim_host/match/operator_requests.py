@@ -4,17 +4,17 @@ from dataclasses import replace
 
 from schemas.config.roster import Placement
 from schemas.config.scene import Scene
-from schemas.config.soccer.rule_book import RuleBook
 from schemas.errors import TouchlineError
 from schemas.messages.applied import OperatorChange
 from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest, Setting
 from schemas.messages.scene import SceneReply, SceneRequest
-from schemas.soccer.game import EventKind, Phase
+from schemas.soccer.game import EventKind
+from sim_host.game.contract import Game
+from sim_host.game.judging import PlayState
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.subsystems import Subsystems
 from sim_host.snapshot import BALL, Snapshot
-from sim_host.soccer.referee.game.referee_state import RefereeState
 from sim_host.staging.layout import Layout, LayoutChange, Specs
 from sim_host.staging.operations import ResetScenes, apply_request
 
@@ -23,7 +23,7 @@ class OperatorRequests:
     """Holds the layout, the parameters and the episode of a match, and the changes that its next tick applies."""
 
     def __init__(
-        self, live_parameters: LiveParameters, subsystems: Subsystems, book: RuleBook, start: Scene, began: LayoutChange
+        self, live_parameters: LiveParameters, subsystems: Subsystems, game: Game, start: Scene, began: LayoutChange
     ) -> None:
         """`start` is the scene that the match begins with, and `began` the layout that it makes."""
         self.live_parameters = live_parameters
@@ -34,7 +34,7 @@ class OperatorRequests:
         )
         """Changes to apply before the next tick."""
         self._subsystems = subsystems
-        self._book = book
+        self._game = game
         self._reset_scenes = ResetScenes(start, start)
 
     def pop_pending(self) -> PendingChanges:
@@ -64,12 +64,10 @@ class OperatorRequests:
             self.pending.by_operator.append(OperatorChange(EventKind.PARAMETERS, request.operation.value, text))
         return ParametersReply(accepted=True, parameters=described)
 
-    def handle_scene(
-        self, request: SceneRequest, state: RefereeState, snapshot: Snapshot
-    ) -> tuple[SceneReply, RefereeState]:
+    def handle_scene(self, request: SceneRequest, state: PlayState, snapshot: Snapshot) -> tuple[SceneReply, PlayState]:
         """Change the layout, or refuse all of it; the reply, and the state of the game from the next tick on."""
         try:
-            if state.phase is Phase.FULL_TIME:
+            if state.over:
                 raise TouchlineError("the match is over")
             change, self._reset_scenes = apply_request(
                 self._current_layout(snapshot), request, self._reset_scenes, self._specs
@@ -91,7 +89,7 @@ class OperatorRequests:
         at.update({one.body: one for one in self.pending.placements})
         return replace(self.layout, at=at)
 
-    def _apply_layout_change(self, change: LayoutChange, state: RefereeState) -> RefereeState:
+    def _apply_layout_change(self, change: LayoutChange, state: PlayState) -> PlayState:
         """Pass a new layout on to the subsystems, and to the world before the next tick; the state of the game."""
         before, self.layout, pending = self.layout, change.layout, self.pending
         new_episode = change.game is not None
@@ -105,15 +103,17 @@ class OperatorRequests:
         self._subsystems.set_roster(self.layout.robots, new_episode=new_episode)
         if change.game is not None:
             self.episode += 1
-            return self._subsystems.referee.begin_at(change.game, change.ball)
+            begun: PlayState = self._subsystems.judge.begin_at(change.game, change.ball)
+            return begun
         if change.placements or self.layout.robots != before.robots:
-            return state.after_layout_change(self._subsystems.roster.names)
+            changed: PlayState = state.after_layout_change(self._subsystems.roster.names)
+            return changed
         return state
 
     @property
     def _specs(self) -> Specs:
         profile = self.live_parameters.profile
-        return Specs(profile.field, profile.ball, self.live_parameters.types, self._book)
+        return Specs(profile.field, profile.ball, self.live_parameters.types, self._game.check_team_sizes)
 
 
 def _setting_text(value: Setting) -> str:

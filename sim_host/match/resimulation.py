@@ -19,6 +19,7 @@ from schemas.messages.applied import Applied
 from schemas.messages.setup import Setup
 from schemas.messages.world import World as WorldMessage
 from schemas.natural_order import natural_order
+from sim_host.game.ball_control import MakeBallControl
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, bodies_fields
@@ -133,8 +134,11 @@ def _differences(model: RobotModel, standard: RobotModel) -> dict[str, dict[str,
 class Resimulation:
     """Simulates a recorded match again, tick by tick."""
 
-    def __init__(self, initial: Conditions, checkpoint: CheckpointState | None = None) -> None:
+    def __init__(
+        self, make_ball_control: MakeBallControl, initial: Conditions, checkpoint: CheckpointState | None = None
+    ) -> None:
         """`initial` and `checkpoint` are of the tick before the first one; `checkpoint` is None to begin at tick 0."""
+        self._make_ball_control = make_ball_control
         self._conditions = initial
         self._checkpoint = checkpoint
         self._names: set[str] = set()
@@ -182,7 +186,7 @@ class Resimulation:
     def _new_world(self, conditions: Conditions) -> World:
         """The world before the first tick of the resimulation."""
         roster = self._roster_of(conditions)
-        world = World(conditions.live_parameters.profile, roster)
+        world = World(conditions.live_parameters.profile, roster, self._make_ball_control)
         for obstacle in conditions.obstacles:
             world.put_obstacle(obstacle)
         if self._checkpoint is not None:

@@ -9,12 +9,11 @@ from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.radio import Motion
 from schemas.messages.sight import BallSight, Outcome, Sight
+from schemas.messages.soccer.game import GameView
 from schemas.side import Side
 from sim_host.match.radio import RadioAir
 from sim_host.sensing.perception import Percept, Perception
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.soccer.referee.game.referee_state import RefereeState
-from sim_host.soccer.referee.game_views import game_views
 
 Send = Callable[[str, bytes], None]
 """Sends a robot, by its name, its encoded sight."""
@@ -31,8 +30,8 @@ class Sights:
     def at(
         self,
         snapshot: Snapshot,
-        state: RefereeState,
-        episode: int,
+        cyan_attacks: int,
+        views: Mapping[Side, GameView],
         stuck: Sequence[bool],
         orders: Mapping[Side, CoachOrder],
         commands: Mapping[str, Command],
@@ -40,9 +39,8 @@ class Sights:
         send: Send,
     ) -> dict[str, bytes]:
         """Robot → its encoded `schemas.messages.sight.Sight`; each is sent as soon as it is encoded."""
-        percepts = self._perception.at(snapshot, state.cyan_attacks)
+        percepts = self._perception.at(snapshot, cyan_attacks)
         received = self._radio.receive(snapshot.tick)
-        views = game_views(state, self._roster, episode)
         sights = {}
         for index, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
             percept, command = percepts[index], commands.get(name)

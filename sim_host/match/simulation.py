@@ -11,7 +11,6 @@ from msgspec import Raw
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
-from schemas.config.soccer.rule_book import RuleBook
 from schemas.messages.applied import AppliedInput, chained_part
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
@@ -20,10 +19,12 @@ from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, TeamSetup
 from schemas.messages.soccer.game import ActionReply, GameEvent, RefereeAction
 from schemas.side import Side
-from schemas.soccer.game import Phase
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
+from sim_host.game.judging import Judge, PlayState, Ruling
+from sim_host.games import game_of_match
 from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.opening import opening_layout
 from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.radio_use import RadioUse
@@ -33,10 +34,6 @@ from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, world_fields
 from sim_host.physics.fingerprint import fingerprint
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.soccer.referee.core import Referee, Ruling
-from sim_host.soccer.referee.fingerprint import referee_fingerprint
-from sim_host.soccer.referee.game.state_json import state_json
-from sim_host.soccer.start_scene import opening_layout
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,18 +64,17 @@ def _discard_sight(robot: str, sight: bytes) -> None:
 
 
 class Simulation:
-    """World, referee, sensors and radio of one match, stepped by the caller."""
+    """World, game, sensors and radio of one match, stepped by the caller."""
 
     def __init__(self, config: MatchConfig) -> None:
         self.config = config
         live_parameters = LiveParameters.of(config)
-        self.book: RuleBook = config.load_rule_book()
-        self._engine = {**fingerprint(), "referee": referee_fingerprint()}
-        start, began = opening_layout(config, live_parameters, self.book)
-        self._subsystems = Subsystems(config, self.book, live_parameters, began.layout.robots)
-        self._operator = OperatorRequests(live_parameters, self._subsystems, self.book, start, began)
-        self.state = self.referee.begin_at(start.game, began.ball)
-        self.world = World(self.profile, self.roster)
+        self._game = game_of_match(config)
+        start, began = opening_layout(config, live_parameters, self._game)
+        self._subsystems = Subsystems(config.seed, self._game, live_parameters, began.layout.robots)
+        self._operator = OperatorRequests(live_parameters, self._subsystems, self._game, start, began)
+        self.state: PlayState = self.judge.begin_at(start.game, began.ball)
+        self.world = World(self.profile, self.roster, self._game.ball_control)
         for obstacle in began.layout.obstacles:
             self.world.put_obstacle(obstacle)
         self.orders: dict[Side, CoachOrder] = {}
@@ -105,9 +101,9 @@ class Simulation:
         return self._subsystems.roster
 
     @property
-    def referee(self) -> Referee:
-        """The referee from the next tick on."""
-        return self._subsystems.referee
+    def judge(self) -> Judge:
+        """What judges the game from the next tick on."""
+        return self._subsystems.judge
 
     @property
     def radio_use(self) -> RadioUse:
@@ -117,7 +113,7 @@ class Simulation:
     @property
     def over(self) -> bool:
         """Whether the match has been played to its end."""
-        return self.state.phase is Phase.FULL_TIME
+        return self.state.over
 
     def close(self) -> None:
         """Free the engine."""
@@ -140,7 +136,7 @@ class Simulation:
         changes = self._apply_pending()
         if changes.new_episode:
             commands = {}
-        inputs = self._subsystems.commands.inputs(self.world.tick, commands, self.state.participation.absences)
+        inputs = self._subsystems.commands.inputs(self.world.tick, commands, self.state.absences)
         world_tick = self.world.advance(inputs)
         snapshot = world_tick.snapshot
         refusals = {name: [reason] for name, reason in world_tick.refused.items()}
@@ -154,11 +150,9 @@ class Simulation:
         if refbox:
             snapshot = replace(snapshot, refbox=True)
         officiated = self._officiating_inputs(changes, actions, snapshot.silent)
-        ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
+        ruling = self.judge.step(self.state, snapshot, actions, self.profile.time.tick)
         self._apply_ruling(ruling)
-        sights = self._subsystems.sights.at(
-            snapshot, self.state, self.episode, world_tick.stuck, self.orders, commands, refusals, send
-        )
+        sights = self._sights(snapshot, world_tick.stuck, commands, refusals, send)
         moment = snapshot.tick, snapshot.time, self.state.clock
         self.now = TickResult(
             tick=snapshot.tick,
@@ -185,7 +179,8 @@ class Simulation:
     def setup(self) -> Setup:
         """The setup of the match, which agents and viewers need before the first tick."""
         p, changed = self.profile, self.live_parameters.changes_since(self.live_parameters.at_start)
-        setup = Setup.of(self.config, p, self.book, self._engine, changed)
+        engine = {**fingerprint(), **self._game.fingerprint()}
+        setup = self._game.setup(self.config, p, engine, changed)
         teams = {side: self._team_setup(side) for side in Side}
         orders = {side: order.sequence for side, order in self.orders.items()}
         return setup.replace(teams=teams, orders=orders)
@@ -200,6 +195,20 @@ class Simulation:
             parameters=self.config.team(side).parameters,
         )
 
+    def _sights(
+        self,
+        snapshot: Snapshot,
+        stuck: Sequence[bool],
+        commands: Mapping[str, Command],
+        refusals: Mapping[str, list[str]],
+        send: Send,
+    ) -> dict[str, bytes]:
+        """Robot → its encoded sight; each is sent as soon as it is encoded."""
+        views = self.judge.views(self.state, self.episode)
+        return self._subsystems.sights.at(
+            snapshot, self.state.cyan_attacks, views, stuck, self.orders, commands, refusals, send
+        )
+
     def _begin(self) -> TickResult:
         """Tick 0: all bodies are at their places, and none has moved."""
         changes = self._apply_pending()
@@ -210,9 +219,7 @@ class Simulation:
             tick=snapshot.tick,
             time=snapshot.time,
             world=world_fields(snapshot, stuck, self.state, self.episode),
-            sights=self._subsystems.sights.at(
-                snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _discard_sight
-            ),
+            sights=self._sights(snapshot, stuck, {}, {}, _discard_sight),
             **self._applied(snapshot, {}, changes, self._officiating_inputs(changes, (), ())),
         )
 
@@ -252,7 +259,7 @@ class Simulation:
     def _officiating_inputs(
         self, changes: PendingChanges, actions: Sequence[RefereeAction], silent: Sequence[str]
     ) -> Fields:
-        """The fields of a `schemas.messages.applied.Applied` on what the referee judges, before it does."""
+        """The fields of a `schemas.messages.applied.Applied` on what the game judges, before it does."""
         fields: Fields = {}
         if actions:
             fields["actions"] = list(actions)
@@ -261,7 +268,7 @@ class Simulation:
         if changes.by_operator:
             fields["changes"] = changes.by_operator
         if changes.checkpoint:
-            fields["referee"] = state_json(self.state)
+            fields["referee"] = self._game.state_json(self.state)
         return fields
 
     def _applied(

@@ -1,13 +1,13 @@
-"""The subsystems of a match: referee, watchdog, radio and sensors, for the current roster and parameters."""
+"""The subsystems of a match: judge, watchdog, radio and sensors, for the current roster and parameters."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import RosterEntry
-from schemas.config.soccer.rule_book import RuleBook
 from sim_host.actuation.latest_commands import CommandLimits, LatestCommands
+from sim_host.game.contract import Game
+from sim_host.game.judging import Judge
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.radio import RadioAir
 from sim_host.match.radio_use import RadioUse
@@ -15,24 +15,19 @@ from sim_host.match.sights import Sights
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
-from sim_host.soccer.referee.core import Referee
-from sim_host.soccer.referee_factory import make_referee
 
 
 class Subsystems:
-    """Referee, latest commands, radio and sensors; a change of the roster keeps the memory of robots that remain."""
+    """Judge, latest commands, radio and sensors; a change of the roster keeps the memory of robots that remain."""
 
-    def __init__(
-        self, config: MatchConfig, book: RuleBook, live_parameters: LiveParameters, robots: Sequence[RosterEntry]
-    ) -> None:
-        self._config = config
-        self._book = book
-        self._streams = RandomStreams(config.seed)
+    def __init__(self, seed: int, game: Game, live_parameters: LiveParameters, robots: Sequence[RosterEntry]) -> None:
+        self._game = game
+        self._streams = RandomStreams(seed)
         self._live_parameters = live_parameters
         self._robots = robots
         self.roster = Roster.of_entries(robots, live_parameters.types)
         """The robots that take part from the next tick on."""
-        self.referee = self._new_referee()
+        self.judge = self._new_judge()
         self.commands = LatestCommands(self.roster.names, self._command_limits, self.roster.still)
         self.radio_use = RadioUse()
         self.radio, self._perception = self._new_radio(), self._new_perception()
@@ -59,7 +54,7 @@ class Subsystems:
         """Use this roster from now on; in a `new_episode`, no earlier command, radio message or percept counts."""
         before, self._robots = self._robots, robots
         self.roster = Roster.of_entries(robots, self._live_parameters.types)
-        self.referee = self._new_referee()
+        self.judge = self._new_judge()
         if new_episode:
             self.commands = LatestCommands((), self._command_limits)
             self.radio, self._perception = self._new_radio(), self._new_perception()
@@ -86,10 +81,9 @@ class Subsystems:
             self._live_parameters.sensing, self.roster, self._streams, self._live_parameters.profile.time.tick
         )
 
-    def _new_referee(self) -> Referee:
-        """A referee; it has no memory of its own, since its state is passed to every step."""
-        config = self._config
-        return make_referee(self._book, self._live_parameters.profile, self.roster, config.duration, config.referee)
+    def _new_judge(self) -> Judge:
+        """A judge; it has no memory of its own, since the state of the game is passed to every step."""
+        return self._game.judge(self._live_parameters.profile, self.roster)
 
 
 def _of_world(profile: Profile) -> Profile:

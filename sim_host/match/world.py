@@ -9,12 +9,12 @@ from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.messages.applied import AppliedInput
 from sim_host.actuation.chassis import Chassis
+from sim_host.game.ball_control import BallReport, MakeBallControl
 from sim_host.physics.collision_candidates import CollisionCandidates
 from sim_host.physics.continuous_collision import ContinuousCollision
 from sim_host.physics.engine import Engine
 from sim_host.physics.impacts import ImpactDetector
 from sim_host.snapshot import BALL, BallState, Impact, ObstacleState, RobotState, RobotStates, Roster, Snapshot
-from sim_host.soccer.ball.ball_handling import BallHandling, BallReport
 
 _NOTHING = BallReport()
 
@@ -33,13 +33,16 @@ class WorldTick:
 class World:
     """All bodies of a match, with the actuators that move them."""
 
-    def __init__(self, profile: Profile, roster: Roster, engine: Engine | None = None) -> None:
+    def __init__(
+        self, profile: Profile, roster: Roster, make_ball_control: MakeBallControl, engine: Engine | None = None
+    ) -> None:
         """`engine`, if given, was made of the same profile and roster, and has no obstacles yet."""
         self._roster = roster
+        self._make_ball_control = make_ball_control
         self._tick_s = profile.time.tick
         self._engine = engine or Engine(profile, roster)
         self._chassis = Chassis(profile.time, roster.models, self._engine)
-        self._ball = BallHandling(profile, roster.models, self._engine)
+        self._ball = make_ball_control(profile, roster.models, self._engine)
         self._candidates = CollisionCandidates(profile, roster.models, self._chassis.yielding)
         self._collision = ContinuousCollision(profile, self._engine)
         self.tick = 0
@@ -95,7 +98,7 @@ class World:
         self._update_obstacles()
         new_states = self._engine.robot_states(None)
         self._roster = roster
-        self._ball = BallHandling(profile, roster.models, self._engine)
+        self._ball = self._make_ball_control(profile, roster.models, self._engine)
         robots = [kept.get(name, state) for name, state in zip(roster.names, new_states, strict=True)]
         self._engine.rebuild(robots, ball)
         self._ball.reset(ball)

@@ -2,16 +2,16 @@
 
 from typing import Any
 
+from sim_host.game.judging import PlayState
 from sim_host.snapshot import ObstacleState, Snapshot
-from sim_host.soccer.referee.game.referee_state import RefereeState
 
 Fields = dict[str, Any]
 """The fields of a message as plain values, as its model defines them."""
 
 
-def world_fields(snapshot: Snapshot, stuck: list[bool], state: RefereeState, episode: int) -> Fields:
-    """The whole message: the bodies, and the fields that the referee and the operator determine."""
-    fields, away = bodies_fields(snapshot, stuck), state.participation.absences
+def world_fields(snapshot: Snapshot, stuck: list[bool], state: PlayState, episode: int) -> Fields:
+    """The whole message: the bodies, and the fields that the game and the operator determine."""
+    fields, away = bodies_fields(snapshot, stuck), state.absences
     for name, robot in fields["robots"].items():
         robot["off_field"] = away[name].why if name in away else None
     return {**fields, "clock": state.clock, "episode": episode}

@@ -1,29 +1,14 @@
-"""The start of a match as a scene."""
+"""The start of a match of soccer as a scene."""
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.scene import Scene, SceneGame, SceneRobot
 from schemas.config.sections import Pitch
-from schemas.config.soccer.rule_book import Restarts, RuleBook
+from schemas.config.soccer.rule_book import Restarts
 from schemas.errors import TouchlineError
 from schemas.soccer.game import Phase
-from sim_host.match.live_parameters import LiveParameters
 from sim_host.snapshot import Roster
 from sim_host.soccer.start_poses import start_poses
-from sim_host.staging.layout import LayoutChange, Specs, check_layout, scene_layout
-
-
-def opening_layout(config: MatchConfig, live_parameters: LiveParameters, book: RuleBook) -> tuple[Scene, LayoutChange]:
-    """The scene that a match begins with, and the layout that it makes.
-
-    Raises:
-        TouchlineError: a side has more robots than the rule book allows, or the pitch has no room for a body.
-    """
-    profile = live_parameters.profile
-    scene = config.scene if config.scene is not None else start_scene(config, profile, book.restarts)
-    began = scene_layout(scene, "")
-    check_layout(began.layout, Specs(profile.field, profile.ball, live_parameters.types, book), began.layout.names)
-    return scene, began
 
 
 def start_scene(config: MatchConfig, profile: Profile, restarts: Restarts) -> Scene:

@@ -1,6 +1,6 @@
 """The layout of a match: its robots, its obstacles, and the places of all bodies; every operation makes a new one."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from schemas.config.obstacle import Shape, StaticObstacle
@@ -8,8 +8,6 @@ from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement, RosterEntry
 from schemas.config.scene import Scene, SceneGame, check_names, check_sides
 from schemas.config.sections import Ball, Pitch
-from schemas.config.soccer.rule_book import RuleBook
-from schemas.config.team_sizes import check_team_sizes
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
 from sim_host.snapshot import BALL
@@ -18,13 +16,14 @@ from sim_host.staging.overlap import Block, Body, Disc, goal_blocks, why_outside
 
 @dataclass(frozen=True, slots=True)
 class Specs:
-    """The properties of a match that no operation changes: pitch, ball, robot types, and rule book."""
+    """The properties of a match that no operation changes: pitch, ball, robot types, and sizes of teams."""
 
     pitch: Pitch
     ball: Ball
     types: Mapping[str, RobotModel]
     """All robot types by name."""
-    book: RuleBook
+    check_team_sizes: Callable[[Sequence[RosterEntry]], None]
+    """Raises a `TouchlineError` where a side has more robots than the game allows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +85,7 @@ def check_layout(layout: Layout, specs: Specs, new: Sequence[str]) -> None:
         check_sides(list(layout.robots))
     except ValueError as error:
         raise TouchlineError(str(error)) from None
-    check_team_sizes(layout.robots, specs.book)
+    specs.check_team_sizes(layout.robots)
     if not layout.robots:
         raise TouchlineError("no robot would be left; a match has at least one")
     for entry in layout.robots:

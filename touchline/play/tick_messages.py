@@ -8,7 +8,7 @@ from schemas.messages.applied import Applied
 from schemas.messages.world import World
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import TickResult
-from sim_host.soccer.state_schedule import StateSchedule
+from sim_host.match.state_schedule import StateSchedule
 from touchline.play.play_match import InProcessMatch
 
 

@@ -9,7 +9,7 @@ from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.soccer.game import EventKind
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
-from sim_host.soccer.referee_resimulation import OfficiatedTick
+from sim_host.match.game_resimulation import OfficiatedTick
 from touchline.verify.command_difference import field_differences
 from touchline.verify.verdict import Detail
 

@@ -15,10 +15,12 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.wire.message import BadMessageError
 from schemas.wire.part import encode
+from sim_host.game.judging import PlayState
+from sim_host.games import game_of_match
+from sim_host.match.game_resimulation import state_conflicts
 from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.opening import opening_state
 from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleTickError, parameters_of
-from sim_host.soccer.referee.game.referee_state import RefereeState
-from sim_host.soccer.referee_factory import opening_state
 from touchline.verify.verdict import Detail
 
 
@@ -59,14 +61,13 @@ def tick_length(recording: Recording) -> float:
     return config.load_profile().time.tick
 
 
-def opening_conflict(recording: Recording, state: RefereeState) -> list[Detail]:
+def opening_conflict(recording: Recording, state: PlayState) -> list[Detail]:
     """Where the state of the referee at tick 0 is not the one with which the match file begins."""
     config = config_of(recording)
     if config is None:
         return []
-    expected = opening_state(config)
-    pairs = zip(RefereeState._fields, state, expected, strict=True)
-    return [Detail("referee", name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
+    expected = opening_state(config, game_of_match(config))
+    return [Detail("referee", one.field, one.recorded, one.simulated) for one in state_conflicts(state, expected)]
 
 
 def _known(before: TickRecord | None) -> CheckpointState:

@@ -19,9 +19,8 @@ from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
 from runtime.process.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.topics import WORLD
+from sim_host.games import game_of_recording
 from sim_host.physics.fingerprint import fingerprint
-from sim_host.soccer.referee.fingerprint import referee_fingerprint
-from sim_host.soccer.referee_resimulation import OfficiatingSettings
 from touchline.verify.recorded_keys import is_recorded, not_checked
 from touchline.verify.segment_check import SegmentResult, resimulate_segment
 from touchline.verify.verdict import Verdict
@@ -101,7 +100,7 @@ def _missing_worlds(recording: Recording, missing: int) -> list[str]:
 
 def _why_no_referee(recording: Recording) -> str:
     """Why the referee cannot be simulated; empty if it can."""
-    if OfficiatingSettings.of(config_of(recording), recording.manifest.setup) is None:
+    if game_of_recording(config_of(recording), recording.manifest.setup) is None:
         return "the recording has neither its match file nor a setup with the referee's settings"
     return ""
 
@@ -115,8 +114,9 @@ def _other_machine(recording: Recording) -> dict[str, tuple[str, str]]:
 
 def _other_program(recording: Recording) -> str:
     """The program that recorded the match, if its referee is not this one's; else empty."""
-    manifest = recording.manifest
-    if manifest.setup is None or manifest.setup.engine.get("referee") == referee_fingerprint():
+    manifest, setup = recording.manifest, recording.manifest.setup
+    game = game_of_recording(config_of(recording), setup)
+    if setup is None or game is None or game.fingerprint().items() <= setup.engine.items():
         return ""
     program = f"touchline {manifest.versions.get('touchline', 'of then')}"
     return f"recorded by a program with another referee: {program} of {manifest.started[:10]} verifies it"

@@ -13,9 +13,10 @@ from recordings.reading.tick_records import TickRecord, command_check_of, tick_r
 from schemas.messages.applied import Applied, chained_part_of
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
+from sim_host.games import ball_control_of, game_of_recording
+from sim_host.match.game_resimulation import GameResimulation, OfficiatedTick
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation
 from sim_host.match.world_difference import differences
-from sim_host.soccer.referee_resimulation import OfficiatedTick, OfficiatingSettings, RefereeResimulation
 from touchline.verify.game_comparison import event_differences, state_differences
 from touchline.verify.recorded_keys import is_recorded
 from touchline.verify.resim_start import opening_conflict, resim_start, tick_length
@@ -41,8 +42,8 @@ class SegmentCheck:
         self._recording, self._segment = recording, segment
         self._tick_s = tick_length(recording)
         self._world: Resimulation | None = None
-        settings = OfficiatingSettings.of(config_of(recording), recording.manifest.setup) if referee else None
-        self._referee = RefereeResimulation(settings, self._tick_s) if settings is not None else None
+        game = game_of_recording(config_of(recording), recording.manifest.setup) if referee else None
+        self._referee = GameResimulation(game, self._tick_s) if game is not None else None
         self._states, self._events = is_recorded(recording, STATE.key), is_recorded(recording, EVENT.key)
 
     def close(self) -> None:
@@ -59,7 +60,8 @@ class SegmentCheck:
         """
         applied: Applied = record.applied or record.recorded.message()  # raises the reason if it is damaged
         if self._world is None:
-            self._world = Resimulation(*resim_start(self._recording, self._segment, before))
+            start = resim_start(self._recording, self._segment, before)
+            self._world = Resimulation(ball_control_of(config_of(self._recording)), *start)
         simulated = self._world.step(applied, chained_part_of(record.recorded.payload))
         fields, judged = simulated.bodies, None
         if self._referee is not None:

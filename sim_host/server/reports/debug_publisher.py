@@ -8,8 +8,8 @@ from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
 from schemas.side import Side
 from schemas.topics import DEBUG
+from sim_host.game.judging import PlayState
 from sim_host.snapshot import Roster
-from sim_host.soccer.referee.game.referee_state import RefereeState
 
 
 class DebugPublisher:
@@ -21,7 +21,7 @@ class DebugPublisher:
         self._tick_s = tick_s
         self._publishers: dict[tuple[str, Side], Publisher] = {}
 
-    def publish(self, commands: Mapping[str, Command], roster: Roster, state: RefereeState) -> None:
+    def publish(self, commands: Mapping[str, Command], roster: Roster, state: PlayState) -> None:
         """Publish the values and shapes of these commands in the field frame; `state` belongs to their sights."""
         for robot, command in commands.items():
             if command.debug is not None:

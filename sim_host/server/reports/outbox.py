@@ -7,10 +7,10 @@ from runtime.bus.contract import Publisher, ReceivedMessage, Stamp
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
+from sim_host.game.judging import PlayState
 from sim_host.match.simulation import TickResult
+from sim_host.match.state_schedule import StateSchedule
 from sim_host.snapshot import Roster
-from sim_host.soccer.referee.game.referee_state import RefereeState
-from sim_host.soccer.state_schedule import StateSchedule
 
 _LISTENER_CHECK_TICKS = 50
 """Ticks between two checks for subscribers to single bodies."""
@@ -62,7 +62,7 @@ class Outbox:
             return
         self._put_sight(robot, self._last_sights[robot])
 
-    def publish_tick(self, tick: TickResult, state: RefereeState) -> None:
+    def publish_tick(self, tick: TickResult, state: PlayState) -> None:
         """Publish world, inputs, beliefs and events; the game's state on a change, after an action, and each second."""
         for event in tick.events:
             self.publish_event(event)

@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
 from schemas.messages.applied import AppliedInput
+from sim_host.game.ball_control import BallReport
 from sim_host.physics.body_state import BallContacts, BodyState
 from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist, Vector
@@ -22,25 +22,6 @@ _MAX_PRESSED_DEPTH = 0.005
 """m; a held ball that is pressed this deep into another body is released: it is never carried through one."""
 _MAX_OVERRUN = 0.01
 """m; a ball this much nearer than the gap is inside the hull of its holder or kicker, and collides with it again."""
-
-
-@dataclass(slots=True)
-class BallReport:
-    """Kicks and touches of the ball in one tick; robots by their index in the roster."""
-
-    refused: dict[int, str] = field(default_factory=dict)
-    """Robot → why its kick could not be carried out."""
-    touches: list[int] = field(default_factory=list)
-    """In the order of time."""
-    level: tuple[int, ...] = ()
-    """The last robots of them, if several were equally late and pressed equally hard."""
-    kicked: int | None = None
-
-    def add(self, step: StepTouches) -> None:
-        """Add the touches of a step after the earlier ones."""
-        if step.robots:
-            self.touches += step.robots
-            self.level = step.level
 
 
 class BallHandling:
@@ -147,7 +128,7 @@ class BallHandling:
         if self._ball_leaving is not None:
             self._end_kick(self._ball_leaving)
         if contacts.forces or self.holder is not None:
-            report.add(by_force(contacts.forces, self.holder, self._tie))
+            _add(report, by_force(contacts.forces, self.holder, self._tie))
         if self.holder is not None and contacts.depth > _MAX_PRESSED_DEPTH:
             self.set_holder(None)
 
@@ -219,3 +200,10 @@ class BallHandling:
                 engine.set_ball_motion(velocity, spin)
         if force is not None:
             engine.push_ball(force, (ball.x, ball.y, ball.z))
+
+
+def _add(report: BallReport, step: StepTouches) -> None:
+    """Add the touches of a step after the earlier ones."""
+    if step.robots:
+        report.touches += step.robots
+        report.level = step.level

@@ -1,16 +1,15 @@
 """The referee: a function (state, snapshot, actions, dt) → ruling, without memory or other input."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
-from schemas.config.roster import Placement
 from schemas.config.scene import SceneGame
 from schemas.config.sections import Ball, Pitch
 from schemas.config.soccer.rule_book import RuleBook
 from schemas.frames import Pose
-from schemas.messages.soccer.game import ActionReply, GameEvent, RefereeAction
+from schemas.messages.soccer.game import GameView, RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import RESTARTS, OfficiatingMode, Phase, Score
+from sim_host.game.judging import Ruling
 from sim_host.snapshot import Roster, Snapshot
 from sim_host.soccer.referee import refbox
 from sim_host.soccer.referee.actions import execute, naming
@@ -19,25 +18,12 @@ from sim_host.soccer.referee.game.referee_state import RefereeState
 from sim_host.soccer.referee.game.restart import Restart, Spot
 from sim_host.soccer.referee.game.set_piece import started
 from sim_host.soccer.referee.game.timing import Timing
+from sim_host.soccer.referee.game_views import game_views
 from sim_host.soccer.referee.match_constants import MatchConstants
 from sim_host.soccer.referee.procedures.periods import advance
 from sim_host.soccer.referee.rules import first_decision
 from sim_host.soccer.referee.ruling_draft import RulingDraft
 from sim_host.soccer.referee.situation import situation_after
-
-
-class Ruling(NamedTuple):
-    """The result of the referee's step in one tick."""
-
-    state: RefereeState
-    events: tuple[GameEvent, ...] = ()
-    """In order of time."""
-    placements: tuple[Placement, ...] = ()
-    """Bodies to place at rest before the next tick."""
-    replies: tuple[ActionReply, ...] = ()
-    """One for each action, in their order."""
-    checkpoint: bool = False
-    """START of a kick-off was given in this tick: a checkpoint is made before the next one."""
 
 
 class Referee:
@@ -138,6 +124,10 @@ class Referee:
         naming.decide_overdue(draft)
         advance(draft)
         return Ruling(draft.state, tuple(draft.events), tuple(draft.placements), replies, draft.checkpoint)
+
+    def views(self, state: RefereeState, episode: int) -> dict[Side, GameView]:
+        """Side → the game from its point of view; `spot` in m, in the side's team frame."""
+        return game_views(state, self._match.roster, episode)
 
 
 def is_quiet(state: RefereeState) -> bool:

@@ -90,5 +90,5 @@ def test_who_is_off_comes_back_and_is_obeyed_again(simulation: Simulation) -> No
 def test_seconds_to_a_limit_are_in_every_sight(simulation: Simulation) -> None:
     """From the signal of the kick-off to START."""
     run(simulation, 1.5)
-    pause = simulation.book.restarts.signal_to_start
+    pause = simulation.config.load_rule_book().restarts.signal_to_start
     assert Sight.decode(simulation.now.sights["cyan2"]).game.left == pytest.approx(pause - 1.5, abs=0.05)

@@ -16,8 +16,8 @@ from schemas.config.number_files import NumberFiles
 from schemas.config.profile import load_profile
 from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
+from sim_host.soccer.game import Soccer
 from touchline.commands.cli.command_line import app
-from touchline.verify import resimulate
 from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
 
@@ -143,7 +143,7 @@ def test_a_difference_names_the_program_that_recorded_the_match(
         return fields | {"score": {"cyan": 9, "magenta": 0}} if fields["tick"] == 100 else fields
 
     changed = edited(today, "game/state", other_score)
-    monkeypatch.setattr(resimulate, "referee_fingerprint", lambda: "another")
+    monkeypatch.setattr(Soccer, "fingerprint", lambda game: {"referee": "another"})
     shown = CliRunner().invoke(app, ["verify", str(changed)], prog_name="touchline")
     assert shown.exit_code == 1
     assert "recorded by a program with another referee: touchline 0.1.0 of 1970-01-01 verifies it" in shown.stdout

@@ -111,12 +111,12 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     given = {key.replace("__", "."): value for key, value in flags.items() if value is not None}
     config = load_match(file, given)
     models_of(config, config.load_profile())
-    book = config.load_rule_book()
     need_pybullet()
+    from sim_host.games import game_of_match
     from sim_host.match.live_parameters import LiveParameters
-    from sim_host.soccer.start_scene import opening_layout
+    from sim_host.match.opening import opening_layout
 
-    opening_layout(config, LiveParameters.of(config), book)
+    opening_layout(config, LiveParameters.of(config), game_of_match(config))
     return config
 
 

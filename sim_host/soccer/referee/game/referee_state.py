@@ -1,7 +1,7 @@
 """The state of the referee between two ticks, which is its whole memory."""
 
-from collections.abc import Collection
-from typing import NamedTuple
+from collections.abc import Collection, Mapping
+from typing import Any, NamedTuple
 
 from schemas.messages.soccer.game import GameState
 from schemas.natural_order import natural_order
@@ -10,7 +10,7 @@ from schemas.soccer.game import GameStage, Phase, Point, Score
 from sim_host.soccer.referee.evidence import NO_EVIDENCE, Evidence
 from sim_host.soccer.referee.game.advantage import Advantage
 from sim_host.soccer.referee.game.decision import Proposal
-from sim_host.soccer.referee.game.participation import Participation
+from sim_host.soccer.referee.game.participation import Absence, Participation
 from sim_host.soccer.referee.game.question import Question
 from sim_host.soccer.referee.game.restart import Restart, Spot
 from sim_host.soccer.referee.game.set_piece import SetPiece
@@ -62,6 +62,34 @@ class RefereeState(NamedTuple):
     """The robot that committed the last foul that the referee saw."""
     advantage: Advantage | None = None
     """The foul after which play goes on."""
+
+    @property
+    def over(self) -> bool:
+        """Whether the match has been played to its end."""
+        return self.phase is Phase.FULL_TIME
+
+    @property
+    def absences(self) -> Mapping[str, Absence]:
+        """Robots off the field."""
+        return self.participation.absences
+
+    @property
+    def change_key(self) -> tuple[Any, ...]:
+        """What of the state is published as soon as it changes."""
+        return (
+            self.phase,
+            self.side,
+            self.running,
+            self.half,
+            self.score,
+            self.cyan_attacks,
+            self.spot,
+            self.participation.change_key,
+            self.shoot_out,
+            self.proposal is None,
+            self.refbox_gone is None,
+            len(self.questions),
+        )
 
     @property
     def refbox_decides(self) -> bool:

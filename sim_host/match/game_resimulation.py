@@ -1,59 +1,28 @@
-"""Lets the referee judge a recorded match again, along with the resimulation of its world.
+"""Lets the game judge a recorded match again, along with the resimulation of its world.
 
-Each `schemas.messages.applied.Applied` holds what the referee was given: actions, silent robots, changes by operators.
-At checkpoints it holds the complete state of the referee, so that a resimulation can begin there.
+Each `schemas.messages.applied.Applied` holds what the game was given: actions, silent robots, changes by operators.
+At checkpoints it holds the complete state of the game, so that a resimulation can begin there.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from schemas.config.match_config import MatchConfig
-from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
-from schemas.config.soccer.rule_book import RuleBook
 from schemas.messages.applied import Applied
-from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.soccer.game import EventKind
+from sim_host.game.contract import Game
+from sim_host.game.judging import Judge, PlayState
 from sim_host.match.resimulation import ImpossibleTickError
+from sim_host.match.state_schedule import StateSchedule
 from sim_host.match.world_fields import Fields
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.soccer.referee.core import Referee
-from sim_host.soccer.referee.game.referee_state import RefereeState
-from sim_host.soccer.referee.game.state_json import state_from_json
-from sim_host.soccer.referee_factory import make_referee
-from sim_host.soccer.state_schedule import StateSchedule
-
-CHANGED_BY_LAYOUT = ("participation", "evidence", "set_piece", "proposal", "advantage")
-"""Fields of the state that `RefereeState.after_layout_change` changes."""
-
-
-class OfficiatingSettings(NamedTuple):
-    """The constants of a match that the referee needs besides profile and roster."""
-
-    book: RuleBook
-    duration: float | None
-    """Playing time of all halves in s; None for the rule book's."""
-    options: OfficiatingConfig
-
-    @classmethod
-    def of(cls, config: MatchConfig | None, setup: Setup | None) -> "OfficiatingSettings | None":
-        """The settings from a match file, or else from the host's setup; None if neither has them.
-
-        Raises:
-            TouchlineError: the numbers of the rule book are not recorded.
-        """
-        if config is not None:
-            return cls(config.load_rule_book(), config.duration, config.referee)
-        if setup is not None:
-            return cls(setup.rule_book(), setup.duration, setup.referee)
-        return None
 
 
 class StateConflict(NamedTuple):
-    """A field in which the recorded state of the referee, or what it placed, differs from the simulated one."""
+    """A field in which the recorded state of the game, or what it placed, differs from the simulated one."""
 
     field: str
     recorded: object
@@ -61,7 +30,7 @@ class StateConflict(NamedTuple):
 
 
 class OfficiatedTick(NamedTuple):
-    """What the referee makes of one tick."""
+    """What the game makes of one tick."""
 
     events: Sequence[GameEvent]
     """All events of the tick except events of agents, in their order."""
@@ -72,22 +41,22 @@ class OfficiatedTick(NamedTuple):
     conflicts: Sequence[StateConflict]
 
 
-class RefereeResimulation:
-    """The referee of a recorded match, tick by tick."""
+class GameResimulation:
+    """The game of a recorded match, tick by tick."""
 
-    def __init__(self, settings: OfficiatingSettings, tick_s: float) -> None:
-        self._settings = settings
+    def __init__(self, game: Game, tick_s: float) -> None:
+        self._game = game
         self._tick_s = tick_s
         self._schedule = StateSchedule(tick_s)
-        self._referee: Referee | None = None
+        self._judge: Judge | None = None
         self._roster: Roster | None = None
-        self._state: RefereeState | None = None
+        self._state: PlayState | None = None
         self._placements: Sequence[Placement] = ()
         self._checkpoint = False
         self._episode = 1
 
     @property
-    def state(self) -> RefereeState:
+    def state(self) -> PlayState:
         """The state after the last tick.
 
         Raises:
@@ -103,7 +72,7 @@ class RefereeResimulation:
         Raises:
             ImpossibleTickError: the recorded state is not a state of this version's referee.
         """
-        recorded = _recorded_state(applied)
+        recorded = self._recorded_state(applied)
         if self._state is None:
             if recorded is None:
                 raise ImpossibleTickError(f"tick {applied.tick}: the state of the referee was not recorded")
@@ -113,11 +82,13 @@ class RefereeResimulation:
         conflicts = [] if by_scene else self._unlike_the_ruling(applied)
         if recorded is not None:
             if not by_scene:
-                conflicts += _conflicts(recorded, self._state)
+                conflicts += state_conflicts(recorded, self._state)
             elif applied.episode == self._episode:
                 # an operator who moves bodies or robots changes what has been seen, and who takes part; nothing else
-                expected = self._state._replace(**{name: getattr(recorded, name) for name in CHANGED_BY_LAYOUT})
-                conflicts += _conflicts(recorded, expected)
+                expected = self._state._replace(
+                    **{name: getattr(recorded, name) for name in self._game.changed_by_layout}
+                )
+                conflicts += state_conflicts(recorded, expected)
             self._state = recorded
         if applied.episode != self._episode and (not by_scene or applied.episode < self._episode):
             conflicts.append(StateConflict("episode", applied.episode, self._episode))
@@ -138,8 +109,7 @@ class RefereeResimulation:
                 snapshot = replace(snapshot, silent=tuple(applied.silent))
             if applied.refbox:
                 snapshot = replace(snapshot, refbox=True)
-            referee = self._referee_of(snapshot.roster, profile)
-            ruling = referee.step(self.state, snapshot, applied.actions, self._tick_s)
+            ruling = self._judge_of(snapshot.roster, profile).step(self.state, snapshot, applied.actions, self._tick_s)
             self._state, self._placements, self._checkpoint = ruling.state, ruling.placements, ruling.checkpoint
             moment = applied.tick, applied.time, self.state.clock
             events += [*(change.event(*moment) for change in applied.changes), *ruling.events]
@@ -148,19 +118,28 @@ class RefereeResimulation:
         return OfficiatedTick(events, state, begins and applied.tick > 0, conflicts)
 
     def world_fields(self, bodies: Fields) -> Fields:
-        """The fields of the bodies with those that the referee and the operator determine."""
-        away = self.state.participation.absences
+        """The fields of the bodies with those that the game and the operator determine."""
+        away = self.state.absences
         for name, robot in bodies["robots"].items():
             robot["off_field"] = away[name].why if name in away else None
         return {**bodies, "clock": self.state.clock, "episode": self._episode}
 
-    def _referee_of(self, roster: Roster, profile: Profile) -> Referee:
-        if self._referee is None or roster is not self._roster:
+    def _judge_of(self, roster: Roster, profile: Profile) -> Judge:
+        if self._judge is None or roster is not self._roster:
             self._roster = roster
-            self._referee = make_referee(
-                self._settings.book, profile, roster, self._settings.duration, self._settings.options
-            )
-        return self._referee
+            self._judge = self._game.judge(profile, roster)
+        return self._judge
+
+    def _recorded_state(self, applied: Applied) -> PlayState | None:
+        if not applied.referee:
+            return None
+        try:
+            state: PlayState = self._game.state_from_json(applied.referee)
+        except ValueError as error:
+            raise ImpossibleTickError(
+                f"tick {applied.tick}: the state of the referee is not one of this version ({error})"
+            ) from None
+        return state
 
     def _unlike_the_ruling(self, applied: Applied) -> list[StateConflict]:
         """What was placed before this tick, unlike the referee ruled in the tick before."""
@@ -172,20 +151,9 @@ class RefereeResimulation:
         return conflicts
 
 
-def _recorded_state(applied: Applied) -> RefereeState | None:
-    if not applied.referee:
-        return None
-    try:
-        return state_from_json(applied.referee)
-    except ValueError as error:
-        raise ImpossibleTickError(
-            f"tick {applied.tick}: the state of the referee is not one of this version ({error})"
-        ) from None
-
-
-def _conflicts(recorded: RefereeState, simulated: RefereeState) -> list[StateConflict]:
+def state_conflicts(recorded: Any, simulated: Any) -> list[StateConflict]:
     """The fields that differ."""
-    pairs = zip(RefereeState._fields, recorded, simulated, strict=True)
+    pairs = zip(recorded._fields, recorded, simulated, strict=True)
     return [StateConflict(name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
 
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from sim_host.soccer.referee.game.referee_state import RefereeState
+from sim_host.game.judging import PlayState
 
 _PERIOD_S = 1.0
 """Simulated time after which the state of the game is published again."""
@@ -15,23 +15,9 @@ class StateSchedule:
         self._every = round(_PERIOD_S / tick_s)
         self._last: tuple[Any, ...] = ()
 
-    def is_due(self, state: RefereeState, tick: int, episode: int, *, had_actions: bool) -> bool:
+    def is_due(self, state: PlayState, tick: int, episode: int, *, had_actions: bool) -> bool:
         """Whether the state of this tick is published; called once for each tick."""
-        now = (
-            state.phase,
-            state.side,
-            state.running,
-            state.half,
-            state.score,
-            state.cyan_attacks,
-            state.spot,
-            state.participation.change_key,
-            state.shoot_out,
-            state.proposal is None,
-            state.refbox_gone is None,
-            len(state.questions),
-            episode,
-        )
+        now = *state.change_key, episode
         is_due = now != self._last or had_actions or tick % self._every == 0
         self._last = now
         return is_due

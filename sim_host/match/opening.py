@@ -1,0 +1,36 @@
+"""What a match begins with: the scene, its layout, and the state of the game."""
+
+from typing import Any
+
+from schemas.config.match_config import MatchConfig
+from schemas.config.scene import Scene
+from sim_host.game.contract import Game
+from sim_host.match.live_parameters import LiveParameters
+from sim_host.snapshot import Roster
+from sim_host.staging.layout import LayoutChange, Specs, check_layout, scene_layout
+
+
+def opening_layout(config: MatchConfig, live_parameters: LiveParameters, game: Game) -> tuple[Scene, LayoutChange]:
+    """The scene that a match begins with, and the layout that it makes.
+
+    Raises:
+        TouchlineError: a side has more robots than the game allows, or the pitch has no room for a body.
+    """
+    profile = live_parameters.profile
+    scene = config.scene if config.scene is not None else game.start_scene(config, profile)
+    began = scene_layout(scene, "")
+    specs = Specs(profile.field, profile.ball, live_parameters.types, game.check_team_sizes)
+    check_layout(began.layout, specs, began.layout.names)
+    return scene, began
+
+
+def opening_state(config: MatchConfig, game: Game) -> Any:
+    """The state of the game at tick 0 of a match.
+
+    Raises:
+        TouchlineError: the profile, the rule book or the scene of the match file is invalid.
+    """
+    live_parameters = LiveParameters.of(config)
+    start, began = opening_layout(config, live_parameters, game)
+    roster = Roster.of_entries(began.layout.robots, live_parameters.types)
+    return game.judge(live_parameters.profile, roster).begin_at(start.game, began.ball)
