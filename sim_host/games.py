@@ -7,6 +7,9 @@ from sim_host.game.contract import Game
 from sim_host.soccer.ball.ball_handling import BallHandling
 from sim_host.soccer.game import Soccer
 
+BALL_CONTROL: MakeBallControl = BallHandling
+"""What moves the ball in a recorded match; unlike its game, it needs no numbers but the profile's."""
+
 
 def game_of_match(config: MatchConfig) -> Game:
     """The game of a match file.
@@ -26,9 +29,3 @@ def game_of_recording(config: MatchConfig | None, setup: Setup | None) -> Game |
     if config is not None:
         return game_of_match(config)
     return Soccer.of_setup(setup) if setup is not None else None
-
-
-def ball_control_of(config: MatchConfig | None) -> MakeBallControl:
-    """Makes what moves the ball in a recorded match, which the numbers of its game do not change."""
-    del config
-    return BallHandling

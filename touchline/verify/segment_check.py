@@ -13,7 +13,7 @@ from recordings.reading.tick_records import TickRecord, command_check_of, tick_r
 from schemas.messages.applied import Applied, chained_part_of
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
-from sim_host.games import ball_control_of, game_of_recording
+from sim_host.games import BALL_CONTROL, game_of_recording
 from sim_host.match.game_resimulation import GameResimulation, OfficiatedTick
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation
 from sim_host.match.world_difference import differences
@@ -61,7 +61,7 @@ class SegmentCheck:
         applied: Applied = record.applied or record.recorded.message()  # raises the reason if it is damaged
         if self._world is None:
             start = resim_start(self._recording, self._segment, before)
-            self._world = Resimulation(ball_control_of(config_of(self._recording)), *start)
+            self._world = Resimulation(BALL_CONTROL, *start)
         simulated = self._world.step(applied, chained_part_of(record.recorded.payload))
         fields, judged = simulated.bodies, None
         if self._referee is not None:
