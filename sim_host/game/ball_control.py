@@ -2,15 +2,17 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
 from schemas.messages.applied import AppliedInput
 from sim_host.physics.body_state import BodyState
-from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import BallState, RobotState
+
+if TYPE_CHECKING:  # a command that checks a match file runs without PyBullet
+    from sim_host.physics.engine import Engine
 
 
 @dataclass(slots=True)
@@ -56,4 +58,4 @@ class BallControl(Protocol):
         """At the end of a tick, release a ball that has left its holder; returns whether it was released."""
 
 
-MakeBallControl = Callable[[Profile, Sequence[RobotModel], Engine], BallControl]
+MakeBallControl = Callable[[Profile, Sequence[RobotModel], "Engine"], BallControl]

@@ -1,7 +1,7 @@
 """The contract of a game."""
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
@@ -12,8 +12,10 @@ from schemas.messages.parameters import Setting
 from schemas.messages.setup import Setup
 from sim_host.game.ball_control import BallControl
 from sim_host.game.judging import Judge
-from sim_host.physics.engine import Engine
 from sim_host.snapshot import Roster
+
+if TYPE_CHECKING:  # a command that checks a match file runs without PyBullet
+    from sim_host.physics.engine import Engine
 
 
 class Game(Protocol):
@@ -23,7 +25,7 @@ class Game(Protocol):
     def changed_by_layout(self) -> Collection[str]:
         """Fields of the state that `PlayState.after_layout_change` may change."""
 
-    def ball_control(self, profile: Profile, models: Sequence[RobotModel], engine: Engine) -> BallControl:
+    def ball_control(self, profile: Profile, models: Sequence[RobotModel], engine: "Engine") -> BallControl:
         """What moves the ball; `models` in the order of the roster."""
 
     def fingerprint(self) -> dict[str, str]:

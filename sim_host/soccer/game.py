@@ -1,7 +1,7 @@
 """Soccer as a game: the referee of a match, its ball, and its start."""
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig
@@ -13,7 +13,6 @@ from schemas.config.soccer.rule_book import RuleBook
 from schemas.config.team_sizes import check_team_sizes
 from schemas.messages.parameters import Setting
 from schemas.messages.setup import Setup
-from sim_host.physics.engine import Engine
 from sim_host.snapshot import Roster
 from sim_host.soccer.ball.ball_handling import BallHandling
 from sim_host.soccer.referee.core import Referee
@@ -22,6 +21,9 @@ from sim_host.soccer.referee.game.referee_state import RefereeState
 from sim_host.soccer.referee.game.state_json import state_from_json, state_json
 from sim_host.soccer.start_poses import start_poses
 from sim_host.soccer.start_scene import start_scene
+
+if TYPE_CHECKING:  # a command that checks a match file runs without PyBullet
+    from sim_host.physics.engine import Engine
 
 
 class Soccer(NamedTuple):
@@ -51,7 +53,7 @@ class Soccer(NamedTuple):
         """Fields of the referee's state that an operator who moves bodies changes."""
         return "participation", "evidence", "set_piece", "proposal", "advantage"
 
-    def ball_control(self, profile: Profile, models: Sequence[RobotModel], engine: Engine) -> BallHandling:
+    def ball_control(self, profile: Profile, models: Sequence[RobotModel], engine: "Engine") -> BallHandling:
         """Possession, dribbling and kicks."""
         return BallHandling(profile, models, engine)
 

@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
 from schemas.messages.applied import AppliedInput
 from sim_host.game.ball_control import BallReport
 from sim_host.physics.body_state import BallContacts, BodyState
-from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BallState, RobotState
 from sim_host.soccer.ball.carrying import METHODS, HeldBall
@@ -17,6 +17,9 @@ from sim_host.soccer.ball.kick import KickRefusedError, Launch, PlannedKick, lau
 from sim_host.soccer.ball.kickers import Kickers
 from sim_host.soccer.ball.possession import can_hold, claimants, holder, why_not_held
 from sim_host.soccer.ball.touches import StepTouches, by_force
+
+if TYPE_CHECKING:  # a command that checks a match file runs without PyBullet
+    from sim_host.physics.engine import Engine
 
 _MAX_PRESSED_DEPTH = 0.005
 """m; a held ball that is pressed this deep into another body is released: it is never carried through one."""
@@ -27,7 +30,7 @@ _MAX_OVERRUN = 0.01
 class BallHandling:
     """Possession and motion of the ball."""
 
-    def __init__(self, profile: Profile, models: Sequence[RobotModel], engine: Engine) -> None:
+    def __init__(self, profile: Profile, models: Sequence[RobotModel], engine: "Engine") -> None:
         self._profile = profile
         self._models = models
         self._dribbles = [model.dribble for model in models]
