@@ -33,6 +33,7 @@ from sim_host.match.world import World
 from sim_host.physics.engine import Engine
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
+from sim_host.sensing.sensors.suite import SensorSuite
 from sim_host.snapshot import Roster, Snapshot
 from sim_host.soccer.ball.ball_handling import BallHandling
 from sim_host.soccer.referee.core import Referee
@@ -84,7 +85,7 @@ class TickRig:
         streams = RandomStreams(1)
         self.radio = RadioAir(profile.radio, self.roster, profile.time.tick, streams)
         self.perception = Perception(profile.sensing, self.roster, streams, profile.time.tick)
-        self.sights = Sights(self.roster, self.perception, self.radio)
+        self.sights = Sights(self.roster, self.perception, self.radio, SensorSuite(profile, self.roster, streams))
         self.alone, self.seen = Perception(profile.sensing, self.roster, streams, profile.time.tick), 0
         book = load_rule_book("friendly")
         starts = {at.body: Pose(at.x, at.y) for at in self._spread() if at.body != "ball"}

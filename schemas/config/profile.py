@@ -7,7 +7,7 @@ Every number has a unit (declared in `schemas.config.sections`) and an origin (w
 """
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,6 +29,7 @@ from schemas.config.sections import (
     TimeSteps,
     Wheels,
 )
+from schemas.config.sensors.sections import Sensors, check_mounted, read_sensors
 from schemas.errors import TouchlineError, did_you_mean
 
 SHIPPED = ("msl", "ideal", "omni", "omni3", "differential", "msl-2016", "paper")
@@ -36,6 +37,8 @@ SHIPPED = ("msl", "ideal", "omni", "omni3", "differential", "msl-2016", "paper")
 FILES = NumberFiles("profile", "profiles", SHIPPED)
 """Where profiles are read from."""
 
+SENSORS = "sensors"
+"""Table of sensors, below `robot` and below a type."""
 STANDARD = "standard"
 """The type of robot whose numbers are in the profile's own sections."""
 
@@ -79,6 +82,12 @@ class Profile:
     """`section.key` → origin of the number."""
     version: int = UNVERSIONED
     """Version of the numbers; 0 for a file without one."""
+    sensors: Mapping[str, Sensors] = dataclasses.field(default_factory=dict)
+    """Type of robot → its sensors; a type that is not named has the standard robot's."""
+
+    def sensors_of(self, name: str) -> Sensors:
+        """The sensors of a type of robot."""
+        return self.sensors.get(name, self.sensors.get(STANDARD, {}))
 
     def robot_of_type(self, name: str) -> dict[str, Any]:
         """Section of `TYPE_SECTIONS` → its numbers for a type of robot."""
@@ -96,7 +105,8 @@ class Profile:
         """
         origins: dict[str, str] = {}
         types = merge_tables(dict(self.types), read_types(tables, where, origins))
-        profile = dataclasses.replace(self, types=types, origins={**self.origins, **origins})
+        sensors = {**self.sensors, **_sensors_of_types(tables, where, origins, self.sensors_of)}
+        profile = dataclasses.replace(self, types=types, origins={**self.origins, **origins}, sensors=sensors)
         check_consistent(profile)
         return profile
 
@@ -116,9 +126,16 @@ def profile_of(name: str, tables: Mapping[str, Any]) -> Profile:
     Raises:
         TouchlineError: they are invalid.
     """
+    robot, type_tables = tables.get("robot", {}), tables.get("types", {})
+    carried = robot.get(SENSORS, {}) if isinstance(robot, dict) else {}
+    if carried:
+        tables = {**tables, "robot": {key: value for key, value in robot.items() if key != SENSORS}}
     sections, origins, version = read_numbers(name, tables, SECTIONS, (VERSION_KEY,), ("types",))
-    types = read_types(tables.get("types", {}), name, origins)
-    profile = Profile(name=name, types=types, origins=origins, version=version, **sections)
+    types = read_types(type_tables, name, origins)
+    own = read_sensors(carried, name, f"robot.{SENSORS}", origins, {})
+    sensors = _sensors_of_types(type_tables, name, origins, lambda _: own)
+    sensors = {STANDARD: own, **sensors} if own else sensors
+    profile = Profile(name=name, types=types, origins=origins, version=version, sensors=sensors, **sections)
     check_consistent(profile)
     return profile
 
@@ -136,11 +153,24 @@ def read_types(tables: Any, where: str, origins: dict[str, str]) -> dict[str, Ch
             raise TouchlineError(f"{at} is the profile's own robot; change the profile's sections, or rename the type")
         changes = {}
         for section, table in _table(sections, at).items():
+            if section == SENSORS:
+                continue
             if section not in TYPE_SECTIONS:
-                raise TouchlineError(f"{at}.{section} is not known; {did_you_mean(section, TYPE_SECTIONS)}")
+                raise TouchlineError(f"{at}.{section} is not known; {did_you_mean(section, (*TYPE_SECTIONS, SENSORS))}")
             changes[section] = read_changes(TYPE_SECTIONS[section], table, where, f"types.{name}.{section}", origins)
         types[name] = changes
     return types
+
+
+def _sensors_of_types(
+    tables: Any, where: str, origins: dict[str, str], before: Callable[[str], Sensors]
+) -> dict[str, Sensors]:
+    """Type → all of its sensors, for the types in these tables that have some of their own."""
+    return {
+        name: read_sensors(sections[SENSORS], where, f"types.{name}.{SENSORS}", origins, before(name))
+        for name, sections in tables.items()
+        if SENSORS in sections
+    }
 
 
 def _table(content: Any, at: str) -> dict[str, Any]:
@@ -157,7 +187,9 @@ def check_consistent(profile: Profile) -> None:
     """
     for name in (STANDARD, *profile.types):
         where = profile.name if name == STANDARD else f"{profile.name}: types.{name}"
-        _check_robot(where, profile.robot_of_type(name), profile.ball)
+        numbers = profile.robot_of_type(name)
+        _check_robot(where, numbers, profile.ball)
+        check_mounted(profile.sensors_of(name), numbers["robot"], where)
 
 
 def _check_robot(where: str, numbers: Mapping[str, Any], ball: Ball) -> None:

@@ -9,13 +9,14 @@ from schemas.config.number_files import UNVERSIONED
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
 from schemas.config.sections import Ball, CameraView, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
+from schemas.config.sensors.table import Sensor
 from schemas.config.soccer.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.soccer.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.config.soccer.rule_book import Discipline, People, Periods, Restarts, RuleBook, Stall
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
 from schemas.soccer.game import OfficiatingMode
-from schemas.wire.message import Message, Name
+from schemas.wire.message import Message, Name, without_empty
 from schemas.wire.part import Part
 
 _EMPTY: Mapping[str, Any] = {}
@@ -111,6 +112,12 @@ class Setup(Message):
     """Whether agents claim their robot on `host/claim`; False in a replay, which admits all."""
     orders: dict[Side, int] = {}
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
+    sensors: dict[Name, dict[Name, Sensor]] = {}
+    """Type → its sensors by name, with their numbers; omitted while no type has any."""
+
+    def encode(self) -> bytes:
+        """The message as JSON, without `sensors` if there are none."""
+        return without_empty("sensors", super().encode())
 
     @classmethod
     def of(
@@ -122,6 +129,7 @@ class Setup(Message):
         parameters: Mapping[str, Setting] = _EMPTY,
     ) -> Self:
         """The setup of a match with the numbers of `profile`."""
+        profile = profile.with_types(config.types, f'match "{config.name}"')
         return cls(
             match=config.name,
             pace=config.pace,
@@ -141,9 +149,10 @@ class Setup(Message):
             duration=config.duration,
             referee=config.referee,
             teams={side: _team(config, side) for side in Side},
-            models=types_of(profile.with_types(config.types, f'match "{config.name}"')),
+            models=types_of(profile),
             engine=dict(engine),
             parameters=dict(parameters),
+            sensors={name: dict(carried) for name in types_of(profile) if (carried := profile.sensors_of(name))},
             **{name: getattr(book, name) for name in RULE_SECTIONS},
         )
 
@@ -157,10 +166,17 @@ class Setup(Message):
         sections: dict[str, Any] = {name: getattr(self, name) for name in RULE_SECTIONS}
         return RuleBook(name=self.rules, origins={}, version=self.rules_version, **sections)
 
+    def sensors_of(self, robot: str) -> dict[Name, Sensor]:
+        """The sensors of a robot by name; empty without any."""
+        return self.sensors.get(self._type_of(robot), {})
+
+    def _type_of(self, robot: str) -> str:
+        types = {name: chosen for team in self.teams.values() for name, chosen in team.types.items()}
+        return types.get(robot, STANDARD)
+
     def for_robot(self, robot: str) -> Self:
         """The same setup with this robot's own parts in place of the standard robot's."""
-        types = {name: chosen for team in self.teams.values() for name, chosen in team.types.items()}
-        model = self.models[types.get(robot, STANDARD)]
+        model = self.models[self._type_of(robot)]
         own = {
             "robot": model.body,
             "drive": model.drive,

@@ -1,6 +1,7 @@
 """The truth of one tick, in the field frame."""
 
 from schemas.config.obstacle import Shape
+from schemas.config.sensors.table import Reading
 from schemas.side import Side
 from schemas.soccer.game import OffField
 from schemas.wire.message import Message, Name
@@ -95,6 +96,8 @@ class World(Message):
     """Obstacle → its place and size; omitted while empty."""
     episode: int = 1
     """Counts the starts of the world: the match's own, each scene that is loaded, each reset. Ticks and time go on."""
+    sensors: dict[Name, dict[Name, Reading]] = {}
+    """Robot → sensor → the reading taken in this tick, in the robot's frame; omitted without any."""
 
 
 class RobotFrame(Message):

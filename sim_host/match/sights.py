@@ -12,7 +12,9 @@ from schemas.messages.sight import BallSight, Outcome, Sight
 from schemas.messages.soccer.game import GameView
 from schemas.side import Side
 from sim_host.match.radio import RadioAir
+from sim_host.match.world_fields import Fields
 from sim_host.sensing.perception import Percept, Perception
+from sim_host.sensing.sensors.suite import SensorSuite
 from sim_host.snapshot import Roster, Snapshot
 
 Send = Callable[[str, bytes], None]
@@ -22,10 +24,16 @@ Send = Callable[[str, bytes], None]
 class Sights:
     """Makes the sights of all robots of a match."""
 
-    def __init__(self, roster: Roster, perception: Perception, radio: RadioAir) -> None:
+    def __init__(self, roster: Roster, perception: Perception, radio: RadioAir, sensors: SensorSuite) -> None:
         self._roster = roster
         self._perception = perception
         self._radio = radio
+        self._sensors = sensors
+
+    @property
+    def readings(self) -> Fields:
+        """The field of a `schemas.messages.world.World` on what was read in the newest tick."""
+        return {"sensors": self._sensors.fresh} if self._sensors.fresh else {}
 
     def at(
         self,
@@ -40,6 +48,7 @@ class Sights:
     ) -> dict[str, bytes]:
         """Robot → its encoded `schemas.messages.sight.Sight`; each is sent as soon as it is encoded."""
         percepts = self._perception.at(snapshot, cyan_attacks)
+        sensed = self._sensors.at(snapshot)
         received = self._radio.receive(snapshot.tick)
         sights = {}
         for index, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
@@ -64,6 +73,7 @@ class Sights:
                     answers_tick=command.answers_tick if command is not None else None,
                     refused=refusals.get(name, []),
                 ),
+                sensors=sensed[index],
             ).encode()
             send(name, sight)
             sights[name] = sight

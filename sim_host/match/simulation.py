@@ -157,7 +157,7 @@ class Simulation:
         self.now = TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=world_fields(snapshot, world_tick.stuck, self.state, self.episode),
+            world=world_fields(snapshot, world_tick.stuck, self.state, self.episode) | self._subsystems.sights.readings,
             sights=sights,
             **self._applied(snapshot, inputs, changes, officiated),
             beliefs=beliefs,
@@ -215,11 +215,12 @@ class Simulation:
         changes.checkpoint = True
         snapshot = self.world.snapshot()
         stuck = [False] * len(self.roster.names)
+        sights = self._sights(snapshot, stuck, {}, {}, _discard_sight)
         return TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=world_fields(snapshot, stuck, self.state, self.episode),
-            sights=self._sights(snapshot, stuck, {}, {}, _discard_sight),
+            world=world_fields(snapshot, stuck, self.state, self.episode) | self._subsystems.sights.readings,
+            sights=sights,
             **self._applied(snapshot, {}, changes, self._officiating_inputs(changes, (), ())),
         )
 

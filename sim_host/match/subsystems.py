@@ -14,6 +14,7 @@ from sim_host.match.radio_use import RadioUse
 from sim_host.match.sights import Sights
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
+from sim_host.sensing.sensors.suite import SensorSuite
 from sim_host.snapshot import Roster
 
 
@@ -31,7 +32,7 @@ class Subsystems:
         self.commands = LatestCommands(self.roster.names, self._command_limits, self.roster.still)
         self.radio_use = RadioUse()
         self.radio, self._perception = self._new_radio(), self._new_perception()
-        self.sights = Sights(self.roster, self._perception, self.radio)
+        self.sights = self._new_sights()
 
     def set_live_parameters(self, live_parameters: LiveParameters) -> bool:
         """Use these parameters from now on; returns whether the world has to be rebuilt for them."""
@@ -46,7 +47,7 @@ class Subsystems:
         if live_parameters.types != before.types:
             self.roster = Roster.of_entries(self._robots, live_parameters.types)
             self._perception = self._perception.with_roster(live_parameters.sensing, self.roster)
-            self.sights = Sights(self.roster, self._perception, self.radio)
+            self.sights = self._new_sights()
         self.commands = self.commands.with_roster(self.roster.names, self._command_limits, self.roster.still)
         return concerns_world
 
@@ -61,7 +62,7 @@ class Subsystems:
         elif robots != before:
             self.radio = self.radio.with_roster(self.roster)
             self._perception = self._perception.with_roster(self._live_parameters.sensing, self.roster)
-        self.sights = Sights(self.roster, self._perception, self.radio)
+        self.sights = self._new_sights()
         self.commands = self.commands.with_roster(self.roster.names, self._command_limits, self.roster.still)
 
     @property
@@ -84,6 +85,11 @@ class Subsystems:
     def _new_judge(self) -> Judge:
         """A judge; it has no memory of its own, since the state of the game is passed to every step."""
         return self._game.judge(self._live_parameters.profile, self.roster)
+
+    def _new_sights(self) -> Sights:
+        """Sights of the current roster; sensors of the table are read again at once."""
+        sensors = SensorSuite(self._live_parameters.profile, self.roster, self._streams)
+        return Sights(self.roster, self._perception, self.radio, sensors)
 
 
 def _of_world(profile: Profile) -> Profile:

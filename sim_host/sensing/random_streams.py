@@ -36,6 +36,8 @@ class StreamId(IntEnum):
     AIR = 8
     OWN_LUCK = 9
     LEAVES = 10
+    SENSOR = 11
+    """Of all sensors in the table; the robot's name in the counter is followed by the sensor's and a use."""
 
 
 def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:

@@ -22,8 +22,13 @@ class Shutter:
     @classmethod
     def of(cls, sensing: Sensing, tick: float) -> "Shutter":
         """The shutter of a match whose control tick is `tick` s."""
-        each = min(Fraction(1), Fraction(sensing.camera_rate * tick).limit_denominator(_FINEST))
-        return cls(each.numerator, each.denominator, round(sensing.latency / tick))
+        return cls.at_rate(sensing.camera_rate, tick, sensing.latency)
+
+    @classmethod
+    def at_rate(cls, rate: float, tick: float, latency: float = 0.0) -> "Shutter":
+        """The shutter that is released `rate` times a second, where a control tick is `tick` s; `latency` in s."""
+        each = min(Fraction(1), Fraction(rate * tick).limit_denominator(_FINEST))
+        return cls(each.numerator, each.denominator, round(latency / tick))
 
     def number(self, tick: int) -> int:
         """The newest picture that was taken up to this tick."""

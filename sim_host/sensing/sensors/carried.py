@@ -1,0 +1,66 @@
+"""One sensor of a profile on all robots that carry it, and what a kind of sensor has to implement."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from schemas.config.sections import Pitch
+from schemas.config.sensors.table import Reading
+from sim_host.sensing.random_streams import SMALL_BATCH, BatchedDraws, Floats, RandomStreams, StreamId
+from sim_host.sensing.shutter import Shutter
+from sim_host.snapshot import Roster, Snapshot
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """A sensor with the same numbers on several robots."""
+
+    name: str
+    """Name of the sensor in the profile."""
+    numbers: Any
+    """Its numbers: of the class that the table of `schemas.config.sensors` has for its kind."""
+    robots: tuple[int, ...]
+    """Indices of the robots in the roster."""
+    roster: Roster
+    pitch: Pitch
+    ball_radius: float
+    """m."""
+    tick: float
+    """Length of a control tick, s."""
+    shutter: Shutter
+    """The ticks in which it is read; readings are numbered from 0."""
+    streams: RandomStreams
+
+    def normals(self, count: int) -> BatchedDraws[Floats]:
+        """Standard normal numbers by number of the reading, shape (robots, count)."""
+        keys = self._keys("normal")
+        return BatchedDraws(
+            lambda numbers: list(self.streams.normals(StreamId.SENSOR, keys, self._ticks(numbers), count)), SMALL_BATCH
+        )
+
+    def uniforms(self, count: int) -> BatchedDraws[Floats]:
+        """Uniform numbers in (0, 1) by number of the reading, shape (robots, count)."""
+        keys = self._keys("uniform")
+        return BatchedDraws(
+            lambda numbers: list(self.streams.uniforms(StreamId.SENSOR, keys, self._ticks(numbers), count)), SMALL_BATCH
+        )
+
+    def knots(self, numbers: Sequence[int]) -> Floats:
+        """A standard normal number for each of these whole numbers, shape (numbers, robots)."""
+        return self.streams.normals(StreamId.SENSOR, self._keys("knot"), numbers, 1)[:, :, 0]
+
+    def _keys(self, use: str) -> list[str]:
+        return [f"{self.roster.names[place]}/{self.name}/{use}" for place in self.robots]
+
+    def _ticks(self, numbers: range) -> list[int]:
+        return [self.shutter.tick_of(number) for number in numbers]
+
+
+class ComputedSensor(Protocol):
+    """What a kind of sensor implements. It keeps no state that a reading depends on: any tick may be read first."""
+
+    def __init__(self, carried: Carried) -> None:
+        """Compute what all readings share."""
+
+    def read(self, snapshot: Snapshot, number: int) -> Sequence[Reading]:
+        """A reading for each robot that carries the sensor, of age 0; `number` is that of the reading."""

@@ -1,0 +1,72 @@
+"""All sensors of the table that the robots of a match carry; most matches have none."""
+
+from typing import Any
+
+from schemas.config.profile import Profile
+from schemas.config.sensors.table import Reading
+from sim_host.sensing.digits import DIGITS
+from sim_host.sensing.random_streams import RandomStreams
+from sim_host.sensing.sensors.carried import Carried, ComputedSensor
+from sim_host.sensing.sensors.table import COMPUTED
+from sim_host.sensing.shutter import Shutter
+from sim_host.snapshot import Roster, Snapshot
+
+Readings = dict[str, Reading]
+"""Sensor → its reading, of one robot."""
+
+
+class SensorSuite:
+    """Reads the sensors of all robots; between two readings a robot has the newest one, with its age."""
+
+    def __init__(self, profile: Profile, roster: Roster, streams: RandomStreams) -> None:
+        self._tick_s = profile.time.tick
+        self._names = roster.names
+        robots: dict[tuple[str, Any], list[int]] = {}
+        for place, model in enumerate(roster.models):
+            for name, numbers in profile.sensors_of(model.type).items():
+                robots.setdefault((name, numbers), []).append(place)
+        self._carried = [
+            Carried(
+                name=name,
+                numbers=numbers,
+                robots=tuple(places),
+                roster=roster,
+                pitch=profile.field,
+                ball_radius=profile.ball.radius,
+                tick=profile.time.tick,
+                shutter=Shutter.at_rate(numbers.rate, profile.time.tick),
+                streams=streams,
+            )
+            for (name, numbers), places in robots.items()
+        ]
+        self._computed: list[ComputedSensor] = [COMPUTED[one.numbers.kind](one) for one in self._carried]
+        self._taken = [-1] * len(self._carried)
+        """Per sensor: the tick of its newest reading."""
+        self._newest: list[Readings] = [{} for _ in self._names]
+        self.fresh: dict[str, Readings] = {}
+        """Robot → the readings taken in the newest tick."""
+
+    def at(self, snapshot: Snapshot) -> list[Readings]:
+        """The newest readings of all robots, in the order of the roster; the caller must not change them."""
+        if not self._carried:
+            return self._newest
+        self._newest = [dict(before) for before in self._newest]
+        self.fresh = {}
+        for index, carried in enumerate(self._carried):
+            self._update(index, carried, snapshot)
+        return self._newest
+
+    def _update(self, index: int, carried: Carried, snapshot: Snapshot) -> None:
+        """Read a sensor if a reading is due, or has never been taken; otherwise its readings grow older."""
+        tick, name = snapshot.tick, carried.name
+        if self._taken[index] < 0 or carried.shutter.takes(tick):
+            self._taken[index] = tick
+            readings = self._computed[index].read(snapshot, carried.shutter.number(tick))
+            for place, reading in zip(carried.robots, readings, strict=True):
+                self._newest[place][name] = reading
+                self.fresh.setdefault(self._names[place], {})[name] = reading
+            return
+        age = round((tick - self._taken[index]) * self._tick_s, DIGITS)
+        for place in carried.robots:
+            held: Any = self._newest[place][name]
+            self._newest[place][name] = held.replace(age=age)
