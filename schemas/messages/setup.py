@@ -1,7 +1,7 @@
 """The setup of a match."""
 
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig, Parameter
@@ -16,7 +16,7 @@ from schemas.config.soccer.rule_book import Discipline, People, Periods, Restart
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
 from schemas.soccer.game import OfficiatingMode
-from schemas.wire.message import Message, Name, without_empty
+from schemas.wire.message import WITHOUT_SENSORS, Message, Name
 from schemas.wire.part import Part
 
 _EMPTY: Mapping[str, Any] = {}
@@ -43,6 +43,8 @@ class TeamSetup(Part):
 
 class Setup(Message):
     """Everything that a robot or a viewer needs to know about a match before its first tick."""
+
+    omitted: ClassVar[bytes] = WITHOUT_SENSORS
 
     match: Name
     """Name of the match: the chunk after `touchline/` in every key."""
@@ -114,10 +116,6 @@ class Setup(Message):
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
     sensors: dict[Name, dict[Name, Sensor]] = {}
     """Type → its sensors by name, with their numbers; omitted while no type has any."""
-
-    def encode(self) -> bytes:
-        """The message as JSON, without `sensors` if there are none."""
-        return without_empty("sensors", super().encode())
 
     @classmethod
     def of(

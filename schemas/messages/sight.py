@@ -1,11 +1,13 @@
 """What one robot knows at one tick, in its team frame: each team attacks +x in its own frame."""
 
+from typing import ClassVar
+
 from schemas.config.sensors.table import Reading
 from schemas.messages.coach import CoachOrder
 from schemas.messages.radio import BallBelief, Motion, RadioContent
 from schemas.messages.soccer.game import GameView
 from schemas.side import Side
-from schemas.wire.message import Message, Name, without_empty
+from schemas.wire.message import WITHOUT_SENSORS, Message, Name
 from schemas.wire.part import Part
 from schemas.wire.units import Metres, MetresPerSecond, Seconds
 
@@ -68,6 +70,8 @@ class Outcome(Part):
 class Sight(Message):
     """What one robot perceives at one tick."""
 
+    omitted: ClassVar[bytes] = WITHOUT_SENSORS
+
     tick: int
     """Control ticks since the match began."""
     time: Seconds
@@ -100,10 +104,6 @@ class Sight(Message):
     """What became of the robot's last command."""
     sensors: dict[Name, Reading] = {}
     """Sensor of the profile → its newest reading; omitted for a robot without sensors."""
-
-    def encode(self) -> bytes:
-        """The message as JSON, without `sensors` if there are none."""
-        return without_empty("sensors", super().encode())
 
 
 __all__ = ["BallBelief", "BallSight", "Motion", "Obstacle", "Outcome", "ReceivedRadio", "Sight"]

@@ -1,10 +1,12 @@
 """The truth of one tick, in the field frame."""
 
+from typing import ClassVar
+
 from schemas.config.obstacle import Shape
 from schemas.config.sensors.table import Reading
 from schemas.side import Side
 from schemas.soccer.game import OffField
-from schemas.wire.message import Message, Name
+from schemas.wire.message import WITHOUT_SENSORS, Message, Name
 from schemas.wire.part import Part
 
 
@@ -73,6 +75,10 @@ class ObstacleTruth(Part):
 
 class World(Message):
     """True state of everything on the field at one tick."""
+
+    max_bytes: ClassVar[int] = 2 * 65_536
+    """As many readings as 22 robots may have."""
+    omitted: ClassVar[bytes] = WITHOUT_SENSORS
 
     tick: int
     """Control ticks since the match began."""

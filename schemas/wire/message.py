@@ -38,10 +38,8 @@ def is_name(text: str) -> bool:
     return _NAME.fullmatch(text) is not None
 
 
-def without_empty(field: str, payload: bytes) -> bytes:
-    """The JSON of a message without its last field, if that is an empty object: what most messages do not have."""
-    ending = b',"%b":{}}' % field.encode()
-    return payload[: -len(ending)] + b"}" if payload.endswith(ending) else payload
+WITHOUT_SENSORS = b',"sensors":{}}'
+"""What messages omit of which `sensors` is the last field."""
 
 
 class BadMessageError(ValueError):
@@ -57,9 +55,15 @@ class Message(Part):
     version: str = VERSION
     """Version of the protocol that the sender implements, "major.minor"."""
 
+    omitted: ClassVar[bytes] = b""
+    """End of the JSON that is omitted: a last field that most messages have empty."""
+
     def encode(self) -> bytes:
         """The message as UTF-8 JSON; floats keep every bit."""
-        return encode(self)
+        payload = encode(self)
+        if self.omitted and payload.endswith(self.omitted):
+            return payload[: -len(self.omitted)] + b"}"
+        return payload
 
     @classmethod
     def decode(cls, payload: bytes) -> Self:

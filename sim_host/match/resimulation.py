@@ -1,4 +1,4 @@
-"""Simulates the world of a recorded match again, without brains, referee or sensors.
+"""Simulates the world of a recorded match again, without brains, referee or cameras.
 
 Each `schemas.messages.applied.Applied` holds everything that moved the world in its tick: inputs, placements,
 and changes of parameters, robots and obstacles. A resimulation begins at tick 0, or at any checkpoint, from poses and
@@ -8,6 +8,8 @@ their robot moves.
 
 from dataclasses import dataclass, replace
 from typing import NamedTuple
+
+import msgspec
 
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.profile import STANDARD, Profile, load_profile
@@ -19,10 +21,13 @@ from schemas.messages.applied import Applied
 from schemas.messages.setup import Setup
 from schemas.messages.world import World as WorldMessage
 from schemas.natural_order import natural_order
+from schemas.wire.part import encode
 from sim_host.game.ball_control import MakeBallControl
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, bodies_fields
+from sim_host.sensing.random_streams import RandomStreams
+from sim_host.sensing.sensors.suite import SensorSuite
 from sim_host.snapshot import BALL, BallState, RobotState, Roster, Snapshot
 
 
@@ -85,7 +90,7 @@ class ResimulatedTick(NamedTuple):
     """One tick of a resimulation."""
 
     bodies: Fields
-    """The world, as `sim_host.match.world_fields.bodies_fields` returns it."""
+    """The world, as `sim_host.match.world_fields.bodies_fields` returns it; with `sensors` where the seed is known."""
     chain: str
     snapshot: Snapshot
     profile: Profile
@@ -135,9 +140,18 @@ class Resimulation:
     """Simulates a recorded match again, tick by tick."""
 
     def __init__(
-        self, make_ball_control: MakeBallControl, initial: Conditions, checkpoint: CheckpointState | None = None
+        self,
+        make_ball_control: MakeBallControl,
+        initial: Conditions,
+        checkpoint: CheckpointState | None = None,
+        seed: int | None = None,
     ) -> None:
-        """`initial` and `checkpoint` are of the tick before the first one; `checkpoint` is None to begin at tick 0."""
+        """`initial` and `checkpoint` are of the tick before the first one; `checkpoint` is None to begin at tick 0.
+
+        With the `seed` of the match, the sensors of the table are read again, too.
+        """
+        self._streams = RandomStreams(seed) if seed is not None else None
+        self._sensors: SensorSuite | None = None
         self._make_ball_control = make_ball_control
         self._conditions = initial
         self._checkpoint = checkpoint
@@ -181,7 +195,11 @@ class Resimulation:
             world_tick = world.advance(applied.inputs)
             snapshot, stuck = world_tick.snapshot, world_tick.stuck
         chain, profile = world.chain(unchained), after.live_parameters.profile
-        return ResimulatedTick(bodies_fields(snapshot, stuck), chain, snapshot, profile)
+        bodies = bodies_fields(snapshot, stuck)
+        if self._sensors is not None:
+            self._sensors.at(snapshot)
+            bodies["sensors"] = msgspec.json.decode(encode(self._sensors.fresh))
+        return ResimulatedTick(bodies, chain, snapshot, profile)
 
     def _new_world(self, conditions: Conditions) -> World:
         """The world before the first tick of the resimulation."""
@@ -199,6 +217,9 @@ class Resimulation:
         """The robots with the models of their types."""
         roster = conditions.roster()
         self._names = set(roster.names)
+        profile = conditions.live_parameters.profile
+        if profile.sensors and self._streams is not None:
+            self._sensors = SensorSuite(profile, roster, self._streams)
         return roster
 
     def _check(self, applied: Applied) -> None:

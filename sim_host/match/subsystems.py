@@ -87,7 +87,7 @@ class Subsystems:
         return self._game.judge(self._live_parameters.profile, self.roster)
 
     def _new_sights(self) -> Sights:
-        """Sights of the current roster; sensors of the table are read again at once."""
+        """Sights of the current roster; sensors of the table have no reading yet."""
         sensors = SensorSuite(self._live_parameters.profile, self.roster, self._streams)
         return Sights(self.roster, self._perception, self.radio, sensors)
 

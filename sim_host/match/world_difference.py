@@ -36,6 +36,18 @@ def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Diffe
     own = {key: simulated.get(key, _ABSENT.get(key)) for key in _OWN}
     own |= {key: simulated[key] for key in _OFFICIATED if key in simulated}
     found += _body_differences("world", recorded, own)
+    return found + _reading_differences(_table(recorded.get("sensors")), simulated.get("sensors"))
+
+
+def _reading_differences(recorded: Mapping[str, object], simulated: Fields | None) -> list[Difference]:
+    """Readings that differ, of each robot; none where the sensors were not simulated."""
+    if simulated is None or recorded == simulated:
+        return []
+    found = []
+    for name in dict.fromkeys([*simulated, *recorded]):
+        theirs, ours = _table(recorded.get(name)), simulated.get(name, {})
+        pairs = ((sensor, theirs.get(sensor), ours.get(sensor)) for sensor in dict.fromkeys([*ours, *theirs]))
+        found += [Difference(name, f"sensors.{sensor}", one, other) for sensor, one, other in pairs if one != other]
     return found
 
 

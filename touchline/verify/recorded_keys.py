@@ -1,6 +1,7 @@
 """Which keys a recording should have, and which of them a verification does not compare."""
 
 from recordings.container.key_selection import KeySelection
+from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
 from recordings.reading.tick_records import manually_driven
 from schemas.natural_order import natural_order
@@ -34,6 +35,9 @@ def not_checked(recording: Recording, *, referee: bool, why_no_referee: str) -> 
     found += _incomplete(recording)
     if recording.damaged_records:
         found.append(f"messages in {recording.damaged_records} damaged records that a repair has left out")
+    setup = recording.manifest.setup
+    if setup is not None and setup.sensors and config_of(recording) is None:
+        found.append("readings of sensors (the seed is missing: it is in the match file)")
     if recording.drawn:
         found.append("drawings for viewers")
     return [*found, "wall times"]

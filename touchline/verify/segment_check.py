@@ -60,8 +60,8 @@ class SegmentCheck:
         """
         applied: Applied = record.applied or record.recorded.message()  # raises the reason if it is damaged
         if self._world is None:
-            start = resim_start(self._recording, self._segment, before)
-            self._world = Resimulation(BALL_CONTROL, *start)
+            start, config = resim_start(self._recording, self._segment, before), config_of(self._recording)
+            self._world = Resimulation(BALL_CONTROL, *start, seed=config.seed if config is not None else None)
         simulated = self._world.step(applied, chained_part_of(record.recorded.payload))
         fields, judged = simulated.bodies, None
         if self._referee is not None:

@@ -21,6 +21,11 @@ class Contact(Sensor):
     gap: Annotated[float, Quantity("m", "an obstacle or a boundary as near as this is felt", 0, 0.1)] = 0.005
     rate: Annotated[float, Quantity("Hz", "readings per second; at most one in each tick", 0.1, 1000)] = 1000.0
 
+    @property
+    def size(self) -> int:
+        """Values in a reading."""
+        return self.sectors
+
 
 class ContactReading(Part, Reading, tag_field="kind", tag="contact"):
     """What a bumper feels."""

@@ -21,6 +21,11 @@ class Sensor:
         """Place on the robot in m: x along the kick axis, y to the left, height above the ground."""
         return 0.0, 0.0, 0.0
 
+    @property
+    def size(self) -> int:
+        """Number of values in a reading, each of at most nine bytes as JSON; messages have room for so many."""
+        return 1
+
     @classmethod
     def model_validate(cls, content: Any) -> "Sensor":
         """The numbers in JSON content, of the kind that it names; `schemas.wire.part` calls this.

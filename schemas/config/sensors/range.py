@@ -15,14 +15,15 @@ class Range(Sensor):
     """A range finder. The beams part the span evenly, each in the middle of its part; the own hull is transparent.
 
     They meet hulls of robots, obstacles, the boundary, and optionally the ball; goals are not seen. Noise is Gaussian,
-    with the standard deviation √(noise² + (noise_share·distance)²).
+    with the standard deviation √(noise² + (noise_share·distance)²). A distance that is measured beyond the limits gives
+    no return.
     """
 
     kind: Annotated[str, Choice("kind of the sensor", ("range",))] = "range"
     beams: Annotated[int, Quantity("1", "number of beams", 1, 720)]
     span: Annotated[float, Quantity("rad", "total angle that the beams cover", 0, math.tau)]
-    max_distance: Annotated[float, Quantity("m", "a body beyond it gives no return", 0.01, 200)]
-    min_distance: Annotated[float, Quantity("m", "a body nearer than it gives no return", 0, 10)] = 0.0
+    max_distance: Annotated[float, Quantity("m", "a distance measured beyond it gives no return", 0.01, 200)]
+    min_distance: Annotated[float, Quantity("m", "a distance measured below it gives no return", 0, 10)] = 0.0
     heading: Annotated[float, Quantity("rad", "kick axis to the middle of the span", -math.pi, math.pi)] = 0.0
     x: Annotated[float, Quantity("m", "place on the robot along the kick axis", -2, 2)] = 0.0
     y: Annotated[float, Quantity("m", "place on the robot to the left", -2, 2)] = 0.0
@@ -37,6 +38,11 @@ class Range(Sensor):
     def mount(self) -> tuple[float, float, float]:
         """Place on the robot in m."""
         return self.x, self.y, self.height
+
+    @property
+    def size(self) -> int:
+        """Values in a reading."""
+        return self.beams
 
     @property
     def angle_increment(self) -> float:

@@ -13,6 +13,10 @@ from schemas.wire.message import is_name
 
 Sensors = Mapping[str, Sensor]
 """Name → sensor, of one type of robot."""
+MOST_VALUES = 500
+"""Most values in the readings of one robot: with 22 robots, a world stays within its `max_bytes`."""
+_VALUES_OF_A_NAME = 20
+"""As many values have the bytes of a reading's name, kind and age."""
 
 
 def read_sensors(tables: Any, where: str, section: str, origins: dict[str, str], inherited: Sensors) -> Sensors:
@@ -56,11 +60,17 @@ def _read(table: dict[str, Any], where: str, at: str, origins: dict[str, str], b
 
 
 def check_mounted(sensors: Sensors, body: RobotBody, where: str) -> None:
-    """Check that all sensors of a robot are within its hull.
+    """Check that all sensors of a robot are within its hull, and that messages have room for their readings.
 
     Raises:
-        TouchlineError: one is outside.
+        TouchlineError: one is outside, or they have too many values.
     """
+    values = sum(sensor.size + _VALUES_OF_A_NAME for sensor in sensors.values())
+    if values > MOST_VALUES:
+        raise TouchlineError(
+            f"{where}: the readings of sensors {', '.join(sensors)} have {values} values, {_VALUES_OF_A_NAME} for each "
+            f"sensor included; at most {MOST_VALUES}: give them fewer beams or sectors"
+        )
     for name, sensor in sensors.items():
         x, y, height = sensor.mount
         if math.hypot(x, y) > body.reach or height > body.height:

@@ -44,10 +44,10 @@ class ComputedRange:
         turn = np.exp(1j * motions.heading[self._robots])
         eyes = motions.position[self._robots] + self._place * turn
         distance = self._cast(eyes, turn, snapshot)
-        lost = (distance < s.min_distance) | (distance > s.max_distance)
         if self._noise is not None:
             sigma = np.hypot(s.noise, s.noise_share * np.minimum(distance, s.max_distance))
             distance = np.maximum(distance + sigma * self._noise.at(number), 0.0)
+        lost = (distance < s.min_distance) | (distance > s.max_distance)
         if self._dropout is not None:
             lost |= self._dropout.at(number) < s.dropout
         distance = rounded(distance)

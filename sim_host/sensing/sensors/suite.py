@@ -40,33 +40,36 @@ class SensorSuite:
             for (name, numbers), places in robots.items()
         ]
         self._computed: list[ComputedSensor] = [COMPUTED[one.numbers.kind](one) for one in self._carried]
-        self._taken = [-1] * len(self._carried)
-        """Per sensor: the tick of its newest reading."""
         self._newest: list[Readings] = [{} for _ in self._names]
         self.fresh: dict[str, Readings] = {}
         """Robot → the readings taken in the newest tick."""
 
     def at(self, snapshot: Snapshot) -> list[Readings]:
-        """The newest readings of all robots, in the order of the roster; the caller must not change them."""
+        """The newest readings of all robots, in the order of the roster; the caller must not change them.
+
+        A robot that joins has no reading before the first one that is due: what is read in a tick follows from the tick.
+        """
         if not self._carried:
             return self._newest
         self._newest = [dict(before) for before in self._newest]
         self.fresh = {}
-        for index, carried in enumerate(self._carried):
-            self._update(index, carried, snapshot)
+        for carried, computed in zip(self._carried, self._computed, strict=True):
+            self._update(carried, computed, snapshot)
         return self._newest
 
-    def _update(self, index: int, carried: Carried, snapshot: Snapshot) -> None:
-        """Read a sensor if a reading is due, or has never been taken; otherwise its readings grow older."""
+    def _update(self, carried: Carried, computed: ComputedSensor, snapshot: Snapshot) -> None:
+        """Read a sensor if a reading is due; otherwise its readings grow older."""
         tick, name = snapshot.tick, carried.name
-        if self._taken[index] < 0 or carried.shutter.takes(tick):
-            self._taken[index] = tick
-            readings = self._computed[index].read(snapshot, carried.shutter.number(tick))
+        number = carried.shutter.number(tick)
+        taken = carried.shutter.tick_of(number)
+        if tick == taken:
+            readings = computed.read(snapshot, number)
             for place, reading in zip(carried.robots, readings, strict=True):
                 self._newest[place][name] = reading
                 self.fresh.setdefault(self._names[place], {})[name] = reading
             return
-        age = round((tick - self._taken[index]) * self._tick_s, DIGITS)
+        age = round((tick - taken) * self._tick_s, DIGITS)
         for place in carried.robots:
-            held: Any = self._newest[place][name]
-            self._newest[place][name] = held.replace(age=age)
+            held: Any = self._newest[place].get(name)
+            if held is not None:
+                self._newest[place][name] = held.replace(age=age)
