@@ -5,6 +5,10 @@ from msgspec import Raw
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
 from schemas.messages.admission import AdmissionReply, AdmissionRequest
+from schemas.config.sensors.compass import CompassReading
+from schemas.config.sensors.contact import ContactReading
+from schemas.config.sensors.range import RangeReading
+from schemas.config.sensors.table import Reading
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
@@ -47,6 +51,11 @@ _DEBUG = Debug(
     lines=[DebugLine(x1=3.12, y1=-1.19, x2=7.5, y2=0.6, colour="orange")],
     circles=[DebugCircle(x=7.5, y=0.6, radius=0.5)],
 )
+_READINGS: dict[str, Reading] = {
+    "front": RangeReading(age=0.0, angle_min=-0.75, angle_increment=0.5, distances=[2.4107, 2.2032, None, 0.951]),
+    "north": CompassReading(age=0.0, heading=0.3187),
+    "bumper": ContactReading(age=0.0, touched=[True, False, False, False]),
+}
 
 
 def examples() -> dict[type[Message], Message]:
@@ -65,6 +74,7 @@ def _truth() -> tuple[Message, ...]:
             possession="cyan2",
             touches=["magenta1", "cyan2"],
             clock=5.2,
+            sensors={"cyan2": _READINGS},
         ),
         RobotFrame(tick=_TICK, time=_TIME, robot=_CYAN_2, side=Side.CYAN),
         BallFrame(tick=_TICK, time=_TIME, ball=_BALL),
@@ -86,6 +96,7 @@ def _robot() -> tuple[Message, ...]:
             game=GameView(phase=TeamPhase.PLAY, running=True, clock=5.2, our_score=1, their_score=0),
             order=_ORDER,
             outcome=Outcome(answers_tick=411, refused=["kick: ball not held"]),
+            sensors=_READINGS,
         ),
         Command(
             answers_tick=_TICK,

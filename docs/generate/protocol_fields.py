@@ -15,6 +15,7 @@ from pydantic import BaseModel, StringConstraints
 from pydantic.fields import FieldInfo
 
 from schemas.config.quantity import Choice, Quantity
+from schemas.config.sensors.table import KINDS, Reading, Sensor
 from schemas.wire.field_docstrings import field_docstrings
 from schemas.wire.message import Name
 from schemas.wire.part import encode
@@ -23,6 +24,11 @@ from schemas.wire.units import MAX
 Link = Callable[[type], str]
 """Gives the name of a part or an enumeration in the text."""
 
+_CHOICES: dict[Any, list[type]] = {
+    Sensor: [kind.numbers for kind in KINDS.values()],
+    Reading: [kind.reading for kind in KINDS.values()],
+}
+"""A base → the types of the table of sensors that stand in its place."""
 _PLAIN = {str: "text", bool: "true or false", int: "whole number", float: "number"}
 
 
@@ -45,7 +51,8 @@ def rows(part: type, link: Link) -> list[Row]:
     """The fields of a part in order, without `version`."""
     hints = get_type_hints(part, include_extras=True)
     docstrings = field_docstrings(part)
-    return [
+    tag = part.__struct_config__.tag if issubclass(part, msgspec.Struct) else None
+    return [Row("kind", f'"{tag}"', "", "Kind of the sensor.")] * (tag is not None) + [
         Row(name, type_text(hints[name], link), default, _meaning(docstrings.get(name, ""), hints[name]))
         for name, default in _defaults(part)
         if name != "version"
@@ -65,6 +72,8 @@ def type_text(hint: Any, link: Link) -> str:
         return "name"
     if hint in (Any, msgspec.Raw):
         return "any JSON"
+    if isinstance(hint, type) and hint in _CHOICES:
+        return " or ".join(link(choice) for choice in _CHOICES[hint])
     if isinstance(hint, type) and hint in _PLAIN:
         return _PLAIN[hint]
     inner = get_args(hint)
@@ -88,6 +97,7 @@ def type_text(hint: Any, link: Link) -> str:
 def _named_types(hint: Any) -> Iterator[type]:
     if is_part(hint) or (isinstance(hint, type) and issubclass(hint, Enum)):
         yield hint
+    yield from _CHOICES.get(hint, ()) if isinstance(hint, type) else ()
     for inner in get_args(hint):
         yield from _named_types(inner)
 

@@ -189,7 +189,8 @@ def check_consistent(profile: Profile) -> None:
         where = profile.name if name == STANDARD else f"{profile.name}: types.{name}"
         numbers = profile.robot_of_type(name)
         _check_robot(where, numbers, profile.ball)
-        check_mounted(profile.sensors_of(name), numbers["robot"], where)
+        section = f": robot.{SENSORS}" if name == STANDARD else f".{SENSORS}"
+        check_mounted(profile.sensors_of(name), numbers["robot"], where + section)
 
 
 def _check_robot(where: str, numbers: Mapping[str, Any], ball: Ball) -> None:

@@ -10,7 +10,7 @@ from schemas.wire.units import Seconds
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Contact(Sensor):
+class Bumper(Sensor):
     """A bumper around the hull, in equal sectors counter-clockwise; the first one is centred on the kick axis.
 
     Another robot is felt in the sector toward its centre. The ball and goals are not felt.

@@ -11,7 +11,7 @@ from schemas.wire.units import Metres, Radians, Seconds
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Range(Sensor):
+class RangeFinder(Sensor):
     """A range finder. The beams part the span evenly, each in the middle of its part; the own hull is transparent.
 
     They meet hulls of robots, obstacles, the boundary, and optionally the ball; goals are not seen. Noise is Gaussian,

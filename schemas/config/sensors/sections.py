@@ -59,8 +59,10 @@ def _read(table: dict[str, Any], where: str, at: str, origins: dict[str, str], b
     return sensor
 
 
-def check_mounted(sensors: Sensors, body: RobotBody, where: str) -> None:
+def check_mounted(sensors: Sensors, body: RobotBody, at: str) -> None:
     """Check that all sensors of a robot are within its hull, and that messages have room for their readings.
+
+    `at` is the place of the sensors in a file.
 
     Raises:
         TouchlineError: one is outside, or they have too many values.
@@ -68,13 +70,13 @@ def check_mounted(sensors: Sensors, body: RobotBody, where: str) -> None:
     values = sum(sensor.size + _VALUES_OF_A_NAME for sensor in sensors.values())
     if values > MOST_VALUES:
         raise TouchlineError(
-            f"{where}: the readings of sensors {', '.join(sensors)} have {values} values, {_VALUES_OF_A_NAME} for each "
-            f"sensor included; at most {MOST_VALUES}: give them fewer beams or sectors"
+            f"{at}: the readings of {', '.join(sensors)} have {values} values, {_VALUES_OF_A_NAME} for each sensor "
+            f"included; at most {MOST_VALUES}: give them fewer beams or sectors"
         )
     for name, sensor in sensors.items():
         x, y, height = sensor.mount
         if math.hypot(x, y) > body.reach or height > body.height:
             raise TouchlineError(
-                f"{where}: sensor {name} is at x {x:g} m, y {y:g} m, height {height:g} m, outside its robot; the hull "
-                f"reaches {body.reach:.3g} m from the axis and is {body.height:g} m high"
+                f"{at}.{name} is at x {x:g} m, y {y:g} m, height {height:g} m, outside its robot; the hull reaches "
+                f"{body.reach:.3g} m from the axis and is {body.height:g} m high"
             )

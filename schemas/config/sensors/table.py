@@ -1,14 +1,14 @@
 """The table of sensors: a new kind is a file and a row here, and a row in `sim_host.sensing.sensors.table`."""
 
 from schemas.config.sensors.compass import Compass, CompassReading
-from schemas.config.sensors.contact import Contact, ContactReading
+from schemas.config.sensors.contact import Bumper, ContactReading
 from schemas.config.sensors.kinds import KINDS, Reading, Sensor, SensorKind
-from schemas.config.sensors.range import Range, RangeReading
+from schemas.config.sensors.range import RangeFinder, RangeReading
 
 KINDS |= {
-    "range": SensorKind(Range, RangeReading),
+    "range": SensorKind(RangeFinder, RangeReading),
     "compass": SensorKind(Compass, CompassReading),
-    "contact": SensorKind(Contact, ContactReading),
+    "contact": SensorKind(Bumper, ContactReading),
 }
 
 __all__ = ["KINDS", "Reading", "Sensor", "SensorKind"]

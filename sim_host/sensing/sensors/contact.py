@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from schemas.config.obstacle import Shape
 from schemas.config.sections import RobotBody
-from schemas.config.sensors.contact import Contact, ContactReading
+from schemas.config.sensors.contact import Bumper, ContactReading
 from schemas.config.sensors.table import Reading
 from sim_host.sensing.random_streams import Vectors
 from sim_host.sensing.sensors.carried import Carried
@@ -26,7 +26,7 @@ class ComputedContact:
     """A bumper on several robots."""
 
     def __init__(self, carried: Carried) -> None:
-        self._numbers: Contact = carried.numbers
+        self._numbers: Bumper = carried.numbers
         self._robots = carried.robots
         pitch = carried.pitch
         self._walls = pitch.goal_line + pitch.border, pitch.touch_line + pitch.border

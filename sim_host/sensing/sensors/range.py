@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from schemas.config.sensors.range import Range, RangeReading
+from schemas.config.sensors.range import RangeFinder, RangeReading
 from schemas.config.sensors.table import Reading
 from sim_host.sensing.digits import rounded
 from sim_host.sensing.random_streams import Floats, Vectors
@@ -26,7 +26,7 @@ class ComputedRange:
     """A range finder on several robots; arrays are robots × beams."""
 
     def __init__(self, carried: Carried) -> None:
-        s: Range = carried.numbers
+        s: RangeFinder = carried.numbers
         self._numbers, pitch = s, carried.pitch
         self._robots = np.array(carried.robots)
         self._angles = s.angle_min + s.angle_increment * np.arange(s.beams)

@@ -1,0 +1,228 @@
+"""Sensors of a profile: range finders against marched beams, bumpers, compasses, and a kind that a test adds."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import pytest
+from pytest import approx
+
+from schemas.config.match_config import load_match
+from schemas.config.quantity import Choice, Quantity
+from schemas.config.sensors.table import KINDS, Reading, Sensor, SensorKind
+from schemas.messages.command import Command, Drive
+from schemas.messages.scene import SceneOperation, SceneRequest
+from schemas.messages.setup import Setup
+from schemas.messages.sight import Sight
+from schemas.messages.world import World
+from schemas.wire.part import Part, encode
+from schemas.wire.part_faults import validated
+from sim_host.match.simulation import Simulation
+from sim_host.sensing.sensors.carried import Carried
+from sim_host.sensing.sensors.table import COMPUTED
+from sim_host.snapshot import Snapshot
+
+BOX = {"name": "crate", "shape": "box", "place": [-2.0, 1.0], "heading": 0.5, "size": [0.6, 0.9, 0.8]}
+POST = {"name": "post", "shape": "cylinder", "place": [-5.0, -3.0], "radius": 0.3, "height": 1.0}
+
+
+def sensor(name: str, kind: str, **numbers: tuple[Any, str] | str) -> str:
+    """A table of a profile."""
+    lines = [f"[robot.sensors.{name}]", f'kind = "{kind}"']
+    for key, (value, unit) in numbers.items():
+        lines.append(f'{key} = {{ value = {value}, unit = "{unit}", origin = "test" }}')
+    return "\n".join(lines) + "\n"
+
+
+FRONT = {"beams": (40, "1"), "span": (6.0, "rad"), "max_distance": (9.0, "m"), "x": (0.1, "m"), "heading": (0.4, "rad")}
+
+
+@pytest.fixture
+def play(tmp_path: Path) -> Iterator[Any]:
+    """Make simulations of a profile with these tables."""
+    made = []
+
+    def make(tables: str, **overrides: object) -> Simulation:
+        path = tmp_path / "sensing.toml"
+        path.write_text('extends = "msl"\n' + tables)
+        made.append(Simulation(load_match(None, {"profile": str(path), **overrides})))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+def step(simulation: Simulation, ticks: int) -> None:
+    for _ in range(ticks):
+        tick, names = simulation.now.tick, simulation.roster.names
+        simulation.step(
+            {
+                name: Command(answers_tick=tick, drive=Drive(vx=place % 5 - 2.0, vy=0.5, omega=1.0))
+                for place, name in enumerate(names)
+            }
+        )
+
+
+def sensed(simulation: Simulation, robot: str) -> dict[str, Any]:
+    return Sight.decode(simulation.now.sights[robot]).sensors
+
+
+def marched(simulation: Simulation, robot: str, bearing: float, reach: float) -> float | None:
+    """Distance along a beam of the range finder, by steps of 1 mm, to the first point within something."""
+    world, hull = simulation.now.world, simulation.profile.robot.radius
+    own = world["robots"][robot]
+    eye = complex(own["x"], own["y"]) + 0.1 * complex(math.cos(own["heading"]), math.sin(own["heading"]))
+    way = complex(math.cos(own["heading"] + bearing), math.sin(own["heading"] + bearing))
+    others = [complex(one["x"], one["y"]) for name, one in world["robots"].items() if name != robot]
+    pitch, turn = simulation.profile.field, complex(math.cos(-0.5), math.sin(-0.5))
+    for away in range(int(reach * 1000)):
+        at = eye + way * away / 1000
+        in_box = (at - complex(*BOX["place"])) * turn
+        if (
+            abs(at.real) >= pitch.goal_line + pitch.border
+            or abs(at.imag) >= pitch.touch_line + pitch.border
+            or any(abs(at - one) <= hull for one in others)
+            or abs(at - complex(*POST["place"])) <= POST["radius"]
+            or (abs(in_box.real) <= 0.3 and abs(in_box.imag) <= 0.45)
+        ):
+            return away / 1000
+    return None
+
+
+def test_each_beam_has_the_distance_of_the_first_body_on_it(play) -> None:
+    one = play(sensor("front", "range", **FRONT), obstacles=[BOX, POST])
+    step(one, 30)
+    hits = 0
+    for robot in one.roster.names:
+        reading = sensed(one, robot)["front"]
+        for beam in range(0, 40, 3):
+            bearing = reading.angle_min + beam * reading.angle_increment
+            expected = marched(one, robot, bearing, 9.0)
+            assert reading.distances[beam] == (None if expected is None else approx(expected, abs=0.002)), (robot, beam)
+            hits += expected is not None
+    assert 50 < hits < 10 * 14
+
+
+def test_beams_have_noise_dropouts_and_a_rate_and_readings_grow_older(play) -> None:
+    numbers = {**FRONT, "rate": (10, "Hz"), "max_distance": (100.0, "m")}
+    exact, noisy = (
+        play(sensor("front", "range", **numbers, **more))
+        for more in ({}, {"noise": (0.05, "m"), "dropout": (0.2, "1")})
+    )
+    readings = [sensed(noisy, name)["front"] for name in noisy.roster.names]
+    errors = [
+        seen - true
+        for name, reading in zip(noisy.roster.names, readings, strict=True)
+        for seen, true in zip(reading.distances, sensed(exact, name)["front"].distances, strict=True)
+        if seen is not None
+    ]
+    assert math.sqrt(sum(error**2 for error in errors) / len(errors)) == approx(0.05, rel=0.2)
+    assert len(errors) == approx(0.8 * 400, rel=0.1)
+    ages = []
+    for _ in range(7):
+        ages.append(sensed(noisy, "cyan1")["front"].age)
+        step(noisy, 1)
+    assert ages == approx([0.0, 0.02, 0.04, 0.06, 0.08, 0.0, 0.02])
+    assert "sensors" in noisy.now.world or noisy.now.tick % 5
+    again = play(sensor("front", "range", **numbers, noise=(0.05, "m"), dropout=(0.2, "1")))
+    assert sensed(again, "cyan1")["front"] == readings[0], "the same seed gives the same noise"
+
+
+def test_a_compass_shows_the_heading_in_the_field_frame_with_its_errors(play) -> None:
+    one = play(
+        sensor("north", "compass")
+        + sensor("bent", "compass", bias=(0.5, "rad"), drift=(0.1, "rad"), noise=(0.01, "rad"))
+    )
+    step(one, 20)
+    for name, robot in one.now.world["robots"].items():
+        assert sensed(one, name)["north"].heading == approx(robot["heading"], abs=1e-4)
+        error = sensed(one, name)["bent"].heading - robot["heading"]
+        assert math.remainder(error - 0.5, math.tau) == approx(0.0, abs=0.5) and error != 0.5
+
+
+def test_a_bumper_feels_robots_obstacles_and_the_boundary_in_their_sectors(play) -> None:
+    one = play(sensor("bumper", "contact", sectors=(4, "1")), obstacles=[BOX, POST])
+    reach = one.profile.robot.radius
+    wall = one.profile.field.touch_line + one.profile.field.border
+    places = {
+        "cyan2": (-5.0 - 0.302 - reach, -3.0, 0.0),  # the post is in front
+        "cyan3": (1.0, wall - reach - 0.001, 0.0),  # the boundary is to the left
+        "cyan4": (4.0, 0.0, 1.0),  # nothing near
+    }
+    place = [{"body": name, "x": x, "y": y, "heading": heading} for name, (x, y, heading) in places.items()]
+    assert one.handle_scene(validated(SceneRequest, {"operation": SceneOperation.PLACE, "place": place})).accepted
+    one.step({})
+    assert sensed(one, "cyan2")["bumper"].touched == [True, False, False, False]
+    assert sensed(one, "cyan3")["bumper"].touched == [False, True, False, False]
+    assert sensed(one, "cyan4")["bumper"].touched == [False] * 4
+
+
+def test_a_match_without_sensors_has_no_word_of_them(play) -> None:
+    plain = play("")
+    plain.step({})
+    for payload in (plain.now.sights["cyan1"], encode(plain.now.world), plain.setup().encode()):
+        assert b'"sensors"' not in payload
+    world = World.decode(encode(plain.now.world))
+    assert b'"sensors"' not in world.encode() and world.sensors == {}
+
+
+def test_readings_and_numbers_survive_the_wire(play) -> None:
+    one = play(sensor("front", "range", **FRONT) + sensor("north", "compass"))
+    setup = Setup.decode(one.setup().encode())
+    assert setup.sensors_of("cyan1") == one.profile.sensors_of("standard") == setup.sensors_of("magenta3")
+    world = World.decode(encode(one.now.world))
+    assert world.sensors["cyan1"] == sensed(one, "cyan1")
+    assert World.decode(world.encode()) == world
+    assert {"front", "north"} == set(world.sensors["magenta5"])
+
+
+def test_the_fullest_world_is_within_its_limit(play) -> None:
+    one = play(
+        sensor("front", "range", **{**FRONT, "beams": (480, "1"), "max_distance": (200.0, "m")}),
+        **{"teams.cyan.size": 11, "teams.magenta.size": 11, "rules": "eleven"},
+    )
+    assert World.decode(encode(one.now.world)).sensors.keys() == set(one.roster.names)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Odometer(Sensor):
+    """A third party's sensor: all that is new about it stands in this file."""
+
+    kind: Annotated[str, Choice("kind of the sensor", ("odometer",))] = "odometer"
+    slip: Annotated[float, Quantity("1", "share of the distance that is not measured", 0, 1)] = 0.0
+    rate: Annotated[float, Quantity("Hz", "readings per second", 0.1, 1000)] = 1000.0
+
+
+class OdometerReading(Part, Reading, tag_field="kind", tag="odometer"):
+    """A speed."""
+
+    age: float
+    speed: float
+
+
+class ComputedOdometer:
+    """Computes it."""
+
+    def __init__(self, carried: Carried) -> None:
+        self._carried = carried
+
+    def read(self, snapshot: Snapshot, number: int) -> list[OdometerReading]:
+        """A reading for each robot."""
+        del number
+        robots = [snapshot.robots[place] for place in self._carried.robots]
+        share = 1.0 - self._carried.numbers.slip
+        return [OdometerReading(age=0.0, speed=share * math.hypot(robot.vx, robot.vy)) for robot in robots]
+
+
+def test_a_new_kind_is_one_file_and_a_section(play, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(KINDS, "odometer", SensorKind(Odometer, OdometerReading))
+    monkeypatch.setitem(COMPUTED, "odometer", ComputedOdometer)
+    one = play(sensor("wheel", "odometer", slip=(0.25, "1")))
+    step(one, 20)
+    robot = one.now.world["robots"]["cyan1"]
+    assert sensed(one, "cyan1")["wheel"].speed == approx(0.75 * math.hypot(robot["vx"], robot["vy"])) != 0.0
+    assert Setup.decode(one.setup().encode()).sensors_of("cyan1")["wheel"] == Odometer(slip=0.25)
+    assert "OdometerReading" in str(World.json_schema())
