@@ -4,11 +4,11 @@ from msgspec import Raw
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
-from schemas.messages.admission import AdmissionReply, AdmissionRequest
 from schemas.config.sensors.compass import CompassReading
 from schemas.config.sensors.contact import ContactReading
 from schemas.config.sensors.range import RangeReading
 from schemas.config.sensors.table import Reading
+from schemas.messages.admission import AdmissionReply, AdmissionRequest
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder

@@ -15,7 +15,7 @@ from pydantic import BaseModel, StringConstraints
 from pydantic.fields import FieldInfo
 
 from schemas.config.quantity import Choice, Quantity
-from schemas.config.sensors.table import KINDS, Reading, Sensor
+from schemas.config.sensors.table import Reading, Sensor
 from schemas.wire.field_docstrings import field_docstrings
 from schemas.wire.message import Name
 from schemas.wire.part import encode
@@ -24,10 +24,7 @@ from schemas.wire.units import MAX
 Link = Callable[[type], str]
 """Gives the name of a part or an enumeration in the text."""
 
-_CHOICES: dict[Any, list[type]] = {
-    Sensor: [kind.numbers for kind in KINDS.values()],
-    Reading: [kind.reading for kind in KINDS.values()],
-}
+_CHOICES: dict[Any, list[type]] = {Sensor: list(Sensor.kinds().values()), Reading: list(Reading.kinds().values())}
 """A base → the types of the table of sensors that stand in its place."""
 _PLAIN = {str: "text", bool: "true or false", int: "whole number", float: "number"}
 

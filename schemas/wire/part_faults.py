@@ -70,6 +70,8 @@ def fault_in(hint: Any, value: Any) -> Fault | None:
         return _of_part(hint, value)
     if isinstance(hint, type) and issubclass(hint, BaseModel):
         return _of_model(hint, value)
+    if isinstance(hint, type) and hasattr(hint, "kinds"):
+        return _of_kind(hint.kinds(), value)
     if kind is list and isinstance(value, Sequence) and not isinstance(value, str):
         return _first((place, fault_in(inner[0], item)) for place, item in enumerate(value))
     if kind is dict and isinstance(value, Mapping):
@@ -139,6 +141,16 @@ def _of_model(kind: type[BaseModel], value: Any) -> Fault | None:
     except ValidationError as error:
         return fault_of(error, kind)
     return None
+
+
+def _of_kind(kinds: Mapping[str, type], value: Any) -> Fault | None:
+    """Of a part whose `kind` determines its type."""
+    if not isinstance(value, Mapping):
+        return Fault((), value, "an object")
+    name = value.get("kind")
+    if not isinstance(name, str) or name not in kinds:
+        return Fault(("kind",), name, f"one of {', '.join(kinds)}")
+    return fault_in(kinds[name], value)
 
 
 def _of_choices(hint: Any, choices: Sequence[Any], value: Any) -> Fault | None:

@@ -1,7 +1,8 @@
 """Builds the protobuf (proto3) type of a message from its JSON Schema.
 
 Fields are numbered in the order of the model; readers use the schema in their own file. A field that may be None is
-`optional`, a mapping is a `map`, and a field of several plain types is a `google.protobuf.Value`.
+`optional`, a mapping is a `map`, and what has several types, or is a mapping in a mapping, is a
+`google.protobuf.Value`.
 """
 
 from typing import Any
@@ -81,8 +82,9 @@ class _FileBuilder:
 
     def _set_type(self, field: FieldDescriptorProto, schema: _Schema) -> None:
         choices = _choices(schema)
-        plain = _PLAIN.get(str(self._resolved(choices[0]).get("type")))
-        if len(choices) > 1:
+        only = self._resolved(choices[0])
+        plain = _PLAIN.get(str(only.get("type")))
+        if len(choices) > 1 or "anyOf" in only or (only.get("type") == "object" and "properties" not in only):
             field.type, field.type_name = FieldDescriptorProto.TYPE_MESSAGE, f".{_VALUE.full_name}"
             if not self.file.dependency:
                 self.file.dependency.append(_VALUE.file.name)

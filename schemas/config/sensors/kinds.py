@@ -1,18 +1,47 @@
 """What all kinds of sensors share: the bases of their numbers and readings, and how those are read by their `kind`."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from schemas.wire.json_schema import json_schema
 from schemas.wire.part import convert
 
 
-class Sensor:
-    """The numbers of one sensor, which a frozen dataclass for each kind defines; all have these fields."""
+class _OfKind:
+    """A part of a message whose `kind` determines its type: `schemas.wire` calls these methods of its base."""
 
     __slots__ = ()
     kind: str
-    """The kind: a row of the table."""
+    """A row of the table."""
+
+    @classmethod
+    def kinds(cls) -> Mapping[str, type]:
+        """Kind → the type of its parts."""
+        raise NotImplementedError
+
+    @classmethod
+    def model_validate(cls, content: Any) -> Self:
+        """The part in JSON content, of the kind that it names.
+
+        Raises:
+            ValueError: an unknown kind, or an invalid part.
+        """
+        name, kinds = content.get("kind") if isinstance(content, Mapping) else None, cls.kinds()
+        if not isinstance(name, str) or name not in kinds:
+            raise ValueError(f"kind is {name!r}; one of {', '.join(kinds)}")
+        part: Self = convert(content, kinds[name])
+        return part
+
+    @classmethod
+    def model_json_schema(cls, **_: Any) -> dict[str, Any]:
+        """The JSON Schema of parts of all kinds; their fields are plain."""
+        return {"anyOf": [json_schema(kind) for kind in cls.kinds().values()]}
+
+
+class Sensor(_OfKind):
+    """The numbers of one sensor, which a frozen dataclass for each kind defines; all have `kind` and `rate`."""
+
+    __slots__ = ()
     rate: float
     """Readings per second in Hz."""
 
@@ -27,42 +56,22 @@ class Sensor:
         return 1
 
     @classmethod
-    def model_validate(cls, content: Any) -> "Sensor":
-        """The numbers in JSON content, of the kind that it names; `schemas.wire.part` calls this.
-
-        Raises:
-            ValueError: an unknown kind, or invalid numbers.
-        """
-        numbers: Sensor = convert(content, _kind_of(content).numbers)
-        return numbers
-
-    @classmethod
-    def model_json_schema(cls, **_: Any) -> dict[str, Any]:
-        """The JSON Schema of the numbers of any kind."""
-        return {"anyOf": [json_schema(kind.numbers) for kind in KINDS.values()]}
+    def kinds(cls) -> Mapping[str, type]:
+        """Kind → the type of its numbers."""
+        return {name: kind.numbers for name, kind in KINDS.items()}
 
 
-class Reading:
-    """A sensor's reading in a sight, which a part with the tag `kind` defines for each kind; all have these fields."""
+class Reading(_OfKind):
+    """A sensor's reading in a sight, which a part with the tag `kind` defines for each kind; all have `age`."""
 
     __slots__ = ()
     age: float
     """Simulated time since it was taken, in s."""
 
     @classmethod
-    def model_validate(cls, content: Any) -> "Reading":
-        """The reading in JSON content, of the kind that it names; `schemas.wire.part` calls this.
-
-        Raises:
-            ValueError: an unknown kind, or an invalid reading.
-        """
-        reading: Reading = convert(content, _kind_of(content).reading)
-        return reading
-
-    @classmethod
-    def model_json_schema(cls, **_: Any) -> dict[str, Any]:
-        """The JSON Schema of a reading of any kind."""
-        return {"anyOf": [json_schema(kind.reading) for kind in KINDS.values()]}
+    def kinds(cls) -> Mapping[str, type]:
+        """Kind → the type of its readings."""
+        return {name: kind.reading for name, kind in KINDS.items()}
 
 
 class SensorKind(NamedTuple):
@@ -76,10 +85,3 @@ class SensorKind(NamedTuple):
 
 KINDS: dict[str, SensorKind] = {}
 """Kind → what it is; `schemas.config.sensors.table` has the rows."""
-
-
-def _kind_of(content: Any) -> SensorKind:
-    name = content.get("kind") if isinstance(content, Mapping) else None
-    if name not in KINDS:
-        raise ValueError(f"kind is {name!r}; one of {', '.join(KINDS)}")
-    return KINDS[name]

@@ -47,7 +47,7 @@ class SensorSuite:
     def at(self, snapshot: Snapshot) -> list[Readings]:
         """The newest readings of all robots, in the order of the roster; the caller must not change them.
 
-        A robot that joins has no reading before the first one that is due: what is read in a tick follows from the tick.
+        A robot that joins has no reading before the first one that is due: the tick alone determines what is read.
         """
         if not self._carried:
             return self._newest

@@ -79,5 +79,5 @@ def test_a_wrong_sensor_is_named_with_its_place(tmp_path: Path, tables: str, pla
 
 def test_a_wrong_sensor_of_a_match_is_named_with_its_place() -> None:
     match = load_match(None, {"types": {"blind": {"sensors": {"eye": {"kind": "sonar"}}}}})
-    with pytest.raises(TouchlineError, match="a match: types.blind.sensors.eye.kind is 'sonar'; known: range, comp"):
+    with pytest.raises(TouchlineError, match=r"a match: types\.blind.sensors.eye.kind is 'sonar'; known: range, comp"):
         load_profile("msl").with_types(match.types, "a match")
