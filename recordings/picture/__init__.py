@@ -18,6 +18,7 @@ def draw(path: Path, out: Path, times: list[float] | None = None) -> None:
     from recordings.picture.bodies import draw_bodies
     from recordings.picture.picture_data import PictureData
     from recordings.picture.pitch import draw_pitch
+    from recordings.picture.readings import draw_readings
     from recordings.picture.sheet import Sheet
 
     data = PictureData(path)
@@ -26,6 +27,7 @@ def draw(path: Path, out: Path, times: list[float] | None = None) -> None:
     for panel, panel_data in zip(sheet.panels, panels_data, strict=True):
         draw_pitch(panel, data.setup.pitch)
         draw_bodies(panel, data.setup, panel_data.worlds, sheet.inches_per_metre)
+        draw_readings(panel, data.setup, panel_data.worlds, sheet.inches_per_metre)
     sheet.title([panel_data.caption for panel_data in panels_data], panels_data[-1].score)
     sheet.save(out)
 

@@ -13,7 +13,7 @@ from recordings.container.json_schema import flat_schema
 from recordings.container.lineup import Lineup
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.player import Player
-from recordings.viz.drawing import SCHEMAS, Drawing
+from recordings.viz.drawing import SCHEMAS, Drawing, schema_of
 from recordings.viz.foxglove import descriptors
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
@@ -75,9 +75,8 @@ class LiveView:
             raise TouchlineError(
                 f"--foxglove-port {port} cannot be listened on ({error}); choose another, or 0 for a free one"
             ) from None
-        for topic, message in SCHEMAS.items():
-            schema = foxglove.Schema(name=message, encoding="protobuf", data=descriptors(message))
-            self._open(topic, "protobuf", schema)
+        for topic in SCHEMAS:
+            self._open_drawing(topic)
 
     @property
     def address(self) -> str:
@@ -96,6 +95,8 @@ class LiveView:
         self._send(recorded.key, received.payload, recorded.log_ns)
         if self._drawing is not None:
             for topic, payload in self._drawing.draw(received, recorded.log_ns):
+                if topic not in self._channels:
+                    self._open_drawing(topic)
                 self._send(topic, payload, recorded.log_ns)
 
     def update(self, player: Player) -> None:
@@ -122,6 +123,12 @@ class LiveView:
         from foxglove import Channel
 
         self._channels[topic] = Channel(topic, message_encoding=encoding, schema=schema, context=self._context)
+
+    def _open_drawing(self, topic: str) -> None:
+        from foxglove import Schema
+
+        message = schema_of(topic)
+        self._open(topic, "protobuf", Schema(name=message, encoding="protobuf", data=descriptors(message)))
 
     def _schema_of(self, recorded: RecordedMessage) -> "Schema":
         from foxglove import Schema

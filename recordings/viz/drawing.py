@@ -1,5 +1,6 @@
 """Draws a match for viewers: turns messages of the host into messages of `foxglove.*`, without side effects."""
 
+import itertools
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -11,12 +12,15 @@ from recordings.container.lineup import Lineup
 from recordings.viz.debug import debug_entity
 from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.field import field_entities, obstacle_entity
-from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
+from recordings.viz.foxglove import FRAME_TRANSFORMS, LASER_SCAN, LOG, SCENE_UPDATE
 from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
+from recordings.viz.scans import scans
 from recordings.viz.soccer import log_entry, scoreboard
 from recordings.viz.transforms import Transforms
 from runtime.bus.contract import ReceivedMessage
+from schemas.config.profile import STANDARD
+from schemas.config.sensors.table import Sensor
 from schemas.messages.applied import Applied
 from schemas.messages.debug import RobotDebug
 from schemas.messages.setup import Setup
@@ -37,7 +41,7 @@ SCHEMAS = {
     EVENTS: LOG,
     DRAWINGS: SCENE_UPDATE,
 }
-"""Topic → name of its message."""
+"""Topic → name of its message; the topics of `scans` are those of the sensors of a match."""
 TF_STEP_NS = 19_000_000
 """Least simulated time between two transforms, in ns: each tick of 20 ms or more, 50 Hz with shorter ticks."""
 REPEAT_NS = 5_000_000_000
@@ -46,6 +50,11 @@ READS = frozenset({WORLD.key, STATE.key, EVENT.key, APPLIED.key, DEBUG.key})
 """Rows of the topic table with the messages that a drawing is derived from."""
 _INVALID_PAYLOAD = (BadMessageError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """Exceptions that invalid payloads cause; they are not drawn."""
+
+
+def schema_of(topic: str) -> str:
+    """The name of the message of a topic."""
+    return SCHEMAS.get(topic, LASER_SCAN)
 
 
 class VizMessage(NamedTuple):
@@ -101,7 +110,12 @@ class Drawing:
         repeat = self._drawn_ns is None or log_ns - self._drawn_ns >= REPEAT_NS
         if repeat:
             self._drawn_ns = log_ns
+        out += itertools.starmap(VizMessage, scans(world, log_ns, self._sensors_of))
         return out + self._static_layers(world, log_ns, repeat=repeat)
+
+    def _sensors_of(self, name: str) -> dict[str, Sensor]:
+        robot = self._lineup.robots.get(name)
+        return self._setup.sensors.get(robot.type if robot is not None else STANDARD, {})
 
     def _static_layers(self, world: DrawnWorld, log_ns: int, *, repeat: bool) -> list[VizMessage]:
         """The scenes whose entities move only with their frames: those that have changed, or all of them on `repeat`.

@@ -33,6 +33,7 @@ class DrawnWorld(msgspec.Struct, frozen=True, gc=False):
     ball: DrawnBall
     possession: str | None = None
     obstacles: dict[str, Any] = {}
+    sensors: dict[str, dict[str, dict[str, Any]]] = {}
 
 
 decode_world = msgspec.json.Decoder(DrawnWorld).decode

@@ -3,14 +3,15 @@
 from functools import cache
 
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
 from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from google.protobuf.timestamp_pb2 import Timestamp
 
 from recordings.container.file_descriptors import file_descriptor_set
 
-_CLASSES = {kind.DESCRIPTOR.full_name: kind for kind in (FrameTransforms, SceneUpdate, Log)}
-FRAME_TRANSFORMS, SCENE_UPDATE, LOG = _CLASSES
+_CLASSES = {kind.DESCRIPTOR.full_name: kind for kind in (FrameTransforms, SceneUpdate, Log, LaserScan)}
+FRAME_TRANSFORMS, SCENE_UPDATE, LOG, LASER_SCAN = _CLASSES
 """Names of the messages."""
 _NS_PER_S = 1_000_000_000
 

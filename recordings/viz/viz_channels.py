@@ -6,7 +6,7 @@ These channels are derived: readers of this project ignore them, and copies of a
 from mcap.writer import Writer
 
 from recordings.container.mcap_file import DERIVED
-from recordings.viz.drawing import SCHEMAS, Drawing
+from recordings.viz.drawing import Drawing, schema_of
 from recordings.viz.foxglove import descriptors
 from runtime.bus.contract import ReceivedMessage
 from schemas.messages.setup import Setup
@@ -30,7 +30,7 @@ class VizChannels:
             self._mcap.add_message(channel, log_ns, payload, sent_ns, number)
 
     def _open(self, topic: str) -> int:
-        message = SCHEMAS[topic]
+        message = schema_of(topic)
         if message not in self._schemas:
             self._schemas[message] = self._mcap.register_schema(message, "protobuf", descriptors(message))
         metadata = {DERIVED: "from world, game/state, game/event, host/applied and team/*/debug/*"}

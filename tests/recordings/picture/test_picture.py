@@ -1,3 +1,4 @@
+import math
 import sys
 
 import matplotlib
@@ -10,9 +11,13 @@ from matplotlib.patches import Rectangle
 from recordings.picture import draw, trace
 from recordings.picture.bodies import COLOURS, draw_bodies, jumps
 from recordings.picture.picture_data import PictureData
+from recordings.picture.readings import draw_readings
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape
 from schemas.config.profile import load_profile
+from schemas.config.sensors.compass import Compass, CompassReading
+from schemas.config.sensors.contact import Bumper, ContactReading
+from schemas.config.sensors.range import RangeFinder, RangeReading
 from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
@@ -150,3 +155,27 @@ def test_a_goal_is_known_with_its_time_and_place(recorded):
 def test_a_body_that_was_set_down_elsewhere_leaves_no_trail():
     assert jumps((0.0, 0.0), (3.0, 0.0))
     assert not jumps((0.0, 0.0), (0.4, 0.4))
+
+
+def test_the_readings_of_sensors_are_drawn_where_they_were_taken(recorded):
+    """Beams end at what they met, an arc is at the touched side, and a needle points along the measured heading."""
+    data = PictureData(recorded.path)
+    front = RangeFinder(beams=2, span=1.0, max_distance=5.0, x=0.1)
+    setup = data.setup.replace(sensors={"standard": {"front": front, "north": Compass(), "bumper": Bumper(sectors=4)}})
+    world = data.panel_data(1.0).now
+    readings = {
+        "front": RangeReading(age=0.0, angle_min=-0.25, angle_increment=0.5, distances=[None, 2.0]),
+        "north": CompassReading(age=0.0, heading=math.pi / 2),
+        "bumper": ContactReading(age=0.0, touched=[False, True, False, False]),
+    }
+    own = world.robots["cyan2"].replace(x=1.0, y=2.0, heading=math.pi)
+    told = world.replace(robots={**world.robots, "cyan2": own}, sensors={"cyan2": readings})
+    axes = Figure().subplots()
+    draw_readings(axes, setup, [told, world], 0.3)
+    beams, needle, arcs = (drawn.get_segments() for drawn in axes.collections)
+    assert beams[0].tolist() == [
+        pytest.approx((0.9, 2.0)),
+        pytest.approx((0.9 - 2.0 * math.cos(0.25), 2.0 - 2.0 * math.sin(0.25))),
+    ]
+    assert needle[0][1][0] == pytest.approx(1.0) and needle[0][1][1] > 2.5
+    assert len(arcs) == 1 and arcs[0].mean(axis=0)[1] < 2.0, "the left of a robot that looks to −x is at −y"

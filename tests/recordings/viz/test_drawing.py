@@ -2,18 +2,21 @@
 
 import math
 from itertools import product
+from pathlib import Path
 
 import pytest
-from foxglove_schemas_protobuf import FrameTransforms_pb2, Log_pb2, SceneUpdate_pb2
+from foxglove_schemas_protobuf import FrameTransforms_pb2, LaserScan_pb2, Log_pb2, SceneUpdate_pb2
 
 from recordings.viz.colours import BALL, MARK, PITCH, ROBOT, Colour
 from recordings.viz.drawing import BALL as BALL_TOPIC
-from recordings.viz.drawing import EVENTS, FIELD, GAME, REPEAT_NS, ROBOTS, TF, Drawing
+from recordings.viz.drawing import EVENTS, FIELD, GAME, REPEAT_NS, ROBOTS, TF, Drawing, schema_of
 from runtime.bus.contract import ReceivedMessage
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape
 from schemas.config.profile import load_profile
 from schemas.config.roster import RosterEntry
+from schemas.config.sensors.compass import CompassReading
+from schemas.config.sensors.range import RangeReading
 from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.applied import Applied
 from schemas.messages.setup import Setup
@@ -321,3 +324,23 @@ def contrast(one: Colour, other: Colour) -> float:
 )
 def test_colours_are_distinguishable_by_lightness_alone(one, other, least):
     assert contrast(one, other) >= least
+
+
+def test_a_range_finder_is_a_laser_scan_in_the_frame_of_its_robot(tmp_path: Path) -> None:
+    number = '{{ value = {}, unit = "{}", origin = "test" }}'
+    numbers = {"beams": (3, "1"), "span": (1.5, "rad"), "max_distance": (8, "m"), "x": (0.2, "m"), "height": (0.3, "m")}
+    tables = "\n".join(f"{name} = {number.format(*given)}" for name, given in numbers.items())
+    profile = tmp_path / "sensing.toml"
+    profile.write_text(f'extends = "msl"\n[robot.sensors.front]\nkind = "range"\n{tables}')
+    reading = RangeReading(age=0.0, angle_min=-0.5, angle_increment=0.5, distances=[1.5, None, 2.25])
+    compass = CompassReading(age=0.0, heading=1.0)
+    drawing = Drawing(setup_of(str(profile)))
+    told = world(5, sensors={"cyan1": {"front": reading, "north": compass}, "magenta1": {"other": reading}})
+    drawn = drawing.draw(ReceivedMessage(WORLD, WORLD.key, encode(told), None), 7_500_000_000)
+    [(topic, payload)] = [one for one in drawn if one.topic.startswith("/viz/range")]
+    assert topic == "/viz/range/cyan1/front" and schema_of(topic) == "foxglove.LaserScan"
+    scan = LaserScan_pb2.LaserScan.FromString(payload)
+    assert (scan.frame_id, scan.timestamp.ToNanoseconds()) == ("cyan1/base_link", 7_500_000_000)
+    assert (scan.start_angle, scan.end_angle, list(scan.ranges)) == (-0.5, 0.5, [1.5, math.inf, 2.25])
+    at = scan.pose.position
+    assert (at.x, at.y, at.z) == pytest.approx((0.2, 0.0, 0.3 - 0.4)) and scan.pose.orientation.w == 1.0

@@ -8,14 +8,16 @@ from google.protobuf import descriptor_pb2, descriptor_pool
 from google.protobuf.timestamp_pb2 import Timestamp
 
 from recordings.viz.drawn_world import DrawnWorld, decode_world
-from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE, descriptors, set_time
+from recordings.viz.foxglove import FRAME_TRANSFORMS, LASER_SCAN, LOG, SCENE_UPDATE, descriptors, set_time
 from recordings.viz.transforms import STEP_M, Transforms
 from schemas.wire.part import encode
 
 
-@pytest.mark.parametrize("message", ["foxglove.FrameTransforms", "foxglove.SceneUpdate", "foxglove.Log"])
+@pytest.mark.parametrize(
+    "message", ["foxglove.FrameTransforms", "foxglove.SceneUpdate", "foxglove.Log", "foxglove.LaserScan"]
+)
 def test_a_reader_that_adds_the_files_in_their_order_finds_the_message(message):
-    assert message in (FRAME_TRANSFORMS, SCENE_UPDATE, LOG)
+    assert message in (FRAME_TRANSFORMS, SCENE_UPDATE, LOG, LASER_SCAN)
     pool = descriptor_pool.DescriptorPool()
     for file in descriptor_pb2.FileDescriptorSet.FromString(descriptors(message)).file:
         pool.Add(file)
