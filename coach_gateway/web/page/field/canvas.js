@@ -5,6 +5,7 @@ import { drawDrawings } from "./drawings.js";
 import { drawDistances } from "./distances.js";
 import { fillGoals, writeTeams } from "./goals.js";
 import { drawGhost, drawMarkedRobot, drawObstacle, drawVelocity } from "./marked_bodies.js";
+import { Readings } from "./readings.js";
 import { drawRoleLabels } from "./role_labels.js";
 import { signOf } from "./seen_from.js";
 import { drawBall } from "../shared/bodies.js";
@@ -29,6 +30,7 @@ export class PitchCanvas {
   /** Functions of (context, projection) that draw over everything. */
   over = [];
   #trails = new Trails();
+  #readings = new Readings();
   #second = 0;
   #inSecond = 0;
   #ground;
@@ -79,11 +81,14 @@ export class PitchCanvas {
   #drawWorld(context, world) {
     const { match, projection, layers, selection } = this;
     this.#trails.note(world);
+    this.#readings.note(world);
     if (layers.obstacles) for (const obstacle of Object.values(world.obstacles ?? {})) drawObstacle(context, projection, obstacle);
     this.#trails.draw(context, projection, match, layers.trails);
     if (layers.distances) drawDistances(context, projection, match, world);
     if (layers.passes) drawPasses(context, projection, match, world);
     if (layers.beliefs !== "none") drawBeliefs(context, projection, match, world, layers.beliefs);
+    const chosen = world.robots[selection.robot];
+    if (chosen !== undefined) this.#readings.draw(context, projection, match, selection.robot, chosen);
     for (const [name, robot] of Object.entries(world.robots)) {
       if (layers.velocities) drawVelocity(context, projection, robot, SIDES[match.sideOf(name)].line);
       drawMarkedRobot(context, projection, match, name, robot, {

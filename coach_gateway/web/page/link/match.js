@@ -120,8 +120,16 @@ export class Match {
 
   /** Radius of a robot's hull in m. */
   radiusOf(robot) {
-    const type = this.setup?.teams[this.sideOf(robot)].types[robot] ?? "standard";
-    return (this.setup?.models[type]?.body ?? this.setup?.robot)?.radius ?? 0.25;
+    return (this.setup?.models[this.#typeOf(robot)]?.body ?? this.setup?.robot)?.radius ?? 0.25;
+  }
+
+  /** A robot's sensors by name, with their numbers. */
+  sensorsOf(robot) {
+    return this.setup?.sensors?.[this.#typeOf(robot)] ?? {};
+  }
+
+  #typeOf(robot) {
+    return this.setup?.teams[this.sideOf(robot)].types[robot] ?? "standard";
   }
 
   /** A robot's newest radio message; null when it is older than `age` s. */
