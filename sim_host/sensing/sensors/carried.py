@@ -6,9 +6,12 @@ from typing import Any, Protocol
 
 from schemas.config.sections import Pitch
 from schemas.config.sensors.table import Reading
-from sim_host.sensing.random_streams import SMALL_BATCH, BatchedDraws, Floats, RandomStreams, StreamId
+from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId
 from sim_host.sensing.shutter import Shutter
 from sim_host.snapshot import Roster, Snapshot
+
+_BATCH = 16
+"""Readings for which draws are made at a time: thousands of numbers a reading leave the caches with more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,14 +38,14 @@ class Carried:
         """Standard normal numbers by number of the reading, shape (robots, count)."""
         keys = self._keys("normal")
         return BatchedDraws(
-            lambda numbers: list(self.streams.normals(StreamId.SENSOR, keys, self._ticks(numbers), count)), SMALL_BATCH
+            lambda numbers: list(self.streams.normals(StreamId.SENSOR, keys, self._ticks(numbers), count)), _BATCH
         )
 
     def uniforms(self, count: int) -> BatchedDraws[Floats]:
         """Uniform numbers in (0, 1) by number of the reading, shape (robots, count)."""
         keys = self._keys("uniform")
         return BatchedDraws(
-            lambda numbers: list(self.streams.uniforms(StreamId.SENSOR, keys, self._ticks(numbers), count)), SMALL_BATCH
+            lambda numbers: list(self.streams.uniforms(StreamId.SENSOR, keys, self._ticks(numbers), count)), _BATCH
         )
 
     def knots(self, numbers: Sequence[int]) -> Floats:

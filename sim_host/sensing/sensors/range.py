@@ -19,7 +19,9 @@ from sim_host.snapshot import Snapshot
 
 _TURN = 2.0 * np.pi
 _LEAST = 1e-12
-"""Smallest component of a beam, to avoid a division by zero."""
+"""m, to avoid a division by zero."""
+_SHIFTS = np.array([[0.0], [1.0]])
+"""Whole turns back: a body may cover the end of the span and its beginning."""
 
 
 class ComputedRange:
@@ -45,7 +47,8 @@ class ComputedRange:
         eyes = motions.position[self._robots] + self._place * turn
         distance = self._cast(eyes, turn, snapshot)
         if self._noise is not None:
-            sigma = np.hypot(s.noise, s.noise_share * np.minimum(distance, s.max_distance))
+            share = s.noise_share * np.minimum(distance, s.max_distance) if s.noise_share else 0.0
+            sigma = np.hypot(s.noise, share)
             distance = np.maximum(distance + sigma * self._noise.at(number), 0.0)
         lost = (distance < s.min_distance) | (distance > s.max_distance)
         if self._dropout is not None:
@@ -60,13 +63,13 @@ class ComputedRange:
         ways = self._ways * turn[:, None]
         found = self._to_walls(eyes, ways)
         shapes = self._shapes.at(snapshot)
-        if not len(shapes.centre):
-            return found
         away = (shapes.centre - eyes[:, None]) / turn[:, None]
         gap = np.abs(away)
         near = gap < self._numbers.max_distance + shapes.reach
         near &= shapes.owner != self._robots[:, None]
         robot, shape = near.nonzero()
+        if not len(robot):
+            return found
         pair, beam = self._beams_near(away[near], gap[near], shapes.reach[shape])
         robot, shape = robot[pair], shape[pair]
         hit = shapes.distances(shape, eyes[robot], ways[robot, beam])
@@ -76,10 +79,10 @@ class ComputedRange:
     def _to_walls(self, eyes: Vectors, ways: Vectors) -> Floats:
         """Distance from each eye, within the boundary, to the wall along each beam."""
         to_x, to_y = ways.real, ways.imag
-        to_x, to_y = np.where(np.abs(to_x) < _LEAST, _LEAST, to_x), np.where(np.abs(to_y) < _LEAST, _LEAST, to_y)
-        x = (np.copysign(self._walls[0], to_x) - eyes.real[:, None]) / to_x
-        found: Floats = np.minimum(x, (np.copysign(self._walls[1], to_y) - eyes.imag[:, None]) / to_y)
-        found[found < 0.0] = np.inf  # outside the boundary
+        with np.errstate(divide="ignore", invalid="ignore"):  # along a wall
+            x = (np.copysign(self._walls[0], to_x) - eyes.real[:, None]) / to_x
+            found: Floats = np.minimum(x, (np.copysign(self._walls[1], to_y) - eyes.imag[:, None]) / to_y)
+        found[~(found >= 0.0)] = np.inf  # outside the boundary, or not a number
         return found
 
     def _beams_near(self, away: Vectors, gap: Floats, reach: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -87,20 +90,13 @@ class ComputedRange:
 
         `away` are the centres in the robot's frame.
         """
-        s = self._numbers
-        with np.errstate(divide="ignore", invalid="ignore"):
-            half = np.where(gap > reach, np.arcsin(np.minimum(reach / gap, 1.0)), np.pi) + 1e-9
-        step = s.angle_increment or 1.0
-        low = (np.angle(away) - half - self._angles[0]) / step
-        turn = _TURN / step
-        low_turned = np.floor(low / turn)
-        pairs, beams = [], []
-        for shift in (0.0, 1.0):  # a shape may cover the end of the span and its beginning
-            first = np.maximum(np.ceil(low - (low_turned + shift) * turn), 0.0)
-            last = np.minimum(np.floor(low + 2.0 * half / step - (low_turned + shift) * turn), s.beams - 1.0)
-            count = np.maximum(last - first + 1.0, 0.0).astype(np.intp)
-            pair = np.arange(len(gap)).repeat(count)
-            start = count.cumsum() - count
-            pairs.append(pair)
-            beams.append(np.arange(len(pair)) - start[pair] + first.astype(np.intp)[pair])
-        return np.concatenate(pairs), np.concatenate(beams)
+        step = self._numbers.angle_increment or 1.0
+        half = np.where(gap > reach, np.arcsin(reach / np.maximum(gap, reach + _LEAST)), np.pi) + 1e-9
+        low, turn = (np.angle(away) - half - self._angles[0]) / step, _TURN / step
+        low = low - (np.floor(low / turn) + _SHIFTS) * turn
+        first = np.maximum(np.ceil(low), 0.0)
+        last = np.minimum(np.floor(low + 2.0 * half / step), self._numbers.beams - 1.0)
+        count = np.maximum(last - first + 1.0, 0.0).astype(np.intp).ravel()
+        pair = np.arange(len(count)).repeat(count)
+        start = count.cumsum() - count - first.astype(np.intp).ravel()
+        return pair % len(gap), np.arange(len(pair)) - start[pair]

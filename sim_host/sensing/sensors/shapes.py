@@ -46,6 +46,7 @@ class Shapes:
         """m; 0 for a box."""
         self.halves = np.array(self._robot_halves + boxes + [(0.0, 0.0)] * balls).reshape(-1, 2).T
         """m; half depth and width of a box; 0 for a circle."""
+        self._has_boxes = bool(self.halves.any())
         self.reach: Floats = np.maximum(self.radius, np.hypot(*self.halves))
         """m; of the circle around each."""
         self.owner: NDArray[np.intp] = np.concatenate((self._robots, np.full(len(met) + balls, _NOBODY, dtype=np.intp)))
@@ -77,6 +78,8 @@ class Shapes:
 
         An eye within a shape is at distance 0 from it.
         """
+        if not self._has_boxes:
+            return self._to_circles(shape, eyes, ways)
         is_box = self.radius[shape] == 0.0
         found = np.empty(len(shape))
         circle, box = np.flatnonzero(~is_box), np.flatnonzero(is_box)

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from msgspec.structs import replace
+
 from schemas.config.profile import Profile
 from schemas.config.sensors.table import Reading
 from sim_host.sensing.digits import DIGITS
@@ -45,13 +47,12 @@ class SensorSuite:
         """Robot → the readings taken in the newest tick."""
 
     def at(self, snapshot: Snapshot) -> list[Readings]:
-        """The newest readings of all robots, in the order of the roster; the caller must not change them.
+        """The newest readings of all robots, in the order of the roster, valid until the next call.
 
         A robot that joins has no reading before the first one that is due: the tick alone determines what is read.
         """
         if not self._carried:
             return self._newest
-        self._newest = [dict(before) for before in self._newest]
         self.fresh = {}
         for carried, computed in zip(self._carried, self._computed, strict=True):
             self._update(carried, computed, snapshot)
@@ -72,4 +73,4 @@ class SensorSuite:
         for place in carried.robots:
             held: Any = self._newest[place].get(name)
             if held is not None:
-                self._newest[place][name] = held.replace(age=age)
+                self._newest[place][name] = replace(held, age=age)
