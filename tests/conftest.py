@@ -137,6 +137,6 @@ def browser() -> "Iterator[Browser]":
         pytest.skip("no Chromium; apt-get install chromium-headless-shell")
     with sync_playwright() as playwright:
         root = ["--no-sandbox"] if os.geteuid() == 0 else []
-        browser = playwright.chromium.launch(executable_path=chromium, args=root)
+        browser = playwright.chromium.launch(executable_path=chromium, args=[*root, "--disable-gpu"])
         yield browser
         browser.close()

@@ -11,12 +11,16 @@ from support.page_gateway import SOON, TOKENS
 _APART_S = 0.5
 """Above `APART_MS` of `coach_gateway/web/page/deeds/presses.js`, s."""
 
+_SLOW_SCREEN = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 50)"
+"""A screen of 20 pictures a second: at 60, half the CPU time of a test is that of drawing the field."""
+
 
 class Tab:
     """The page in a browser, with its errors."""
 
     def __init__(self, context: BrowserContext, origin: str, role: str = "spectator") -> None:
         self.context = context
+        context.add_init_script(_SLOW_SCREEN)
         self.page: Page = context.new_page()
         self.faults: list[str] = []
         self.requests: list[str] = []
@@ -49,9 +53,14 @@ class Tab:
 
     def wait_until_laid_out(self) -> None:
         """Until the field stays where it is for two frames: a press on another place may have scrolled the page."""
-        place = "document.getElementById('moving').getBoundingClientRect().y"
+        place = "Object.values(document.getElementById('moving').getBoundingClientRect().toJSON()).join()"
         later = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
-        self.until(f"(async () => {{ const y = {place}; await {later}; return {place} === y; }})()")
+        self.until(f"(async () => {{ const there = {place}; await {later}; return {place} === there; }})()")
+
+    def resize(self, width: int, height: int = 900) -> None:
+        """Give the window another size, and wait until the field has that of its new place."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        self.wait_until_laid_out()
 
     def ask(self, what: str) -> Any:
         return self.page.evaluate(what)

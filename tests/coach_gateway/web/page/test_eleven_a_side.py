@@ -1,5 +1,7 @@
 """The page of a match of eleven a side: all robots are there, in order, and nothing covers or cuts anything."""
 
+from collections.abc import Iterator
+
 import pytest
 
 from schemas.side import Side
@@ -13,34 +15,28 @@ CUT = """[...document.querySelectorAll(".panel .who, .panel .who b, .panel .who 
 ROWS = """(side) => new Set([...document.querySelectorAll(`#${side}-robots > li`)].map((one) => one.offsetTop)).size"""
 
 
-@pytest.fixture
-def crowd(officiated) -> Match:
+@pytest.fixture(scope="module")
+def crowd() -> Iterator[Match]:
     """Before a kick-off; the robots stand in their formations."""
-    return officiated(teams=SIDES, rules="eleven")
+    match = Match(teams=SIDES, rules="eleven", referee={"mode": "manual"})
+    match.signal_kick_off()
+    yield match
+    match.close()
 
 
-@pytest.mark.parametrize(
-    ("width", "height", "rows"),
-    [
-        (1440, 900, 2),
-        pytest.param(1360, 900, 2, marks=pytest.mark.long),
-        pytest.param(1100, 800, 3, marks=pytest.mark.long),
-        (390, 844, 11),
-    ],
-)
-def test_every_robot_has_a_panel_in_the_order_of_the_numbers_and_nothing_is_cut(
-    crowd, visit, width: int, height: int, rows: int
-) -> None:
-    tab = visit(crowd, "referee", width=width, height=height)
-    if width < 1000:
-        tab.open("robots")
+def test_every_robot_has_a_panel_in_the_order_of_the_numbers_and_nothing_is_cut(crowd, visit) -> None:
+    tab = visit(crowd, "referee")
     tab.until("document.querySelectorAll('.panel').length === 22")
-    tab.until("[...document.querySelectorAll('.badge')].every((one) => !one.checkVisibility())")
     panels = "[...document.querySelectorAll('.panel')].map((one) => one.dataset.robot)"
     assert tab.ask(panels) == NAMES
-    assert tab.ask("document.documentElement.scrollWidth") <= width
-    assert tab.ask(CUT) == []
-    assert tab.page.evaluate(ROWS, "cyan") == rows
+    for width, height, rows in ((1440, 900, 2), (1360, 900, 2), (1100, 800, 3), (390, 844, 11)):
+        tab.resize(width, height)
+        if width < 1000:
+            tab.open("robots")
+        tab.until("[...document.querySelectorAll('.badge')].every((one) => !one.checkVisibility())")
+        assert tab.ask("document.documentElement.scrollWidth") <= width
+        assert tab.ask(CUT) == []
+        assert tab.page.evaluate(ROWS, "cyan") == rows
 
 
 WITH_BADGES = """() => {
@@ -53,13 +49,14 @@ WITH_BADGES = """() => {
 }"""
 
 
-@pytest.mark.parametrize("width", [pytest.param(1440, marks=pytest.mark.long), 1100, 390])
-def test_a_badge_is_whole_in_every_panel(crowd, visit, width: int) -> None:
-    tab = visit(crowd, "referee", width=width)
-    if width < 1000:
-        tab.open("robots")
+def test_a_badge_is_whole_in_every_panel(crowd, visit) -> None:
+    tab = visit(crowd, "referee")
     tab.until("document.querySelectorAll('.panel').length === 22")
-    assert tab.page.evaluate(WITH_BADGES) == []
+    for width in (1440, 1100, 390):
+        tab.resize(width)
+        if width < 1000:
+            tab.open("robots")
+        assert tab.page.evaluate(WITH_BADGES) == []
 
 
 LABELLED = """async (first) => {
@@ -92,15 +89,16 @@ def test_the_brackets_choose_all_robots_of_both_sides_one_after_the_other(crowd,
     assert chosen == NAMES
 
 
-@pytest.mark.parametrize("width", [1440, 390])
-def test_a_number_of_two_digits_is_narrower_than_its_robot(crowd, visit, width: int) -> None:
-    tab = visit(crowd, width=width)
-    wide, across = tab.ask("""(async () => {
-        const { drawnRadius, numberSize } = await import("/shared/bodies.js");
-        const { plateOf } = await import("/shared/shapes.js");
-        const { projection, match } = window.touchline.pitchCanvas;
-        const radius = drawnRadius(projection, match.radiusOf("cyan10")), size = numberSize("10", radius);
-        const plate = plateOf(document.createElement("canvas").getContext("2d"), "10", 0, 0, size, 700);
-        return [plate.right - plate.left - 0.7 * size, 1.8 * radius];
-    })()""")
-    assert wide < across
+def test_a_number_of_two_digits_is_narrower_than_its_robot(crowd, visit) -> None:
+    tab = visit(crowd)
+    for size in (1440, 390):
+        tab.resize(size)
+        wide, across = tab.ask("""(async () => {
+            const { drawnRadius, numberSize } = await import("/shared/bodies.js");
+            const { plateOf } = await import("/shared/shapes.js");
+            const { projection, match } = window.touchline.pitchCanvas;
+            const radius = drawnRadius(projection, match.radiusOf("cyan10")), size = numberSize("10", radius);
+            const plate = plateOf(document.createElement("canvas").getContext("2d"), "10", 0, 0, size, 700);
+            return [plate.right - plate.left - 0.7 * size, 1.8 * radius];
+        })()""")
+        assert wide < across

@@ -16,7 +16,7 @@ from support.fake_host import FakeHost
 from support.messages import make_event
 from support.visitor import Visitor
 
-SIZES = [(1366, 768), (390, 844), pytest.param(844, 390, marks=pytest.mark.long)]
+SIZES = [(1366, 768), (390, 844), (844, 390)]
 """A laptop, a phone, and the phone on its side."""
 
 WATCH = """() => {
@@ -113,7 +113,7 @@ def moved(before: dict[str, Any], after: dict[str, Any]) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize(("width", "height"), SIZES)
+@pytest.mark.parametrize(("width", "height"), [*SIZES[:2], pytest.param(*SIZES[2], marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     "box", [pytest.param(False, marks=pytest.mark.long), True], ids=["no referee box", "a referee box"]
 )
@@ -151,30 +151,32 @@ def assert_in_its_place(tab: Any, button: str) -> None:
     assert box["height"] >= 30 and box["width"] >= 40
 
 
-@pytest.mark.parametrize(("width", "height"), SIZES)
-def test_a_proposal_is_answered_in_its_place_on_every_screen(
-    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
-) -> None:
-    tab = visit(staged.origin, "referee", width, height)
+def test_a_proposal_is_answered_in_its_place_on_every_screen(staged: StagedMatch, visit: Callable[..., Any]) -> None:
+    tab = visit(staged.origin, "referee")
     staged.propose()
-    for name in ("confirm", "overrule"):
-        tab.until(f"!document.getElementById('{name}').disabled")
-        assert_in_its_place(tab, f"#{name}")
+    for width, height in SIZES:
+        tab.resize(width, height)
+        for name in ("confirm", "overrule"):
+            tab.until(f"!document.getElementById('{name}').disabled")
+            assert_in_its_place(tab, f"#{name}")
 
 
-@pytest.mark.parametrize(("width", "height"), SIZES)
 def test_a_question_beside_another_and_a_proposal_is_answered_in_its_place_on_every_screen(
-    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
+    staged: StagedMatch, visit: Callable[..., Any]
 ) -> None:
-    tab = visit(staged.origin, "cyan", width, height)
+    tab = visit(staged.origin, "cyan")
     staged.propose()
     staged.ask_both_sides()
     last = '#cyan-question [data-names="cyan5"]'
+    tab.page.locator(last).wait_for()
+    for width, height in SIZES:
+        tab.resize(width, height)
+        assert_in_its_place(tab, last)
+        assert tab.page.locator("#cyan-question p").bounding_box()["height"] >= 15
+        assert not tab.page.locator("#magenta-question button").first.is_visible()
     tab.page.locator(last).click()
     tab.wait_for_log("Name cyan5 accepted")
     assert_in_its_place(tab, last)
-    assert tab.page.locator("#cyan-question p").bounding_box()["height"] >= 15
-    assert not tab.page.locator("#magenta-question button").first.is_visible()
 
 
 def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(
@@ -226,19 +228,17 @@ def test_a_press_meant_for_one_proposal_does_not_answer_the_next(
     tab.until("!document.getElementById('confirm').disabled")
 
 
-@pytest.mark.parametrize(("width", "height"), [*SIZES, pytest.param(683, 384, marks=pytest.mark.long), (640, 360)])
-def test_the_whole_field_and_stop_are_in_view_on_every_screen(
-    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
-) -> None:
+def test_the_whole_field_and_stop_are_in_view_on_every_screen(staged: StagedMatch, visit: Callable[..., Any]) -> None:
     """Two of the sizes are laptops at a zoom of 200 %."""
-    tab = visit(staged.origin, "referee", width, height)
-    tab.page.wait_for_timeout(300)
-    for scrolled in (0, 10_000):
-        tab.page.evaluate(f"window.scrollTo(0, {scrolled})")
-        stop = tab.page.locator("#stop").bounding_box()
-        assert stop is not None and stop["y"] >= 0 and stop["y"] + stop["height"] <= height
-    tab.page.evaluate("window.scrollTo(0, 0)")
-    field = tab.page.locator("#moving").bounding_box()
-    assert field is not None and field["x"] >= 0 and field["x"] + field["width"] <= width
-    assert field["y"] >= 0 and field["y"] + field["height"] <= height
-    assert field["height"] >= min(0.3 * height, 0.6 * width)
+    tab = visit(staged.origin, "referee")
+    for width, height in (*SIZES, (683, 384), (640, 360)):
+        tab.resize(width, height)
+        for scrolled in (0, 10_000):
+            tab.page.evaluate(f"window.scrollTo(0, {scrolled})")
+            stop = tab.page.locator("#stop").bounding_box()
+            assert stop is not None and stop["y"] >= 0 and stop["y"] + stop["height"] <= height
+        tab.page.evaluate("window.scrollTo(0, 0)")
+        field = tab.page.locator("#moving").bounding_box()
+        assert field is not None and field["x"] >= 0 and field["x"] + field["width"] <= width
+        assert field["y"] >= 0 and field["y"] + field["height"] <= height
+        assert field["height"] >= min(0.3 * height, 0.6 * width)
