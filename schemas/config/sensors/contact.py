@@ -13,12 +13,12 @@ from schemas.wire.units import Seconds
 class Bumper(Sensor):
     """A bumper around the hull, in equal sectors counter-clockwise; the first one is centred on the kick axis.
 
-    Another robot is felt in the sector toward its centre. The ball and goals are not felt.
+    The ball and goals are not felt.
     """
 
     kind: Annotated[str, Choice("kind of the sensor", ("contact",))] = "contact"
     sectors: Annotated[int, Quantity("1", "number of sectors", 1, 64)] = 1
-    gap: Annotated[float, Quantity("m", "an obstacle or a boundary as near as this is felt", 0, 0.1)] = 0.005
+    gap: Annotated[float, Quantity("m", "what is as near as this is felt", 0, 0.1)] = 0.005
     rate: Annotated[float, Quantity("Hz", "readings per second; at most one in each tick", 0.1, 1000)] = 1000.0
 
     @property

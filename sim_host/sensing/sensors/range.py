@@ -42,10 +42,7 @@ class ComputedRange:
 
     def read(self, snapshot: Snapshot, number: int) -> Sequence[Reading]:
         """A reading for each robot."""
-        s, motions = self._numbers, snapshot.robots.motions
-        turn = np.exp(1j * motions.heading[self._robots])
-        eyes = motions.position[self._robots] + self._place * turn
-        distance = self._cast(eyes, turn, snapshot)
+        s, distance = self._numbers, self.distances(snapshot)
         if self._noise is not None:
             share = s.noise_share * np.minimum(distance, s.max_distance) if s.noise_share else 0.0
             sigma = np.hypot(s.noise, share)
@@ -58,8 +55,11 @@ class ComputedRange:
         angles = {"angle_min": s.angle_min, "angle_increment": s.angle_increment}
         return [RangeReading(age=0.0, **angles, distances=one) for one in distance.tolist()]
 
-    def _cast(self, eyes: Vectors, turn: Vectors, snapshot: Snapshot) -> Floats:
+    def distances(self, snapshot: Snapshot) -> Floats:
         """The true distances in m, shape (robots, beams)."""
+        motions = snapshot.robots.motions
+        turn = np.exp(1j * motions.heading[self._robots])
+        eyes = motions.position[self._robots] + self._place * turn
         ways = self._ways * turn[:, None]
         found = self._to_walls(eyes, ways)
         shapes = self._shapes.at(snapshot)

@@ -151,6 +151,8 @@ def test_a_bumper_feels_robots_obstacles_and_the_boundary_in_their_sectors(play)
         "cyan2": (-5.0 - 0.302 - reach, -3.0, 0.0),  # the post is in front
         "cyan3": (1.0, wall - reach - 0.001, 0.0),  # the boundary is to the left
         "cyan4": (4.0, 0.0, 1.0),  # nothing near
+        "cyan5": (6.0, 2.0, 0.0),
+        "magenta5": (6.0 - 2 * reach - 0.004, 2.0, 0.0),  # behind cyan5
     }
     place = [{"body": name, "x": x, "y": y, "heading": heading} for name, (x, y, heading) in places.items()]
     assert one.handle_scene(validated(SceneRequest, {"operation": SceneOperation.PLACE, "place": place})).accepted
@@ -158,6 +160,8 @@ def test_a_bumper_feels_robots_obstacles_and_the_boundary_in_their_sectors(play)
     assert sensed(one, "cyan2")["bumper"].touched == [True, False, False, False]
     assert sensed(one, "cyan3")["bumper"].touched == [False, True, False, False]
     assert sensed(one, "cyan4")["bumper"].touched == [False] * 4
+    assert sensed(one, "cyan5")["bumper"].touched == [False, False, True, False]
+    assert sensed(one, "magenta5")["bumper"].touched == [True, False, False, False]
 
 
 def test_a_match_without_sensors_has_no_word_of_them(play) -> None:
