@@ -181,6 +181,8 @@ def test_readings_and_numbers_survive_the_wire(play) -> None:
     assert world.sensors["cyan1"] == sensed(one, "cyan1")
     assert World.decode(world.encode()) == world
     assert {"front", "north"} == set(world.sensors["magenta5"])
+    payload = one.now.sights["cyan1"]
+    assert Sight.decode(payload).encode() == payload, "programs that read lines get this"
 
 
 def test_the_fullest_world_is_within_its_limit(play) -> None:
