@@ -1,6 +1,6 @@
 """One sensor of a profile on all robots that carry it, and what a kind of sensor has to implement."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -36,17 +36,17 @@ class Carried:
 
     def normals(self, count: int) -> BatchedDraws[Floats]:
         """Standard normal numbers by number of the reading, shape (robots, count)."""
-        keys = self._keys("normal")
-        return BatchedDraws(
-            lambda numbers: list(self.streams.normals(StreamId.SENSOR, keys, self._ticks(numbers), count)), _BATCH
-        )
+        return self._draws(self.streams.normals, self._keys("normal"), count)
 
     def uniforms(self, count: int) -> BatchedDraws[Floats]:
         """Uniform numbers in (0, 1) by number of the reading, shape (robots, count)."""
-        keys = self._keys("uniform")
-        return BatchedDraws(
-            lambda numbers: list(self.streams.uniforms(StreamId.SENSOR, keys, self._ticks(numbers), count)), _BATCH
-        )
+        return self._draws(self.streams.uniforms, self._keys("uniform"), count)
+
+    def _draws(self, draw: Callable[..., Floats], keys: list[str], count: int) -> BatchedDraws[Floats]:
+        def of(numbers: range) -> list[Floats]:
+            return list(draw(StreamId.SENSOR, keys, [self.shutter.tick_of(number) for number in numbers], count))
+
+        return BatchedDraws(of, _BATCH)
 
     def knots(self, numbers: Sequence[int]) -> Floats:
         """A standard normal number for each of these whole numbers, shape (numbers, robots)."""
@@ -54,9 +54,6 @@ class Carried:
 
     def _keys(self, use: str) -> list[str]:
         return [f"{self.roster.names[place]}/{self.name}/{use}" for place in self.robots]
-
-    def _ticks(self, numbers: range) -> list[int]:
-        return [self.shutter.tick_of(number) for number in numbers]
 
 
 class ComputedSensor(Protocol):

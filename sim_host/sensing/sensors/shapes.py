@@ -32,7 +32,6 @@ class Shapes:
         self._robot_halves = [(0.0, 0.0)] * len(tall)
         self._robot_halves += [(bodies[place].frame_depth / 2, bodies[place].frame_width / 2) for place in framed]
         self._obstacles: tuple[ObstacleState, ...] | None = None
-        self._ball_index = 0
         self._prepare(())
 
     def _prepare(self, obstacles: tuple[ObstacleState, ...]) -> None:
