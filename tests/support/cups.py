@@ -2,16 +2,18 @@
 
 from pathlib import Path
 
+from support.brisk import BRISK
 from touchline.matches.cup.cup_config import load_cup
 from touchline.matches.cup.cup_state import CupState
 from touchline.matches.cup.run_cup import CupRun
 from touchline.matches.engine.fresh_process import FreshProcesses
 
-CUP = """
+CUP = f"""
 name = "mini"
 size = 1
 [match]
 duration = 2.0
+rules = "{BRISK}"
 scene = "one_against_keeper"
 [[teams]]
 name = "One"

@@ -2,15 +2,18 @@
 
 from typing import TYPE_CHECKING, Protocol
 
+from support.brisk import BRISK
+
 if TYPE_CHECKING:
     from touchline.matches.study.run_study import StudyResult
 
-SHORT = """
+SHORT = f"""
 seeds = "1-2"
 both_sides = false
 responses = ["possession_s.difference", "distance"]
 [settings]
 duration = 1.5
+rules = "{BRISK}"
 teams.cyan.size = 1
 teams.magenta.size = 1
 [factors]

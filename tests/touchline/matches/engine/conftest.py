@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from schemas.config.match_config import MatchConfig, load_match
+from support.brisk import BRISK
 
 BRAINS = '''"""Brains for tests of plans."""
 
@@ -73,12 +74,6 @@ class NotBuilt(Still):
     def __init__(self, briefing):
         raise RuntimeError("no plan")
 '''
-RULES = """extends = "friendly"
-version = 1
-
-[periods]
-halves = { value = 1, unit = "1", origin = "for tests" }
-"""
 
 
 @pytest.fixture(scope="session")
@@ -86,7 +81,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the brains."""
     folder = tmp_path_factory.mktemp("brains")
     (folder / "planned_brains.py").write_text(BRAINS)
-    (folder / "short.toml").write_text(RULES)
     return folder
 
 
@@ -100,7 +94,7 @@ def match_of(folder: Path) -> Callable[..., MatchConfig]:
             for side, name in (("cyan", cyan), ("magenta", magenta))
             for key, value in {"brain": f"planned_brains:{name}", "name": name, "size": 1}.items()
         }
-        short = {"duration": 0.5, "seed": seed, "rules": str(folder / "short.toml")}
+        short = {"duration": 0.5, "seed": seed, "rules": str(BRISK)}
         return load_match(None, {**short, **teams, **settings})
 
     return make

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from support.brisk import BRISK
+
 BRAINS = '''"""Brains for tests of series."""
 
 from touchline import Command, Drive
@@ -41,22 +43,15 @@ class OnceOnly(Still):
         assert built == 2  # one for each side
         return super().act(sight)
 '''
-RULES = """extends = "friendly"
-version = 1
-
-[periods]
-halves = { value = 1, unit = "1", origin = "for tests" }
-"""
 
 
 @pytest.fixture(scope="session")
 def match_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("series")
     (folder / "few_brains.py").write_text(BRAINS)
-    (folder / "short.toml").write_text(RULES)
     path = folder / "match.toml"
     path.write_text(
-        f'duration = 1.0\nrules = "{folder}/short.toml"\n'
+        f'duration = 1.0\nrules = "{BRISK}"\n'
         '[teams.cyan]\nname = "Forward"\nbrain = "few_brains:Forward"\nsize = 1\n'
         '[teams.magenta]\nname = "Still"\nbrain = "few_brains:Still"\nsize = 1\n'
     )

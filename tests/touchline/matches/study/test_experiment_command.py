@@ -7,15 +7,17 @@ from typer.testing import CliRunner
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 
+from support.brisk import BRISK
 from touchline.commands import experiment
 from touchline.commands.cli.command_line import app
 
-STUDY = """
+STUDY = f"""
 seeds = "1-2"
 both_sides = false
 responses = ["distance"]
 [settings]
 duration = 1.0
+rules = "{BRISK}"
 teams.cyan.size = 1
 teams.magenta.size = 1
 """
