@@ -46,7 +46,7 @@ def test_the_program_gets_the_sight_as_the_host_has_sent_it(bench, sight_of) -> 
     )
     sight = sight_of(3)
     extra = Command.decode(seen.answered(sight).answer).radio.extra
-    assert extra == {"fields": len(sight.plain()), "x": sight.self.x}
+    assert extra == {"fields": len(json.loads(sight.encode())), "x": sight.self.x}
 
 
 def test_an_invalid_answer_lets_the_robot_rest_for_its_tick(bench, sight_of) -> None:
