@@ -2,15 +2,15 @@
 
 from collections.abc import Mapping
 
-from coach_gateway.access.roles import COACHES, Role
+from coach_gateway.access.roles import COACHES, TokenRole
 from schemas.errors import did_you_mean
 from schemas.side import Side
 from schemas.soccer.game import ActionName
 
-_REFEREE = frozenset({Role.REFEREE})
-_BENCH = frozenset({Role.REFEREE, *COACHES})
+_REFEREE = frozenset({TokenRole.REFEREE})
+_BENCH = frozenset({TokenRole.REFEREE, *COACHES})
 
-RIGHTS: dict[str, frozenset[Role]] = {
+RIGHTS: dict[str, frozenset[TokenRole]] = {
     **dict.fromkeys((action.value for action in ActionName), _REFEREE),
     ActionName.REPAIR.value: _BENCH,
     ActionName.SUBSTITUTE.value: _BENCH,
@@ -35,20 +35,20 @@ _FOR_A_SIDE = frozenset(
 """Deeds that a coach may do for its own side alone."""
 
 
-def deeds_of(role: Role) -> list[str]:
+def deeds_of(role: TokenRole) -> list[str]:
     """The deeds of a role."""
     return [deed for deed, roles in RIGHTS.items() if role in roles]
 
 
-def sides_shown(role: Role, *, to_all: bool) -> list[Side]:
+def sides_shown(role: TokenRole, *, to_all: bool) -> list[Side]:
     """The sides whose orders, beliefs or drawings a role is shown: a coach only its own, unless `to_all`."""
-    if to_all or role is Role.REFEREE:
+    if to_all or role is TokenRole.REFEREE:
         return list(Side)
     return [COACHES[role]] if role in COACHES else []
 
 
 def refusal(
-    role: Role, deed: str, robots: Mapping[str, Side], *, side: Side | None = None, robot: str | None = None
+    role: TokenRole, deed: str, robots: Mapping[str, Side], *, side: Side | None = None, robot: str | None = None
 ) -> str | None:
     """Why a role may not do a deed of `RIGHTS`; None when it may.
 
@@ -64,8 +64,8 @@ def refusal(
     return None
 
 
-def _token_of(role: Role) -> str:
-    return "none" if role is Role.SPECTATOR else f"that of {role.value}'s coach"
+def _token_of(role: TokenRole) -> str:
+    return "none" if role is TokenRole.SPECTATOR else f"that of {role.value}'s coach"
 
 
 def _refusal_of_other_side(own: Side, robots: Mapping[str, Side], side: Side | None, robot: str | None) -> str | None:

@@ -5,7 +5,7 @@ from enum import StrEnum
 from schemas.side import Side
 
 
-class Role(StrEnum):
+class TokenRole(StrEnum):
     """What a token stands for."""
 
     SPECTATOR = "spectator"
@@ -18,5 +18,5 @@ class Role(StrEnum):
     """The referee, who runs the match and may do everything."""
 
 
-COACHES = {Role.CYAN: Side.CYAN, Role.MAGENTA: Side.MAGENTA}
+COACHES = {TokenRole.CYAN: Side.CYAN, TokenRole.MAGENTA: Side.MAGENTA}
 """Coach → its side."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Self
 
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from runtime.access.private_file import check_private
 from runtime.process.whole_file import written_whole
 from schemas.errors import TouchlineError
@@ -32,15 +32,15 @@ class Tokens:
         """New ones, of 128 bits each."""
         return cls(*(secrets.token_urlsafe(_RANDOM_BYTES) for _ in fields(cls)))
 
-    def role_of(self, token: str) -> Role | None:
+    def role_of(self, token: str) -> TokenRole | None:
         """The role of a token: spectator for an empty token, None for an unknown one.
 
         Takes the same time for every token of one length.
         """
         if not token:
-            return Role.SPECTATOR
+            return TokenRole.SPECTATOR
         given, found = token.encode(errors="replace"), None
-        for role in (Role.REFEREE, Role.CYAN, Role.MAGENTA):
+        for role in (TokenRole.REFEREE, TokenRole.CYAN, TokenRole.MAGENTA):
             if hmac.compare_digest(given, self.of(role).encode()):
                 found = role
         return found
@@ -49,9 +49,9 @@ class Tokens:
         """Each role and its token, for the operator."""
         return [f"{field.name}'s token: {getattr(self, field.name)}" for field in fields(self)]
 
-    def of(self, role: Role) -> str:
+    def of(self, role: TokenRole) -> str:
         """The token of a role."""
-        return "" if role is Role.SPECTATOR else str(getattr(self, role.value))
+        return "" if role is TokenRole.SPECTATOR else str(getattr(self, role.value))
 
 
 def page_address(origin: str, token: str) -> str:

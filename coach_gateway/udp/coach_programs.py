@@ -9,7 +9,7 @@ from typing import Any
 
 from coach_gateway.access import rights
 from coach_gateway.access.refusals import Refusals
-from coach_gateway.access.roles import COACHES, Role
+from coach_gateway.access.roles import COACHES, TokenRole
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
 from coach_gateway.udp.protocol import (
     MAX_BYTES,
@@ -71,7 +71,7 @@ _NOTHING = DatagramResult()
 class CoachPrograms:
     """The sessions, by the source address of their datagrams."""
 
-    def __init__(self, role_of: Callable[[str], Role | None], log: Callable[[str], None] = lambda _: None) -> None:
+    def __init__(self, role_of: Callable[[str], TokenRole | None], log: Callable[[str], None] = lambda _: None) -> None:
         """`role_of` returns the role of a token."""
         self._role_of = role_of
         self.refusals = Refusals("coach programs", log)
@@ -116,7 +116,7 @@ class CoachPrograms:
         """
         session = self.sessions.get(address)
         role = self._role_of(hello.token)
-        if role is None or role is Role.SPECTATOR:
+        if role is None or role is TokenRole.SPECTATOR:
             return _refused(hello, "unknown token; use that of a side's coach or of the referee")
         if session is not None and session.role is role and hello.sequence == session.newest:
             known = session.answer(hello.sequence)

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.match.orders import OrderContent
 from coach_gateway.udp.coach_record import MatchMode
 from schemas.messages.radio import Belief
@@ -110,7 +110,7 @@ class Ack(Part, tag_field="kind", tag="ack"):
     """The datagram was acknowledged before; it was not carried out again."""
     session: str | None = None
     """Of a hello: the session of all further datagrams."""
-    role: Role | None = None
+    role: TokenRole | None = None
     """Of a hello: the role of the token."""
     order: int | None = None
     """Of an order: its number on the bus, which the robots acknowledge."""

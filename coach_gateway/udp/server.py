@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from coach_gateway.access.rights import sides_shown
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.service import pause
 from coach_gateway.timing import POLL_S, SILENCE_S
@@ -29,7 +29,7 @@ class UdpServer(asyncio.DatagramProtocol):
     def __init__(
         self,
         live: LiveMatch,
-        role_of: Callable[[str], Role | None],
+        role_of: Callable[[str], TokenRole | None],
         log: Callable[[str], None],
         bound: socket.socket,
     ) -> None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.timing import SILENCE_S
 from coach_gateway.udp.protocol import DEFAULT_RATE, Ack
 
@@ -33,7 +33,7 @@ class Session:
     """One program, from its hello to its end; times in s of wall time."""
 
     key: str
-    role: Role
+    role: TokenRole
     name: str
     begun_at: float
     rate: float = DEFAULT_RATE

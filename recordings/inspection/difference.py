@@ -55,7 +55,7 @@ class Difference(NamedTuple):
 
 
 @dataclass(slots=True)
-class Comparison:
+class RecordingComparison:
     """The result of a comparison of two recordings."""
 
     messages: int = 0
@@ -82,7 +82,7 @@ def compare(
     everything: bool = False,
     start: float | None = None,
     end: float | None = None,
-) -> Comparison:
+) -> RecordingComparison:
     """Compare two recordings, key by key, in the order of the messages on each key.
 
     `start` and `end`, the latter exclusive, are in s of simulated time. Unless `everything` is compared, messages that
@@ -94,7 +94,7 @@ def compare(
     """
     keys = {channel.key for recording in (one, other) for channel in recording.channels if channel.messages}
     wanted = {key for key in keys if selection.includes(key) and (everything or not _is_of_wall_time(key))}
-    comparison = Comparison(left_out=sorted(keys - wanted, key=natural_order), keys=len(wanted))
+    comparison = RecordingComparison(left_out=sorted(keys - wanted, key=natural_order), keys=len(wanted))
     numbers: Counter[str] = Counter()
     moments = _moments(*(_messages(recording, wanted, everything, (start, end)) for recording in (one, other)))
     for moment in moments:

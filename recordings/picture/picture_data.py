@@ -19,7 +19,7 @@ TRAIL_S = 3.0
 _HYPHENATED = {Phase.KICK_OFF: "kick-off", Phase.THROW_IN: "throw-in"}
 
 
-class Goal(NamedTuple):
+class DrawnGoal(NamedTuple):
     """A goal: simulated time in s, the scoring side, and the position of the ball, in m in the field frame."""
 
     time: float
@@ -110,7 +110,7 @@ class PictureData:
         before = bisect_right(self._state_times, time + self.setup.time.tick / 2)
         return self._states[before - 1] if before else None
 
-    def _goal(self, event: GameEvent) -> list[Goal]:
+    def _goal(self, event: GameEvent) -> list[DrawnGoal]:
         """The goal with the position of the ball; empty if that tick was not recorded."""
         balls = [world.ball for _, world in self._worlds(event.time, event.time)]
-        return [Goal(event.time, event.side, balls[0].x, balls[0].y)] if balls else []
+        return [DrawnGoal(event.time, event.side, balls[0].x, balls[0].y)] if balls else []

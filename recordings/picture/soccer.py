@@ -9,7 +9,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap
 
 from recordings.picture.bodies import COLOURS, jumps
-from recordings.picture.picture_data import Goal
+from recordings.picture.picture_data import DrawnGoal
 from schemas.config.sections import Pitch
 from schemas.messages.world import World
 
@@ -42,7 +42,7 @@ def draw_heat(axes: Axes, pitch: Pitch, worlds: Sequence[World]) -> None:
     axes.add_collection(LineCollection(steps, colors="#fff7e0", linewidths=0.7, alpha=0.5, zorder=2))
 
 
-def draw_goals(axes: Axes, goals: Sequence[Goal]) -> None:
+def draw_goals(axes: Axes, goals: Sequence[DrawnGoal]) -> None:
     """Draw a ring in the scoring side's colour at the position of the ball."""
     for goal in goals:
         colour = COLOURS[goal.side] if goal.side is not None else "white"

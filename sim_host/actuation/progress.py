@@ -28,7 +28,7 @@ _SETTLED = 0.05
 """m/s; a robot whose motion differs by no more from the free one's is not held back."""
 
 
-class Progress:
+class HeldBackMotion:
     """The measured and the free motion of one robot, from the tick at which it is first held back."""
 
     def __init__(self, drive: DriveLimits, tick: float, now: RobotState) -> None:

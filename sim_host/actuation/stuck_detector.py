@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive
-from sim_host.actuation.progress import Progress
+from sim_host.actuation.progress import HeldBackMotion
 from sim_host.snapshot import RobotState
 
 SLOW_SHARE = 0.5
@@ -33,7 +33,7 @@ class StuckDetector:
 
     def reset(self) -> None:
         """Forget all progress."""
-        self._progress: dict[int, Progress] = {}
+        self._progress: dict[int, HeldBackMotion] = {}
 
     def update(
         self, indices: Sequence[int], held: NDArray[np.bool_], robots: Sequence[RobotState], demands: Sequence[Drive]
@@ -50,7 +50,7 @@ class StuckDetector:
         """Update the progress of one robot, from the tick in which it is held back until it moves freely again."""
         progress = self._progress.get(index)
         if progress is None:
-            progress = self._progress[index] = Progress(self._drives[index], self._tick, robot)
+            progress = self._progress[index] = HeldBackMotion(self._drives[index], self._tick, robot)
         progress.update(robot, demand)
         if progress.settled and not is_held:
             del self._progress[index]

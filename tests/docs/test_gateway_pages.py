@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from coach_gateway.access.rights import RIGHTS
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.soccer.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
@@ -86,4 +86,4 @@ def test_who_may_do_what_is_as_the_page_s_server_has_it(row: str, deeds: tuple[s
     (line,) = [line for line in page.splitlines() if line.startswith(f"| {row} |")]
     says = [not cell.strip().startswith("no") for cell in line.strip("|").split("|")[1:]]
     for deed in deeds:
-        assert says == [role in RIGHTS[deed] for role in (Role.SPECTATOR, Role.CYAN, Role.REFEREE)]
+        assert says == [role in RIGHTS[deed] for role in (TokenRole.SPECTATOR, TokenRole.CYAN, TokenRole.REFEREE)]

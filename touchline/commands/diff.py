@@ -11,7 +11,7 @@ from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
 
 if TYPE_CHECKING:
-    from recordings.inspection.difference import Comparison, FieldDifference
+    from recordings.inspection.difference import FieldDifference, RecordingComparison
 
 
 def diff(
@@ -48,7 +48,7 @@ def diff(
         raise typer.Exit(FAILED)
 
 
-def _sentence(found: "Comparison", first: Path, second: Path) -> str:
+def _sentence(found: "RecordingComparison", first: Path, second: Path) -> str:
     difference = found.first
     if difference is None:
         return f"identical: {found.messages} messages on {found.keys} keys"
@@ -65,7 +65,7 @@ def _field(one: "FieldDifference") -> str:
     return f"{one.path}: {one.first!r} – {one.second!r}{by}"
 
 
-def _facts(found: "Comparison") -> dict[str, Any]:
+def _facts(found: "RecordingComparison") -> dict[str, Any]:
     difference = found.first
     first = None
     if difference is not None:

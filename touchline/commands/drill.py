@@ -19,7 +19,7 @@ from touchline.matches.series.team_names import brain_of
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome
     from touchline.matches.engine.planned_match import PlannedMatch
-    from touchline.matches.judging.judge import Verdict
+    from touchline.matches.judging.judge import DrillVerdict
     from touchline.matches.statistics.estimates import Estimate
 
 
@@ -82,7 +82,7 @@ def _plan(scene: str, brain: str, opponents: str, seeds: str, settings: dict[str
     ]
 
 
-def _verdict(outcome: "Outcome") -> "Verdict | None":
+def _verdict(outcome: "Outcome") -> "DrillVerdict | None":
     from touchline.matches.engine.outcome import Played
 
     return outcome.verdict if isinstance(outcome, Played) else None
@@ -130,5 +130,5 @@ def _print(scene: str, ended: "list[tuple[PlannedMatch, Outcome]]", planned: int
         typer.echo(f"{planned - len(ended)} not played")
 
 
-def _plain(part: "Verdict | Estimate | None") -> dict[str, object] | None:
+def _plain(part: "DrillVerdict | Estimate | None") -> dict[str, object] | None:
     return dataclasses.asdict(part) if part is not None else None

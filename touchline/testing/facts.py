@@ -16,7 +16,7 @@ from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
 from schemas.soccer.game import Score
 from sim_host.soccer.referee.areas import in_goal_area, in_penalty_area
-from touchline.matches.judging.judge import Verdict
+from touchline.matches.judging.judge import DrillVerdict
 from touchline.matches.judging.occurrences import Occurrence
 
 Rectangle = tuple[float, float, float, float]
@@ -37,7 +37,7 @@ class Facts:
 
     scene: str
     seed: int
-    verdict: Verdict | None
+    verdict: DrillVerdict | None
     """The scene's verdict; None without a `[drill]`, or if it was not decided in the time played."""
     score: Score
     pitch: Pitch

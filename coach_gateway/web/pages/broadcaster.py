@@ -3,7 +3,7 @@
 import asyncio
 
 from coach_gateway.access import rights
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.service import until_first
 from coach_gateway.timing import HOST_RETRY_S, POLL_S, RELOAD_S, STATUS_S
 from coach_gateway.web.pages.frame_pace import FramePace
@@ -84,7 +84,7 @@ class PageBroadcaster:
         """All robots of the match, and their sides."""
         return self.feed.setup.sides if self.feed.setup is not None else {}
 
-    def refusal(self, page: Page, role: Role, request: PageRequest) -> str | None:
+    def refusal(self, page: Page, role: TokenRole, request: PageRequest) -> str | None:
         """Why a page with this role cannot do this now; None when it can."""
         why = refusal(role, request, self.robots()) or self._why_not_now(request)
         if why is None and isinstance(request, PageDrive):
@@ -109,7 +109,7 @@ class PageBroadcaster:
         """Send all pages the status of the replay."""
         self._pages.send(ReplayUpdate(replay=reply).json())
 
-    def _beliefs_of(self, role: Role) -> list[Side]:
+    def _beliefs_of(self, role: TokenRole) -> list[Side]:
         """The sides whose robots' beliefs a role is shown."""
         wanted = self._beliefs
         if wanted is None:
@@ -118,11 +118,11 @@ class PageBroadcaster:
             wanted = BeliefsFor.ALL if friendly else BeliefsFor.TEAMS
         return rights.sides_shown(role, to_all=wanted is BeliefsFor.ALL)
 
-    def _debug_of(self, role: Role) -> list[Side]:
+    def _debug_of(self, role: TokenRole) -> list[Side]:
         """The sides whose robots' drawings a role is shown; in a replay both, as in the recording."""
         return rights.sides_shown(role, to_all=not self.feed.live)
 
-    def _orders_of(self, role: Role) -> list[Side]:
+    def _orders_of(self, role: TokenRole) -> list[Side]:
         """The sides whose orders a role is shown; in a replay all of them."""
         return rights.sides_shown(role, to_all=not self.feed.live)
 

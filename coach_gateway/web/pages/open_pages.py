@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import Iterator
 
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.web.pages.send_queue import SendQueue
 
 
@@ -13,7 +13,7 @@ class Page:
     def __init__(self, address: str) -> None:
         """`address` is its client's, for the log."""
         self.address = address
-        self.role = Role.SPECTATOR
+        self.role = TokenRole.SPECTATOR
         self.queue = SendQueue()
         self.pending: set[asyncio.Task[None]] = set()
         """Requests that have no reply yet."""
@@ -39,18 +39,18 @@ class Pages:
         """Drop a page that has been closed."""
         self._open.pop(page, None)
 
-    def roles(self) -> list[Role]:
+    def roles(self) -> list[TokenRole]:
         """The roles of all open pages."""
         there = {page.role: None for page in self._open}
         return list(there)
 
-    def send(self, text: str, role: Role | None = None) -> None:
+    def send(self, text: str, role: TokenRole | None = None) -> None:
         """Send to all pages, or to the pages of one role."""
         for page in self._open:
             if role is None or page.role is role:
                 page.queue.put(text)
 
-    def send_frame(self, frame: str, role: Role) -> None:
+    def send_frame(self, frame: str, role: TokenRole) -> None:
         """Send the pages of a role a frame, in place of one that still waits."""
         for page in self._open:
             if page.role is role:

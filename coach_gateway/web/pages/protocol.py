@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta
 
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.match.orders import OrderContent
 from schemas.messages.coach import CoachOrder
 from schemas.messages.debug import RobotDebug
@@ -37,7 +37,7 @@ from schemas.wire.units import MAX_WHOLE
 class Welcome(Part, tag_field="kind", tag="welcome"):
     """The page's role, and what is played; everything sent before is void."""
 
-    role: Role
+    role: TokenRole
     match: Name | None
     setup: Setup | None
     """None until the host has replied; then another welcome has it."""
@@ -153,7 +153,7 @@ class Reply(Part, tag_field="kind", tag="reply"):
     """Content of the host's `ParametersReply`, `SceneReply` or `ReplayReply`; of an order, the order as sent."""
 
 
-class Refusal(Part, tag_field="kind", tag="refusal"):
+class PageRefusal(Part, tag_field="kind", tag="refusal"):
     """Why the server closes this connection; the page may try again after a while."""
 
     reason: str
@@ -172,7 +172,7 @@ ServerMessage = (
     | ResultUpdate
     | Alive
     | Reply
-    | Refusal
+    | PageRefusal
 )
 """Any message of the server."""
 

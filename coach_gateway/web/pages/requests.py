@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from coach_gateway.access import rights
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.web.pages.protocol import (
     PageAction,
@@ -28,7 +28,7 @@ from schemas.soccer.game import ActionName
 from schemas.topics import MANUAL, PARAMETERS, REPLAY_CONTROL, SCENE
 from schemas.wire.message import Message
 
-SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
+SOURCES = {TokenRole.REFEREE: "referee's page", TokenRole.CYAN: "cyan's page", TokenRole.MAGENTA: "magenta's page"}
 """Role → the source that the match records for a request."""
 
 _THREADS = 4
@@ -45,10 +45,10 @@ class RequestHandler:
         self._manual: dict[str, Publisher] = {}
         self._order_clients = {side: HostClient(bus) for side in Side}
         self._ordering = {side: asyncio.Lock() for side in Side}
-        self._threads = {role: ThreadPoolExecutor(_THREADS, thread_name_prefix=role.value) for role in Role}
+        self._threads = {role: ThreadPoolExecutor(_THREADS, thread_name_prefix=role.value) for role in TokenRole}
         self._stops = ThreadPoolExecutor(_THREADS, thread_name_prefix="stop")
 
-    async def answer(self, role: Role, request: PageRequest) -> Reply:
+    async def answer(self, role: TokenRole, request: PageRequest) -> Reply:
         """Send a request to the match and return its reply.
 
         Requests of one role do not wait for another's, orders of one side not for the other's, and a stop
@@ -73,7 +73,7 @@ class RequestHandler:
             self._manual[request.robot] = self._bus.publisher(MANUAL, robot=request.robot)
         self._manual[request.robot].put(request.manual)
 
-    def _query(self, role: Role, request: PageRequest) -> Callable[[], Any]:
+    def _query(self, role: TokenRole, request: PageRequest) -> Callable[[], Any]:
         """The query of a request; it blocks until the reply."""
         source = {"source": SOURCES.get(role, role.value)}
         match request:
@@ -96,7 +96,7 @@ class RequestHandler:
         return self._order_clients[request.side].order(request.side, **request.order.content())
 
 
-def refusal(role: Role, request: PageRequest, robots: Mapping[str, Side]) -> str | None:
+def refusal(role: TokenRole, request: PageRequest, robots: Mapping[str, Side]) -> str | None:
     """Why a role may not ask for this; None when it may. `robots` are all robots of the match with their sides."""
     match request:
         case PageAction():

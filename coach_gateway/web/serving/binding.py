@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from coach_gateway.access.origins import Origins
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.access.tokens import Tokens, page_address
 from coach_gateway.web.serving.listener import listen, origin_of
 from coach_gateway.web.settings import WebSettings
@@ -33,7 +33,7 @@ class PageBinding:
         if self.tokens_file is not None:
             yield f"tokens: {self.tokens_file}"
             return
-        for role in (Role.REFEREE, Role.CYAN, Role.MAGENTA):
+        for role in (TokenRole.REFEREE, TokenRole.CYAN, TokenRole.MAGENTA):
             yield f"{role.value}: {page_address(self.origin, self.tokens.of(role))}"
 
 

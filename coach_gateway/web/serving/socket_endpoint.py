@@ -11,7 +11,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from coach_gateway.access.origins import Origins
 from coach_gateway.access.refusals import Refusals
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.access.tokens import UNKNOWN_TOKEN, Tokens
 from coach_gateway.service import until_first
 from coach_gateway.timing import PAGE_CLOSING_S, PAGE_TOKEN_S
@@ -20,9 +20,9 @@ from coach_gateway.web.pages.open_pages import Page, Pages
 from coach_gateway.web.pages.protocol import (
     HostUpdate,
     PageDrive,
+    PageRefusal,
     PageRequest,
     PageTokenCheck,
-    Refusal,
     Reply,
     Welcome,
     read_request,
@@ -79,7 +79,7 @@ class SocketEndpoint:
         with contextlib.suppress(TimeoutError, FaultError, WebSocketDisconnect):
             async with asyncio.timeout(PAGE_TOKEN_S):
                 text = await socket.receive_text()
-            if self._tokens.role_of(read_request(text).token) not in (None, Role.SPECTATOR):
+            if self._tokens.role_of(read_request(text).token) not in (None, TokenRole.SPECTATOR):
                 return text
         return None
 
@@ -137,7 +137,7 @@ class SocketEndpoint:
         _refuse(page, number, why)
         return None
 
-    def _handle(self, page: Page, role: Role, request: PageRequest) -> None:
+    def _handle(self, page: Page, role: TokenRole, request: PageRequest) -> None:
         match = self.match
         if isinstance(request, PageTokenCheck):
             page.queue.put(Reply(id=request.id, accepted=True).json())
@@ -155,7 +155,7 @@ class SocketEndpoint:
             page.pending.add(task)
             task.add_done_callback(page.pending.discard)
 
-    async def _answer(self, match: PageBroadcaster, page: Page, role: Role, request: PageRequest) -> None:
+    async def _answer(self, match: PageBroadcaster, page: Page, role: TokenRole, request: PageRequest) -> None:
         """Send a request to the match, and the reply to the page."""
         reply = await match.requests.answer(role, request)
         page.queue.put(reply.json())
@@ -176,7 +176,7 @@ async def _close(socket: WebSocket, why: str) -> None:
     """Send a page why it is closed, and close it, without waiting for a page that does not read."""
     with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError):
         async with asyncio.timeout(PAGE_CLOSING_S):
-            await socket.send_text(Refusal(reason=why).json())
+            await socket.send_text(PageRefusal(reason=why).json())
             await socket.close(_TRY_AGAIN, why)
 
 

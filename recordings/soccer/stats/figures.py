@@ -12,7 +12,7 @@ from recordings.soccer.stats.dribbles import DribbleStats
 from recordings.soccer.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickRecord
 from recordings.soccer.stats.momentum import Momentum
 from recordings.soccer.stats.motion import MotionStats
-from recordings.soccer.stats.referee_calls import Goal, RefereeCalls
+from recordings.soccer.stats.referee_calls import RefereeCalls, ScoredGoal
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
@@ -139,7 +139,7 @@ class MatchFigures:
     drop_balls: int
     sides: dict[Side, SideFigures]
     robots: list[RobotFigures]
-    goals: list[Goal]
+    goals: list[ScoredGoal]
     kicks: list[KickRecord]
     momentum_width: float
     """Width of one value of `momentum`, in s."""

@@ -10,7 +10,7 @@ from schemas.soccer.game import RESTARTS, Card, EventKind, Phase, Score
 
 
 @dataclass(frozen=True, slots=True)
-class Goal:
+class ScoredGoal:
     """One goal; times in s."""
 
     time: float
@@ -25,7 +25,7 @@ class RefereeCalls:
     """Counts events and changes of the game state."""
 
     def __init__(self) -> None:
-        self.goals: list[Goal] = []
+        self.goals: list[ScoredGoal] = []
         self.score: Score | None = None
         """The referee's score; None if no game state was recorded."""
         self.shoot_out: Score | None = None
@@ -54,7 +54,7 @@ class RefereeCalls:
     def _event(self, event: GameEvent) -> None:
         self.events.append(event)
         if event.kind is EventKind.GOAL:
-            self.goals.append(Goal(event.time, event.clock, event.side, event.robot))
+            self.goals.append(ScoredGoal(event.time, event.clock, event.side, event.robot))
         elif event.kind is EventKind.FOUL:
             self.fouls[event.side, event.rule] += 1
             self.fouls_of.update([event.robot] if event.robot is not None else [])

@@ -37,7 +37,7 @@ NOT_COMMANDS = frozenset({AnswerFault.STRAY, AnswerFault.INVALID})
 """Faults of lines that no command can be read from."""
 
 
-class Verdict(NamedTuple):
+class JudgedLine(NamedTuple):
     """What one line is."""
 
     command: Command | None = None
@@ -60,11 +60,11 @@ class Expected(NamedTuple):
     """Tick of the sight that was answered last; None before the first."""
 
 
-def judge(line: Line, expected: Expected) -> Verdict:
+def judge(line: Line, expected: Expected) -> JudgedLine:
     """What a line is for a program that was given these sights; an empty line is nothing."""
     content = line.content.strip()
     if not content:
-        return Verdict()
+        return JudgedLine()
     is_object = content.startswith(b"{")
     if not is_object:
         reason = "no JSON object; write commands alone to standard output, and messages to standard error"
@@ -80,10 +80,10 @@ def judge(line: Line, expected: Expected) -> Verdict:
     return _judge_tick(command, content, expected)
 
 
-def _judge_tick(command: Command, content: bytes, expected: Expected) -> Verdict:
+def _judge_tick(command: Command, content: bytes, expected: Expected) -> JudgedLine:
     tick = command.answers_tick
     if tick == expected.awaited:
-        return Verdict(command, ends_wait=True)
+        return JudgedLine(command, ends_wait=True)
     if tick in expected.given_up:
         late = f"an answer to tick {tick} after newer sights; decide faster"
         return _fault(AnswerFault.LATE, content, late)._replace(command=command)
@@ -93,9 +93,9 @@ def _judge_tick(command: Command, content: bytes, expected: Expected) -> Verdict
     return _fault(AnswerFault.OTHER_TICK, content, f"answers_tick is {tick}, {given}; copy the sight's tick")
 
 
-def _fault(kind: AnswerFault, content: bytes, reason: str, *, ends_wait: bool = False) -> Verdict:
+def _fault(kind: AnswerFault, content: bytes, reason: str, *, ends_wait: bool = False) -> JudgedLine:
     shown = _SHOWN.repr(content.decode("utf-8", "replace"))
-    return Verdict(None, kind, f"{shown}: {reason}", ends_wait)
+    return JudgedLine(None, kind, f"{shown}: {reason}", ends_wait)
 
 
 def _tick_in(content: bytes) -> int | None:

@@ -21,7 +21,7 @@ _MOST_UNREADABLE = 20
 """Most reasons of claims that could not be read that are reported."""
 
 
-class Refusal(NamedTuple):
+class RefusedAgent(NamedTuple):
     """An agent that was refused."""
 
     robot: str | None
@@ -48,7 +48,7 @@ class ClaimHandler:
         self._waiting: list[_Waiting] = []
         self._refused: dict[str, None] = {}
         self._unreadable: set[str] = set()
-        self.refusals: list[Refusal] = []
+        self.refusals: list[RefusedAgent] = []
         """Refused agents that have not been reported yet."""
 
     def receive(self) -> None:
@@ -99,13 +99,15 @@ class ClaimHandler:
         self._refused[claim.session] = None
         described = ", ".join(filter(None, (claim.source, claim.program)))
         source = f" ({described})" if described else ""
-        self.refusals.append(Refusal(claim.robot, f"an agent{source} that claimed {claim.robot} was refused: {reason}"))
+        self.refusals.append(
+            RefusedAgent(claim.robot, f"an agent{source} that claimed {claim.robot} was refused: {reason}")
+        )
 
     def add_refusal(self, text: str) -> None:
         """Report a process that was refused without a valid claim; once for each text."""
         if text not in self._unreadable and len(self._unreadable) < _MOST_UNREADABLE:
             self._unreadable.add(text)
-            self.refusals.append(Refusal(None, text))
+            self.refusals.append(RefusedAgent(None, text))
 
 
 def _is_on_its_key(query: Query, claim: AgentClaim) -> bool:

@@ -7,7 +7,7 @@ from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
 from sim_host.server.admission.account_limits import AccountLimits
 from sim_host.server.admission.agent_stats import AgentStats
-from sim_host.server.admission.claim_handler import ClaimHandler, Refusal
+from sim_host.server.admission.claim_handler import ClaimHandler, RefusedAgent
 from sim_host.server.admission.claims import Claims
 from sim_host.server.admission.eligibility import Eligibility
 from sim_host.server.admission.invalid_log import InvalidLog
@@ -95,7 +95,7 @@ class PresenceTracker:
         for name in self._agent_stats:
             self._refresh(name)
 
-    def pop_refusals(self) -> list[Refusal]:
+    def pop_refusals(self) -> list[RefusedAgent]:
         """Agents that were refused since the last call."""
         handler = self._claim_handler
         refusals, handler.refusals = handler.refusals, []

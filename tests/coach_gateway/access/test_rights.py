@@ -3,7 +3,7 @@
 import pytest
 
 from coach_gateway.access.rights import RIGHTS, deeds_of, refusal, sides_shown
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from schemas.side import Side
 
 ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
@@ -11,31 +11,31 @@ OWN = ("repair", "substitute", "enter", "name_robot")
 """Actions that a coach may ask for, for its own robots."""
 
 
-def refusal_about_cyan(role: Role, deed: str) -> str | None:
+def refusal_about_cyan(role: TokenRole, deed: str) -> str | None:
     if deed == "order":
         return refusal(role, deed, ROBOTS, side=Side.CYAN)
     return refusal(role, deed, ROBOTS, robot="cyan1")
 
 
-def allowed(role: Role) -> list[str]:
+def allowed(role: TokenRole) -> list[str]:
     return sorted(deed for deed in RIGHTS if refusal_about_cyan(role, deed) is None)
 
 
 @pytest.mark.parametrize(
     ("role", "deeds"),
     [
-        (Role.SPECTATOR, []),
-        (Role.REFEREE, sorted(RIGHTS)),
-        (Role.CYAN, sorted([*OWN, "order", "drive", "read_parameters"])),
-        (Role.MAGENTA, ["read_parameters"]),
+        (TokenRole.SPECTATOR, []),
+        (TokenRole.REFEREE, sorted(RIGHTS)),
+        (TokenRole.CYAN, sorted([*OWN, "order", "drive", "read_parameters"])),
+        (TokenRole.MAGENTA, ["read_parameters"]),
     ],
 )
-def test_each_role_has_exactly_the_rights_of_the_table_over_cyan(role: Role, deeds: list[str]) -> None:
+def test_each_role_has_exactly_the_rights_of_the_table_over_cyan(role: TokenRole, deeds: list[str]) -> None:
     assert allowed(role) == deeds
 
 
-@pytest.mark.parametrize("role", list(Role))
-def test_the_deeds_of_a_role_are_those_it_is_not_refused(role: Role) -> None:
+@pytest.mark.parametrize("role", list(TokenRole))
+def test_the_deeds_of_a_role_are_those_it_is_not_refused(role: TokenRole) -> None:
     shown = set(deeds_of(role))
     assert shown >= set(allowed(role))
     assert [deed for deed in RIGHTS if deed not in shown and refusal_about_cyan(role, deed) is None] == []
@@ -53,19 +53,21 @@ def test_the_deeds_of_a_role_are_those_it_is_not_refused(role: Role) -> None:
     ],
 )
 def test_a_refusal_of_cyan_s_coach_has_its_reason(deed: str, side: Side | None, robot: str | None, reason: str) -> None:
-    assert (refusal(Role.CYAN, deed, ROBOTS, side=side, robot=robot) or "").startswith(reason)
+    assert (refusal(TokenRole.CYAN, deed, ROBOTS, side=side, robot=robot) or "").startswith(reason)
 
 
 @pytest.mark.parametrize(
     ("role", "to_all", "sides"),
     [
-        (Role.SPECTATOR, False, []),
-        (Role.SPECTATOR, True, [Side.CYAN, Side.MAGENTA]),
-        (Role.CYAN, False, [Side.CYAN]),
-        (Role.MAGENTA, False, [Side.MAGENTA]),
-        (Role.MAGENTA, True, [Side.CYAN, Side.MAGENTA]),
-        (Role.REFEREE, False, [Side.CYAN, Side.MAGENTA]),
+        (TokenRole.SPECTATOR, False, []),
+        (TokenRole.SPECTATOR, True, [Side.CYAN, Side.MAGENTA]),
+        (TokenRole.CYAN, False, [Side.CYAN]),
+        (TokenRole.MAGENTA, False, [Side.MAGENTA]),
+        (TokenRole.MAGENTA, True, [Side.CYAN, Side.MAGENTA]),
+        (TokenRole.REFEREE, False, [Side.CYAN, Side.MAGENTA]),
     ],
 )
-def test_what_is_a_team_s_own_is_shown_to_it_and_to_the_referee(role: Role, to_all: bool, sides: list[Side]) -> None:
+def test_what_is_a_team_s_own_is_shown_to_it_and_to_the_referee(
+    role: TokenRole, to_all: bool, sides: list[Side]
+) -> None:
     assert sides_shown(role, to_all=to_all) == sides

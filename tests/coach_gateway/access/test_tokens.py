@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.access.tokens import Tokens, page_address, read_or_make
 from schemas.errors import TouchlineError
 
@@ -45,8 +45,8 @@ def test_new_tokens_are_long_and_all_different() -> None:
     assert min(map(len, some)) >= 22
 
 
-@pytest.mark.parametrize("role", list(Role))
-def test_a_token_stands_for_its_role(role: Role) -> None:
+@pytest.mark.parametrize("role", list(TokenRole))
+def test_a_token_stands_for_its_role(role: TokenRole) -> None:
     tokens = Tokens.random()
     assert tokens.role_of(tokens.of(role)) is role
 

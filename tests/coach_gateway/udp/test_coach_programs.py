@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.timing import SILENCE_S
 from coach_gateway.udp.coach_programs import MOST_OF_A_ROLE, MOST_WAITING, CoachPrograms, DatagramResult
 from coach_gateway.udp.protocol import MAX_BYTES, Ack
@@ -14,7 +14,12 @@ from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
 from schemas.soccer.game import REFBOX, ActionName
 
-TOKENS = {"": Role.SPECTATOR, "cyan-token": Role.CYAN, "magenta-token": Role.MAGENTA, "referee-token": Role.REFEREE}
+TOKENS = {
+    "": TokenRole.SPECTATOR,
+    "cyan-token": TokenRole.CYAN,
+    "magenta-token": TokenRole.MAGENTA,
+    "referee-token": TokenRole.REFEREE,
+}
 ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
 
 

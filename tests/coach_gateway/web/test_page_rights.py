@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from coach_gateway.access.rights import RIGHTS
-from coach_gateway.access.roles import Role
+from coach_gateway.access.roles import TokenRole
 from coach_gateway.web.pages.protocol import read_request
 from coach_gateway.web.pages.requests import refusal
 from schemas.side import Side
@@ -38,7 +38,9 @@ def test_the_page_can_ask_for_every_deed_of_the_table() -> None:
 
 @pytest.mark.parametrize("deed", list(EVERY_REQUEST))
 def test_a_spectator_is_refused_every_deed_by_its_name(deed: str) -> None:
-    assert (refusal(Role.SPECTATOR, EVERY_REQUEST[deed], ROBOTS) or "").startswith(f"{deed.replace('_', ' ')} needs ")
+    assert (refusal(TokenRole.SPECTATOR, EVERY_REQUEST[deed], ROBOTS) or "").startswith(
+        f"{deed.replace('_', ' ')} needs "
+    )
 
 
 @pytest.mark.parametrize(
@@ -54,4 +56,4 @@ def test_a_spectator_is_refused_every_deed_by_its_name(deed: str) -> None:
     ],
 )
 def test_a_message_of_cyan_s_coach_is_refused_for_the_other_side(message: Any, reason: str | None) -> None:
-    assert refusal(Role.CYAN, message, ROBOTS) == reason
+    assert refusal(TokenRole.CYAN, message, ROBOTS) == reason

@@ -20,7 +20,7 @@ from touchline.matches.cup.report import RESULT, report_of
 from touchline.matches.cup.site import Site
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import RunStore
 
@@ -57,7 +57,7 @@ class CupRun:
         """How far the cup is."""
         return self.plan.state(self._outcomes)
 
-    def play(self, executor: Executor, progress: Progress | None = None, *, is_remote: bool = False) -> CupState:
+    def play(self, executor: Executor, progress: ProgressDisplay | None = None, *, is_remote: bool = False) -> CupState:
         """Play all matches that have no outcome yet; pages are written after each.
 
         `is_remote`: the workers do not see the folder of the cup.

@@ -16,7 +16,7 @@ from touchline.matches.cup.cup_state import CupState
 from touchline.matches.cup.report import RESULT, report_of
 from touchline.matches.cup.site import standings
 from touchline.matches.engine.outcome import Played
-from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.verify import Depth, sampled, verify_run
 
@@ -43,7 +43,7 @@ def verify_cup(
     executor: Executor,
     sample: int | None = None,
     code_folder: Path | None = None,
-    progress: Progress | None = None,
+    progress: ProgressDisplay | None = None,
 ) -> CupVerdict:
     """Check a cup. Results are compared for all matches; `sample` of them are simulated again, drawn at random.
 

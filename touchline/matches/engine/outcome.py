@@ -9,7 +9,7 @@ from msgspec import ValidationError
 from recordings.soccer.stats.figures import MatchFigures
 from schemas.side import Side
 from schemas.wire.part import decoder, encode
-from touchline.matches.judging.judge import Verdict
+from touchline.matches.judging.judge import DrillVerdict
 
 
 class FailureKind(StrEnum):
@@ -41,7 +41,7 @@ class Played:
     """The hash chain over all states: equal for equal matches."""
     recording: str | None = None
     """The file of its recording; relative to the folder of the run if it is in there."""
-    verdict: Verdict | None = None
+    verdict: DrillVerdict | None = None
     """How a drill ended; None for a match, and for a drill that was over without a verdict."""
 
     @property

@@ -14,7 +14,7 @@ from touchline.launch.terminal.console import console
 from touchline.matches.engine.run_counts import RunCounts
 
 
-class Progress(Protocol):
+class ProgressDisplay(Protocol):
     """What is shown while matches are played."""
 
     def planned(self, done: int, due: int, failed: int = 0) -> None:
@@ -28,7 +28,7 @@ class Progress(Protocol):
 
 
 @contextmanager
-def progress_of(title: str, *, at_once: int = 1, json: bool = False) -> Iterator[Progress]:
+def progress_of(title: str, *, at_once: int = 1, json: bool = False) -> Iterator[ProgressDisplay]:
     """Yields what shows the progress; no match is known before `planned` is called.
 
     Args:
@@ -83,7 +83,7 @@ def _json_line(counts: RunCounts, sentence: str, failed: bool) -> str:
 
 
 @contextmanager
-def _bar(counts: RunCounts, title: str) -> Iterator[Progress]:
+def _bar(counts: RunCounts, title: str) -> Iterator[ProgressDisplay]:
     from rich import progress as rich_progress
     from rich.table import Column
     from rich.text import Text

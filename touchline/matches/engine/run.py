@@ -16,7 +16,7 @@ from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, relat
 from touchline.matches.engine.plan import Plan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play import play
-from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.worker import play_in_fresh_process
 
@@ -29,7 +29,7 @@ def run_plan(
     executor: Executor,
     store: RunStore | None,
     sentence_of: Callable[[PlannedMatch, Outcome], str],
-    progress: Progress | None = None,
+    progress: ProgressDisplay | None = None,
     *,
     is_remote: bool = False,
 ) -> dict[str, Outcome]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from schemas.errors import TouchlineError
 from touchline.matches.engine.dask_cluster import dask_cluster
 from touchline.matches.engine.fresh_process import FreshProcesses, cores
-from touchline.matches.engine.progress import Progress, progress_of
+from touchline.matches.engine.progress import ProgressDisplay, progress_of
 
 
 @dataclass(slots=True)
@@ -17,7 +17,7 @@ class Session:
     """Where the matches of a command are played, and what shows them."""
 
     executor: Executor
-    progress: Progress
+    progress: ProgressDisplay
     is_remote: bool
     """Whether the workers do not see the folder of the run."""
     is_interrupted: bool = False

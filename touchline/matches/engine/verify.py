@@ -22,7 +22,7 @@ from touchline.matches.engine.measurement import measured
 from touchline.matches.engine.outcome import Failed, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play import play
-from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.progress import ProgressDisplay
 from touchline.verify.resimulate import verify
 
 
@@ -81,7 +81,7 @@ def verify_run(
     folder: Path,
     executor: Executor,
     depth_of: Callable[[PlannedMatch], Depth] = lambda _: Depth(),
-    progress: Progress | None = None,
+    progress: ProgressDisplay | None = None,
 ) -> Iterator[MatchCheck]:
     """Check each match on the executor; yields each check when it is there, and shows it.
 

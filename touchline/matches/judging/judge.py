@@ -11,7 +11,7 @@ NO_CONDITION = "none of the conditions"
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class DrillVerdict:
     """How a drill ended."""
 
     success: bool
@@ -21,12 +21,12 @@ class Verdict:
     """Time in s since the start."""
 
 
-def verdict_of(drill: Drill, time: float, occurrences: Sequence[Occurrence]) -> Verdict | None:
+def verdict_of(drill: Drill, time: float, occurrences: Sequence[Occurrence]) -> DrillVerdict | None:
     """The verdict after a tick at this time in s in which this happened; None while the drill goes on."""
     for conditions, success in ((drill.failure, False), (drill.success, True)):
         for condition in conditions:
             if any(one.is_meant_by(condition) for one in occurrences):
-                return Verdict(success, condition, time)
+                return DrillVerdict(success, condition, time)
     if time >= drill.seconds - 1e-9:
-        return Verdict(drill.otherwise is DrillResult.SUCCESS, NO_CONDITION, time)
+        return DrillVerdict(drill.otherwise is DrillResult.SUCCESS, NO_CONDITION, time)
     return None

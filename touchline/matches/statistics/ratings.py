@@ -41,7 +41,7 @@ class Rating:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class RankComparison:
     """Whether a team is stronger than the next one."""
 
     stronger: str
@@ -59,7 +59,7 @@ class Ratings:
     """The ratings of all teams, best first."""
 
     teams: tuple[Rating, ...]
-    order: tuple[Comparison, ...]
+    order: tuple[RankComparison, ...]
     """Each team against the next one."""
 
     @property
@@ -87,7 +87,7 @@ def rate(teams: Sequence[str], results: Iterable[MatchResult], level: float = LE
     pairs = list(pairwise(order))
     corrected = holm([model.probability_of_equality(above, below, least) for above, below in pairs])
     comparisons = (
-        Comparison(teams[above], teams[below], SCALE * float(values[above] - values[below]), p, p < 1 - level)
+        RankComparison(teams[above], teams[below], SCALE * float(values[above] - values[below]), p, p < 1 - level)
         for (above, below), p in zip(pairs, corrected, strict=True)
     )
     return Ratings(tuple(rating(place) for place in order), tuple(comparisons))

@@ -12,7 +12,7 @@ from typing import Any
 from schemas.errors import MatchFailedError, TouchlineError
 from touchline.matches.engine.outcome import Failed, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
-from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import FILE, RunStore
 from touchline.matches.study.digests import as_text, library_digest, team_digests, versions
@@ -41,7 +41,7 @@ def run_study(
     folder: Path,
     executor: Executor,
     sentence_of: Callable[[PlannedMatch, Outcome], str],
-    progress: Progress | None = None,
+    progress: ProgressDisplay | None = None,
     *,
     fresh: bool = False,
     is_remote: bool = False,

@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from touchline.matches.engine.outcome import Outcome
-from touchline.matches.engine.progress import Progress
+from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.verify import Depth, ResultRow, sampled, verify_run
 from touchline.matches.series.plan import SeedMatch
 from touchline.matches.study.digests import file_digest, library_digest, team_digests
@@ -22,7 +22,7 @@ from touchline.matches.study.study_plan import recording_name
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class StudyVerdict:
     """What was found."""
 
     faults: list[str]
@@ -40,10 +40,10 @@ def verify_study(
     executor: Executor,
     sample: int | None,
     brain_folder: Path | None,
-    progress: Progress | None = None,
+    progress: ProgressDisplay | None = None,
     *,
     from_recordings: bool = True,
-) -> Verdict:
+) -> StudyVerdict:
     """Check the files of a study, and simulate a random sample of its matches again, or all of them.
 
     Args:
@@ -88,7 +88,7 @@ def verify_study(
         if not whole and not faults:
             faults.append(f"{CSV} differs from the table of the matches that were simulated again")
     notes = [*_notes(stored, home), *(f"{name} is a figure that the study does not have" for name in newer)]
-    return Verdict(faults, notes, len(chosen), whole)
+    return StudyVerdict(faults, notes, len(chosen), whole)
 
 
 def _rows(

@@ -10,7 +10,7 @@ from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from touchline.team.check.play import Played, play_checked
-from touchline.team.check.situations import Situation, over_time
+from touchline.team.check.situations import NamedSight, over_time
 from touchline.team.check.subject import BreachError, Subject
 
 DEFAULT_SECONDS = 12.0
@@ -97,7 +97,7 @@ def check_limits(examination: Examination) -> dict[str, float]:
     return {"commands": len(played.decisions)}
 
 
-Situations = Callable[[Sight, Setup], Iterator[Situation]]
+Situations = Callable[[Sight, Setup], Iterator[NamedSight]]
 Rule = Callable[[Command, Sight], str]
 """What a command does that its sight forbids; empty if nothing."""
 

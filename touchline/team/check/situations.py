@@ -21,45 +21,45 @@ _OUTSIDE_PLAY = (TeamPhase.PRE_GAME, TeamPhase.STOPPED, TeamPhase.HALF_TIME, Tea
 SET_PIECES = tuple(phase for phase in TeamPhase if phase.ours or phase.theirs or phase is TeamPhase.DROP_BALL)
 
 
-class Situation(NamedTuple):
+class NamedSight(NamedTuple):
     """A sight of one situation, with its name in messages."""
 
     name: str
     sight: Sight
 
 
-def over_time(situations: Iterator[Situation], tick_s: float) -> Iterator[Situation]:
+def over_time(situations: Iterator[NamedSight], tick_s: float) -> Iterator[NamedSight]:
     """Each situation for `TICKS` ticks, with time between two of them."""
     for number, (name, sight) in enumerate(situations):
         first = sight.tick + number * GAP
         for tick in range(first, first + TICKS):
-            yield Situation(name, replace(sight, tick=tick, time=tick * tick_s))
+            yield NamedSight(name, replace(sight, tick=tick, time=tick * tick_s))
 
 
-def ball_unseen(sight: Sight, setup: Setup) -> Iterator[Situation]:
+def ball_unseen(sight: Sight, setup: Setup) -> Iterator[NamedSight]:
     """The ball was never seen, or long ago, in play and at a restart without a spot."""
     del setup
     old = BallSight(x=30.0, y=-30.0, vx=5.0, vy=0.0, age=_FAR, visible=False)
     for phase in (TeamPhase.PLAY, TeamPhase.OUR_KICK_OFF, TeamPhase.THEIR_FREE_KICK):
         game = replace(sight.game, phase=phase, running=True, spot=None)
         for name, ball in (("never seen", None), ("seen long ago", old)):
-            yield Situation(
+            yield NamedSight(
                 f"the ball {name}, {phase.value}",
                 replace(sight, ball=ball, holding=False, obstacles=[], radio={}, game=game),
             )
 
 
-def stopped(sight: Sight, setup: Setup) -> Iterator[Situation]:
+def stopped(sight: Sight, setup: Setup) -> Iterator[NamedSight]:
     """The game does not run: before it, after it, between halves, after STOP."""
     del setup
     at_feet = BallSight(x=sight.self.x + 0.3, y=sight.self.y, vx=0.0, vy=0.0)
     for phase in _OUTSIDE_PLAY:
         for holding in (False, True):
             game = replace(sight.game, phase=phase, running=False, spot=None, left=None)
-            yield Situation(phase.value, replace(sight, game=game, holding=holding, ball=at_feet))
+            yield NamedSight(phase.value, replace(sight, game=game, holding=holding, ball=at_feet))
 
 
-def sent_off(sight: Sight, setup: Setup) -> Iterator[Situation]:
+def sent_off(sight: Sight, setup: Setup) -> Iterator[NamedSight]:
     """The robot is off the field, or all its teammates are."""
     mates = [name for team in setup.teams.values() if sight.robot in team.robots for name in team.robots]
     for reason in OffField:
@@ -67,10 +67,10 @@ def sent_off(sight: Sight, setup: Setup) -> Iterator[Situation]:
         others = [name for name in mates if name != sight.robot]
         for who, gone in (("the robot", [sight.robot]), ("all teammates", others)):
             game = replace(sight.game, phase=TeamPhase.PLAY, running=True, robots=dict.fromkeys(gone, record))
-            yield Situation(f"{who} off the field ({reason.value})", replace(sight, game=game, radio={}))
+            yield NamedSight(f"{who} off the field ({reason.value})", replace(sight, game=game, radio={}))
 
 
-def set_pieces(sight: Sight, setup: Setup) -> Iterator[Situation]:
+def set_pieces(sight: Sight, setup: Setup) -> Iterator[NamedSight]:
     """Each restart before and after START, with the spot of its kind; penalties of a shoot-out, too."""
     pitch = setup.pitch
     spots = {
@@ -90,10 +90,10 @@ def set_pieces(sight: Sight, setup: Setup) -> Iterator[Situation]:
             for stage in stages:
                 game = replace(sight.game, phase=phase, running=running, spot=spot, stage=stage)
                 when = "after START" if running else "before START"
-                yield Situation(f"{phase.value} {when}", replace(sight, game=game, ball=ball, holding=False))
+                yield NamedSight(f"{phase.value} {when}", replace(sight, game=game, ball=ball, holding=False))
 
 
-def radio_fields(sight: Sight, setup: Setup) -> Iterator[Situation]:
+def radio_fields(sight: Sight, setup: Setup) -> Iterator[NamedSight]:
     """Messages of teammates that lack each field, or have content that the team does not know."""
     mates = [name for team in setup.teams.values() if sight.robot in team.robots for name in team.robots]
     mates = [name for name in mates if name != sight.robot]
@@ -113,12 +113,12 @@ def radio_fields(sight: Sight, setup: Setup) -> Iterator[Situation]:
         extra = {key: value for received in sight.radio.values() for key in received.extra}
         cases[f"with {kind} in place of each value in extra"] = ReceivedRadio(age=0.02, extra=extra)
     for name, received in cases.items():
-        yield Situation(f"radio {name}", replace(sight, radio=dict.fromkeys(mates, received)))
+        yield NamedSight(f"radio {name}", replace(sight, radio=dict.fromkeys(mates, received)))
 
 
-def repeated(sight: Sight, setup: Setup) -> Iterator[Situation]:
+def repeated(sight: Sight, setup: Setup) -> Iterator[NamedSight]:
     """The same sight twice, a gap, and a world that is set up anew."""
     del setup
     game = replace(sight.game, phase=TeamPhase.PLAY, running=True)
-    yield Situation("a sight twice", replace(sight, game=game))
-    yield Situation("a new episode", replace(sight, game=replace(game, episode=game.episode + 1), ball=None))
+    yield NamedSight("a sight twice", replace(sight, game=game))
+    yield NamedSight("a new episode", replace(sight, game=replace(game, episode=game.episode + 1), ball=None))

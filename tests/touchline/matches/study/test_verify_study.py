@@ -14,7 +14,7 @@ pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
 from touchline.matches.study import study_folder  # noqa: E402
-from touchline.matches.study.verify_study import Verdict, verify_study  # noqa: E402
+from touchline.matches.study.verify_study import StudyVerdict, verify_study  # noqa: E402
 
 STILL = """
 from touchline import Command
@@ -29,7 +29,7 @@ class Still:
 """
 
 
-def verdict_of(home: Path, sample: int | None = None, *, from_recordings: bool = True) -> Verdict:
+def verdict_of(home: Path, sample: int | None = None, *, from_recordings: bool = True) -> StudyVerdict:
     return verify_study(home, ThreadPoolExecutor(1), sample, None, from_recordings=from_recordings)
 
 
