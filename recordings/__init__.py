@@ -1,4 +1,4 @@
-"""Recordings of matches: recorder, readers, editing, statistics, pictures, replay, other formats. Uses no physics."""
+"""Recordings of matches: recorder, readers, editing, statistics, replay, other formats. Uses no physics."""
 
 from typing import TYPE_CHECKING
 

@@ -39,7 +39,6 @@ SLOW = (
     "tests/recordings/container/test_json_schema.py",
     "tests/recordings/editing/test_recovery.py",
     "tests/recordings/exchange/",
-    "tests/recordings/picture/",
     "tests/recordings/reading/test_cursor.py",
     "tests/recordings/recorder/test_earlier_parts.py",
     "tests/recordings/recorder/test_part_sink.py",

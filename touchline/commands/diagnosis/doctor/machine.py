@@ -16,7 +16,7 @@ from touchline.commands.diagnosis.doctor.finding import Finding, Status
 
 _EXTRAS: Mapping[str, tuple[tuple[str, ...], str]] = {
     "coach": (("starlette", "uvicorn", "websockets"), "the page of --web"),
-    "viz": (("foxglove", "matplotlib"), "pictures and live viewers"),
+    "viz": (("foxglove",), "live viewers"),
     "ros2": (("rosbags",), "export to ROS 2"),
     "tls": (("trustme",), "making certificates"),
 }

@@ -1,4 +1,4 @@
-"""Draws robots, ball and obstacles on the pitch, and the trails of moving bodies."""
+"""Draws robots and ball on the pitch, and the trails of moving bodies."""
 
 import math
 import re
@@ -8,20 +8,16 @@ from itertools import pairwise
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
-from matplotlib.patches import Circle, Polygon, Rectangle
-from matplotlib.transforms import Affine2D
+from matplotlib.patches import Circle, Polygon
 
-from schemas.config.obstacle import Shape
-from schemas.config.sections import RobotBody
 from schemas.frames import Point
 from schemas.messages.setup import Setup
-from schemas.messages.world import ObstacleTruth, World
+from schemas.messages.world import World
 from schemas.side import Side
 
 COLOURS = {Side.CYAN: "#22c3dd", Side.MAGENTA: "#e0389a"}
 _EDGES = {Side.CYAN: "#073b45", Side.MAGENTA: "#4a0730"}
 _BALL = "#ffb000"
-_OBSTACLE = "#5d6470"
 _ROBOT_SCALE = 1.9
 """Scale at which robots are drawn: in true size, their numbers would be unreadable."""
 _BALL_SCALE = 1.6
@@ -32,8 +28,6 @@ _JUMP_M = 1.0
 def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float) -> None:
     """Draw the last of `worlds`, with trails through the others; `scale` is inches on paper per metre."""
     now = worlds[-1]
-    for obstacle in now.obstacles.values():
-        _obstacle(axes, obstacle, scale)
     sides = setup.sides
     for name, robot in now.robots.items():
         if robot.off_field is not None or name not in sides:
@@ -41,21 +35,16 @@ def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float)
         side = sides[name]
         way = [(world.robots[name].x, world.robots[name].y) for world in worlds if name in world.robots]
         _trail(axes, way, COLOURS[side], 6.0 * scale)
-        body = setup.for_robot(name).robot
-        _robot(axes, (robot.x, robot.y), robot.heading, body, side, _number(name, setup), scale)
+        radius = _ROBOT_SCALE * setup.for_robot(name).robot.radius
+        _robot(axes, (robot.x, robot.y), robot.heading, radius, side, _number(name, setup), scale)
     _trail(axes, [(world.ball.x, world.ball.y) for world in worlds], _BALL, 7.5 * scale)
     _ball(axes, now, setup.ball.radius, scale)
-
-
-def jumps(before: Point, after: Point) -> bool:
-    """Whether a body was placed by hand, because it cannot have moved that far in one tick."""
-    return math.dist(before, after) > _JUMP_M
 
 
 def _trail(axes: Axes, way: Sequence[Point], colour: str, width: float) -> None:
     """Draw a line that fades toward the past."""
     steps = list(pairwise(way))
-    kept = [(number, step) for number, step in enumerate(steps, 1) if not jumps(*step)]
+    kept = [(number, step) for number, step in enumerate(steps, 1) if math.dist(*step) <= _JUMP_M]
     if not kept:
         return
     ages = [number / len(steps) for number, _ in kept]
@@ -70,26 +59,9 @@ def _trail(axes: Axes, way: Sequence[Point], colour: str, width: float) -> None:
     )
 
 
-def _obstacle(axes: Axes, obstacle: ObstacleTruth, scale: float) -> None:
-    """Draw an obstacle in true size."""
-    x, y = obstacle.x, obstacle.y
-    look = {"facecolor": _OBSTACLE, "edgecolor": "#23272e", "lw": 2.0 * scale, "zorder": 2.8}
-    if obstacle.shape is Shape.CYLINDER:
-        axes.add_patch(Circle((x, y), obstacle.radius, **look))
-        return
-    corner = x - obstacle.size_x / 2, y - obstacle.size_y / 2
-    turned = math.degrees(obstacle.heading)
-    axes.add_patch(Rectangle(corner, obstacle.size_x, obstacle.size_y, angle=turned, rotation_point="center", **look))
-
-
-def _robot(axes: Axes, place: Point, heading: float, body: RobotBody, side: Side, number: str, scale: float) -> None:
-    """Draw a disc with its number, a nose in the kicking direction, and a frame if the body has one."""
-    (x, y), radius = place, _ROBOT_SCALE * body.radius
-    if body.frame_width:
-        depth, width = _ROBOT_SCALE * body.frame_depth, _ROBOT_SCALE * body.frame_width
-        frame = Rectangle((radius - depth, -width / 2), depth, width, facecolor=_EDGES[side], lw=0, zorder=3.05)
-        frame.set_transform(Affine2D().rotate(heading).translate(x, y) + axes.transData)
-        axes.add_patch(frame)
+def _robot(axes: Axes, place: Point, heading: float, radius: float, side: Side, number: str, scale: float) -> None:
+    """Draw a disc with its number, and a nose in the kicking direction."""
+    x, y = place
     nose = [
         (x + reach * radius * math.cos(heading + turn), y + reach * radius * math.sin(heading + turn))
         for turn, reach in ((-0.5, 0.96), (0.0, 1.5), (0.5, 0.96))
