@@ -2,7 +2,7 @@
 
 import json as json_text
 import signal
-from contextlib import closing, nullcontext
+from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -43,10 +43,6 @@ def tournament(
         int | None,
         typer.Option(metavar="MATCHES", help="Add rounds until the order is significant, up to this many matches."),
     ] = None,
-    web: Annotated[
-        bool, typer.Option("--web", help="Serve the pages while the cup runs, and print the address.")
-    ] = False,
-    port: Annotated[int, typer.Option(help="Port of --web; 0 for a free one.")] = 0,
     sample: Annotated[int, typer.Option(min=0, help="Of verify: simulate this many matches again; 0 for all.")] = 0,
     brains: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Of verify: where teams are looked for; by default as then.")
@@ -62,7 +58,7 @@ def tournament(
     the matches again, and compares digests, results and table. The exit status is 1 if a match has no result, or does
     not fit. `touchline tournament digest my_team:MyTeam` prints the digest of a team's files.
 
-    Example: touchline tournament matches/cup.toml --web
+    Example: touchline tournament matches/cup.toml --jobs 2
     """
     options.need_pybullet()
     options.need_scipy()
@@ -79,7 +75,6 @@ def tournament(
     if folder is not None:
         raise TouchlineError(f"{folder}: one cup file is enough; use --out for the folder of the cup")
     from touchline.matches.cup.run_cup import CupRun
-    from touchline.matches.cup.serve import served
     from touchline.matches.engine.session import session_of
 
     cup = _cup_of(file, until_significant)
@@ -87,12 +82,9 @@ def tournament(
     with (
         session_of(cup.title or cup.name, jobs, dask, json=json) as session,
         closing(CupRun(cup, file.parent.resolve(), place, resume=resume)) as run,
-        served(place, port) if web else nullcontext() as address,
+        session.interruptible(),
     ):
-        if address is not None:
-            typer.echo(f"pages  {address}", err=json)
-        with session.interruptible():
-            run.play(session.executor, session.progress, is_remote=session.is_remote)
+        run.play(session.executor, session.progress, is_remote=session.is_remote)
     _print(run.state, place, json=json)
     if session.is_interrupted:
         typer.echo(f"interrupted; --resume goes on with the matches that are missing in {place}", err=True)
