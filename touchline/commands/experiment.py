@@ -1,4 +1,4 @@
-"""`touchline experiment`: studies over factors of a match, their comparison, and their reproduction."""
+"""`touchline experiment`: studies over factors of a match, and their reproduction."""
 
 import json as json_text
 import signal
@@ -115,32 +115,6 @@ def run(
     if failed:
         typer.echo(f"{len(failed)} matches failed: {failed[0].reason}", err=True)
         raise typer.Exit(FAILED)
-
-
-@app.command()
-def compare(
-    first: Annotated[Path, typer.Argument(metavar="A", help="The folder of a study.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="The folder of another with the same cells.")],
-    json: options.Json = False,
-) -> None:
-    """Compare two studies cell by cell, such as one study before and after a change of a team.
-
-    Seeds that both studies have are compared one by one.
-
-    Example: touchline experiment compare runs/before runs/after
-    """
-    _need_packages()
-
-    from touchline.matches.study.compare_studies import compare_studies
-    from touchline.matches.study.sentences import sentence_of
-    from touchline.matches.study.study_folder import read_study
-
-    found = compare_studies(read_study(first), read_study(second))
-    if json:
-        typer.echo(json_text.dumps([asdict(one) for one in found], ensure_ascii=False))
-        return
-    for one in found:
-        typer.echo(f"{one.cell}: {sentence_of(one.comparison, one.response)}")
 
 
 @app.command()

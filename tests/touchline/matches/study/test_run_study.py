@@ -14,7 +14,6 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.matches.study.compare_studies import compare_studies  # noqa: E402
 from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
 from touchline.matches.study.study_folder import read_study  # noqa: E402
 from touchline.matches.study.verify_study import verify_study  # noqa: E402
@@ -113,14 +112,6 @@ def test_a_team_on_the_network_is_refused_in_one_process_before_any_match(run: R
     with pytest.raises(TouchlineError, match=r'teams\.cyan has a command.*write way = "processes"'):
         run(SHORT.replace("[settings]", '[settings]\nteams.cyan.command = ["robot"]'), played)
     assert played == []
-
-
-def test_two_runs_of_a_study_are_compared_seed_by_seed(played: Path, home: Path, tmp_path: Path) -> None:
-    shutil.copytree(home, tmp_path / "other")
-    found = compare_studies(read_study(home), read_study(tmp_path / "other"))
-    assert {one.cell for one in found} == {"radio.loss = 0", "radio.loss = 0.4"}
-    driven = [one for one in found if one.response == "distance"]
-    assert [(one.paired, one.comparison.estimate.value) for one in driven] == [(True, 0.0), (True, 0.0)]
 
 
 def test_a_published_study_names_no_path_of_this_machine(played: Path, home: Path, short_study: Path) -> None:
