@@ -121,7 +121,7 @@ class ReplayHost:
         if chunks is None:
             return None
         if recorded.topic.writer is Party.HOST:
-            return self._batches.publisher(recorded.topic, recorded=True, **chunks)
+            return self._batches.recorded_publisher(recorded.topic, **chunks)
         return self._bus.publisher(recorded.topic, **chunks)
 
     def _answer(self) -> None:

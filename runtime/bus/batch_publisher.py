@@ -7,7 +7,7 @@ program the robot runs, and a recording has exactly the messages that the host r
 from collections import deque
 from collections.abc import Callable
 from itertools import islice
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from msgspec import Raw
 
@@ -38,6 +38,16 @@ _MAX_REPLIES_PER_TICK = 4
 """Most replies between two ticks, so that recorders with many requests do not delay the host."""
 
 
+class RecordedPublishers(Protocol):
+    """What a host publishes with: what is recorded of it is recorded in the order of publishing."""
+
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        """A publisher of the host whose messages are recorded where the topic is."""
+
+    def add_own(self, key: str, payload: bytes, stamp: Stamp) -> None:
+        """Record a message that was published on a key that is not recorded always."""
+
+
 class _Kept(NamedTuple):
     sent_ns: int
     payload: memoryview
@@ -61,10 +71,13 @@ class BatchPublisher:
         self._kept: deque[_Kept] = deque()
         self._kept_bytes = self._next = 0
 
-    def publisher(self, topic: Topic, *, recorded: bool = False, **chunks: str) -> Publisher:
-        """A publisher of the host whose messages are recorded where the topic is, and in any case with `recorded`."""
-        writer = self._bus.publisher(topic, **chunks)
-        return _Recorded(writer, self) if topic.recorded or recorded else writer
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        """A publisher of the host whose messages are recorded where the topic is."""
+        return self.recorded_publisher(topic, **chunks) if topic.recorded else self._bus.publisher(topic, **chunks)
+
+    def recorded_publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        """A publisher whose messages are recorded in any case."""
+        return _Recorded(self._bus.publisher(topic, **chunks), self)
 
     def add_received(self, received: ReceivedMessage) -> None:
         """Add a message of another process."""

@@ -1,7 +1,7 @@
 """The interface of a bus: publish, subscribe, query, serve, and liveliness tokens, by the rows of the topic table.
 
-All other code uses this interface. `zenoh.bus` and `in_process_bus` implement it with the same behaviour, which one
-conformance suite tests for both.
+All other code uses this interface. `zenoh.bus` implements it; tests have a bus within one process that passes the same
+conformance suite.
 """
 
 from abc import ABC, abstractmethod

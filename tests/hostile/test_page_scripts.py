@@ -11,7 +11,6 @@ from playwright.sync_api import Browser
 from coach_gateway.web.pages.match_result import FILE
 from recordings.reading.recording import open_recording
 from recordings.soccer.stats.page import page_of
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.messages.coach import CoachOrder
 from schemas.messages.health import Health
@@ -21,6 +20,7 @@ from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase
 from schemas.topics import EVENT, HEALTH
 from support.fake_host import FakeHost
+from support.in_process_bus import SharedState
 from support.page_gateway import Gateway
 from support.recorded_match import record_match
 from support.tab import Tab

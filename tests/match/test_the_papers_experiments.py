@@ -22,7 +22,6 @@ from robot_agent.teams.nubot import NuBot
 from robot_agent.teams.nubot.machine import State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from runtime.bus.contract import Bus, PendingReply
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.config.scene import Scene, load_scene
 from schemas.messages.coach import CoachMode, CoachTest
@@ -34,6 +33,7 @@ from schemas.soccer.game import ActionName, Phase, TeamPhase
 from schemas.topics import SCENE
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 CYAN = ("cyan1", "cyan2", "cyan3")

@@ -14,10 +14,10 @@ from recordings.reading.recording import Recording
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import RecordOptions
 from schemas.soccer.game import Phase, Score
+from support.in_process_bus import SharedState
 from support.recorded_match import match_recorder, played
 from support.recorder_rig import ONE_PART, FakeHost, RecorderRig, make_setup
 from support.stepped_clock import SteppedClock

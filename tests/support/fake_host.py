@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from runtime.bus.contract import Bus, Publisher, Query
-from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import Clock, WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
@@ -23,6 +22,7 @@ from schemas.soccer.game import Phase
 from schemas.topic import Topic
 from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, DEBUG, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD
 from schemas.wire.message import Message
+from support.in_process_bus import SharedState
 from support.messages import make_event, make_robot, make_world
 
 MATCH = "friendly"

@@ -8,7 +8,6 @@ from typing import Any
 
 from coach_gateway.match.live import LiveMatch
 from robot_agent.process.runner import Runner
-from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.messages.coach import CoachOrder
@@ -21,6 +20,7 @@ from sim_host.server.pace import Lockstep
 from sim_host.soccer.referee.game.referee_state import RefereeState
 from support.answers import answer_next
 from support.fake_host import MATCH, FakeHost
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 LIMIT_S = 90.0

@@ -3,9 +3,9 @@
 from dataclasses import dataclass, field
 
 from runtime.bus.contract import Publisher, Stamp
-from runtime.bus.in_process_bus import InProcessBus, SharedState
 from runtime.process.clock import Clock
 from schemas.topic import Topic
+from support.in_process_bus import InProcessBus, SharedState
 
 
 @dataclass

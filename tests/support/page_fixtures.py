@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 
 from coach_gateway.web.settings import WebSettings
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
@@ -24,6 +23,7 @@ from schemas.topics import (
     SCENE,
 )
 from support.fake_host import Answer, FakeHost
+from support.in_process_bus import SharedState
 from support.page_gateway import SOON, Gateway, tokens_in
 from support.visitor import Visitor
 

@@ -10,8 +10,8 @@ from coach_gateway.service import together
 from coach_gateway.web.serving.binding import bind_page
 from coach_gateway.web.serving.server import WebServer
 from coach_gateway.web.settings import WebSettings
-from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
+from support.in_process_bus import SharedState
 
 SOON = 20.0
 """Patience in s, longer than any wait here: a test fails only if something never happens."""

@@ -9,7 +9,6 @@ from coach_gateway.match.host_client import HostClient
 from robot_agent.loading.brain_loader import load_brain
 from robot_agent.process.runner import Runner
 from robot_agent.sdk.contract import Briefing
-from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.messages.command import Command
@@ -22,6 +21,7 @@ from schemas.soccer.game import ActionName
 from schemas.topics import EVENT, Topic
 from sim_host.server.host import Host
 from support.answers import answer_next
+from support.in_process_bus import SharedState
 from support.page_gateway import SOON
 from support.process_story import wait_for
 

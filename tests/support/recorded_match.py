@@ -8,7 +8,6 @@ import pytest
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from runtime.bus.batch_publisher import BatchPublisher
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.settings import RecordOptions
 from schemas.messages.command import Command
@@ -18,6 +17,7 @@ from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.reports.debug_publisher import DebugPublisher
 from sim_host.server.reports.outbox import Outbox
+from support.in_process_bus import SharedState
 from support.recorder_rig import ONE_PART
 from support.stepped_clock import SteppedClock
 from touchline.play.play_match import InProcessMatch

@@ -10,7 +10,6 @@ from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus, Publisher, ReceivedMessage, Server
-from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.settings import RecordOptions
@@ -24,6 +23,7 @@ from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topic import Topic
 from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
+from support.in_process_bus import InProcessBus, SharedState
 from support.messages import make_robot
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.batch_publisher import RecordedPublishers
 from runtime.bus.contract import Publisher
 from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
@@ -15,7 +15,7 @@ from sim_host.snapshot import Roster
 class DebugPublisher:
     """A publisher for each robot that has sent a drawing."""
 
-    def __init__(self, batches: BatchPublisher, tick_s: float) -> None:
+    def __init__(self, batches: RecordedPublishers, tick_s: float) -> None:
         """`tick_s` is the control tick in s."""
         self._batches = batches
         self._tick_s = tick_s

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from runtime.bus.batch_publisher import BatchPublisher
+from runtime.bus.batch_publisher import RecordedPublishers
 from runtime.bus.contract import Publisher, ReceivedMessage, Stamp
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
@@ -19,7 +19,7 @@ _LISTENER_CHECK_TICKS = 50
 class Outbox:
     """All publishers of the host."""
 
-    def __init__(self, batches: BatchPublisher, roster: Roster, tick_s: float) -> None:
+    def __init__(self, batches: RecordedPublishers, roster: Roster, tick_s: float) -> None:
         self.sights_recorded = False
         """Sights are recorded, too: with ten robots they are four times as many bytes as all other messages."""
         self._batches = batches

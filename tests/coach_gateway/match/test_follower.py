@@ -1,6 +1,5 @@
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from runtime.bus.contract import Bus, ReceivedMessage
-from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.health import Health
@@ -10,6 +9,7 @@ from schemas.messages.world import BallTruth, World
 from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topics import ACTIVE_ORDER, BELIEF, EVENT, HEALTH, STATE, WORLD
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 

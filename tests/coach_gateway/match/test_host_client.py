@@ -3,7 +3,6 @@ import pytest
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from runtime.bus.contract import Bus, PresenceKind
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
@@ -12,6 +11,7 @@ from schemas.side import Side
 from schemas.soccer.game import ActionName
 from schemas.topics import ACTION, ACTIVE_ORDER, ORDER
 from support.fake_host import FakeHost
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 MICROSECONDS = 1_795_275_009_214_000

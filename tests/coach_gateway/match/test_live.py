@@ -8,7 +8,6 @@ import pytest
 
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.soccer.refbox.call_generator import CallGenerator
-from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
 from schemas.messages.soccer.game import GameState, RefereeAction
@@ -16,6 +15,7 @@ from schemas.side import Side
 from schemas.soccer.game import REFBOX, ActionName, Phase, Score
 from schemas.topics import SETUP, STATE
 from support.gateway_bench import kicked_off, opened, until
+from support.in_process_bus import SharedState
 from support.messages import make_setup
 from support.stepped_clock import SteppedClock
 

@@ -3,10 +3,10 @@
 import pytest
 
 from coach_gateway.match.orders import OrderBook, OrderFollower, OrderStatus
-from runtime.bus.in_process_bus import SharedState
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 

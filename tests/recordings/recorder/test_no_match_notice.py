@@ -2,7 +2,7 @@ import pytest
 
 from recordings.recorder.no_match_notice import NoMatchNotice
 from runtime.bus.contract import PresenceKind
-from runtime.bus.in_process_bus import SharedState
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 

@@ -167,7 +167,7 @@ def test_sights_are_recorded_on_demand_and_then_all_of_them(make_rig, tmp_path):
     for sights, expected in ((True, 30), (False, 0)):
         rig = make_rig(sights=sights, path=tmp_path / f"{sights}.mcap")
         rig.begin()
-        sight = rig.host.batches.publisher(SIGHT, recorded=True, robot="cyan1")
+        sight = rig.host.batches.recorded_publisher(SIGHT, robot="cyan1")
         for _ in range(30):
             sight.put_payload(b"{}")
         rig.leave()

@@ -12,13 +12,13 @@ from recordings.recorder.recorder import Recorder
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from runtime.bus.contract import NoReplyError
-from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.messages.setup import SetupRequest
 from schemas.messages.soccer.game import RefereeAction
 from schemas.soccer.game import ActionName
 from schemas.topics import ACTION, EVENT, REPLAY_CONTROL, SETUP, WORLD
+from support.in_process_bus import InProcessBus, SharedState
 from support.stepped_clock import SteppedClock
 
 

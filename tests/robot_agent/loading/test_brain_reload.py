@@ -13,9 +13,9 @@ from robot_agent.process.run import run
 from robot_agent.process.runner import serve
 from robot_agent.process.settings import AgentSettings
 from robot_agent.sdk.contract import Briefing
-from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.topics import COMMAND, SETUP
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 NUMBERS = count()

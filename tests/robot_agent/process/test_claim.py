@@ -6,11 +6,11 @@ import pytest
 
 from robot_agent.process.claim import Membership
 from runtime.bus.contract import PresenceKind
-from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaimReply
 from schemas.side import Side
 from schemas.topics import ROBOT_CLAIM
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 

@@ -7,11 +7,11 @@ import pytest
 from robot_agent.loading.brain_error import BrainError
 from robot_agent.process.runner import Runner, ask_setup, serve
 from robot_agent.process.settings import FIRST_SIGHT_FAILED
-from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.topics import COMMAND, SETUP, SIGHT
 from support.answers import answer_next
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from runtime.bus import batch_publisher as module
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import NoReplyError, ReceivedMessage, Stamp
-from runtime.bus.in_process_bus import SharedState
 from schemas.messages.command import Command
 from schemas.messages.record_batch import (
     BatchEntry,
@@ -17,6 +16,7 @@ from schemas.messages.record_batch import (
     payload_fields,
 )
 from schemas.topics import COMMAND, EVENT, RECORD_BATCH, RECORD_BATCHES, SIGHT, WORLD
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 
 KEY = "robot/cyan1/command"

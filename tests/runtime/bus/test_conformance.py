@@ -10,7 +10,6 @@ import pytest
 
 from runtime.bus.contract import Bus, BusError, NoReplyError, Subscription
 from runtime.bus.endpoint import with_free_port
-from runtime.bus.in_process_bus import SharedState
 from runtime.bus.zenoh.bus import open_client, open_host
 from runtime.process.clock import WallClock
 from schemas.messages.coach import CoachOrder
@@ -20,6 +19,7 @@ from schemas.soccer.game import ActionName, Phase
 from schemas.topic import Topic
 from schemas.topics import ACTION, COMMAND, ORDER, SETUP, SIGHT, STATE, WORLD_BALL, WORLD_ROBOT
 from schemas.wire.message import BadMessageError
+from support.in_process_bus import SharedState
 
 SOON = 30.0
 """s; more than anything on loopback takes, so that only what never comes fails a test."""

@@ -6,8 +6,8 @@ import pytest
 
 from runtime.bus.contract import PresenceKind
 from runtime.bus.host_watch import HostWatch
-from runtime.bus.in_process_bus import InProcessBus, SharedState
 from runtime.process.timing import CUT_OFF_S, LINK_GRACE_S
+from support.in_process_bus import InProcessBus, SharedState
 from support.stepped_clock import SteppedClock
 
 

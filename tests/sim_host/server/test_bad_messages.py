@@ -4,7 +4,6 @@ import pytest
 
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import ReceivedMessage
-from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.messages.coach import CoachMode, CoachOrder
@@ -15,6 +14,7 @@ from sim_host.server import inbox
 from sim_host.server.admission.account_limits import AccountLimits
 from sim_host.server.admission.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
+from support.in_process_bus import InProcessBus, SharedState
 from support.stepped_clock import SteppedClock
 
 RUBBISH = {

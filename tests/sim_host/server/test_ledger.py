@@ -4,7 +4,6 @@ import pytest
 
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import ReceivedMessage, Stamp
-from runtime.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.messages.command import Command
@@ -19,6 +18,7 @@ from sim_host.server.admission.agent_stats import AgentStats
 from sim_host.server.admission.invalid_log import InvalidLog
 from sim_host.server.inbox import Inbox
 from sim_host.snapshot import Roster
+from support.in_process_bus import InProcessBus, SharedState
 from support.stepped_clock import SteppedClock
 
 

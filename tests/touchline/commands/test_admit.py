@@ -8,11 +8,11 @@ from typer.testing import CliRunner, Result
 
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
 from schemas.topics import ADMISSION
 from sim_host.server.admission.recorder_admission import Admission
 from support.fake_host import FakeHost
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 from touchline.commands import admit
 from touchline.commands.cli.command_line import app

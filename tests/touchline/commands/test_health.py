@@ -12,7 +12,6 @@ from recordings.container.key_selection import EVERYTHING
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import AccountHealth, Health, RobotHealth, TeamRadio
@@ -20,6 +19,7 @@ from schemas.side import Side
 from schemas.topics import HEALTH
 from support.fake_host import FakeHost
 from support.host_rig import TEAMS, HostRig
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 from touchline.commands import health
 from touchline.commands.cli.command_line import app

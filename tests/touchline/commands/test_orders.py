@@ -9,7 +9,6 @@ from typer.testing import CliRunner, Result
 
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
@@ -17,6 +16,7 @@ from schemas.messages.setup import Setup
 from schemas.soccer.game import Point
 from schemas.topics import SETUP
 from support.fake_host import FakeHost
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 from touchline.commands import orders
 from touchline.commands.cli.command_line import app

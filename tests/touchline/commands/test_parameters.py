@@ -10,13 +10,13 @@ from typer.testing import CliRunner, Result
 
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.parameters import ParametersReply
 from schemas.topics import PARAMETERS
 from sim_host.match.live_parameters import LiveParameters
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 from touchline.commands import parameters
 from touchline.commands.cli.command_line import app

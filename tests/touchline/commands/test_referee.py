@@ -8,7 +8,6 @@ from typer.testing import CliRunner, Result
 from coach_gateway.access.referee_name import terminal_name
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.soccer.game import ActionReply, GameState, RefereeAction
@@ -17,6 +16,7 @@ from schemas.soccer.game import ActionName, Phase, Score
 from schemas.topics import ACTION, HEALTH, REFEREE_SEAT, STATE
 from sim_host.server.services.referee_seat import RefereeSeat
 from support.fake_host import FakeHost
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 from touchline.commands import coach, referee
 from touchline.commands.cli.command_line import app

@@ -12,13 +12,13 @@ from typer.testing import CliRunner, Result
 
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import load_match
 from schemas.config.scene import shipped_scenes
 from schemas.side import Side
 from schemas.topics import SCENE
 from sim_host.match.simulation import Simulation
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 from touchline.commands import scene
 from touchline.commands.cli.command_line import app

@@ -10,10 +10,10 @@ from playwright.sync_api import Browser
 
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
-from runtime.bus.in_process_bus import SharedState
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.messages.replay import ReplayOperation, ReplayRequest
+from support.in_process_bus import SharedState
 from support.page_gateway import SOON, Gateway
 from support.page_match import TEAMS, Match
 from support.recorded_match import record_match

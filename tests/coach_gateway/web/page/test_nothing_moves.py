@@ -5,7 +5,6 @@ from typing import Any
 
 import pytest
 
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.messages.radio import Radio
 from schemas.messages.soccer.game import DisciplinaryRecord, RobotQuestion, Score
@@ -13,6 +12,7 @@ from schemas.side import Side
 from schemas.soccer.game import ActionName, Card, EventKind, OffField, Phase
 from schemas.topics import EVENT
 from support.fake_host import FakeHost
+from support.in_process_bus import SharedState
 from support.messages import make_event
 from support.visitor import Visitor
 

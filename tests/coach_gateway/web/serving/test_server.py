@@ -8,7 +8,6 @@ import pytest
 
 from coach_gateway.web.pages.protocol import ServerMessage
 from coach_gateway.web.settings import WebSettings
-from runtime.bus.in_process_bus import SharedState
 from schemas.config.scene import shipped_scenes
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.world import RobotTruth
@@ -16,6 +15,7 @@ from schemas.side import Side
 from schemas.topics import EVENT, WORLD
 from schemas.wire.part_faults import decoded
 from support.fake_host import FakeHost
+from support.in_process_bus import SharedState
 from support.messages import make_event, make_world
 from support.page_gateway import SOON, TOKENS, Gateway
 from support.visitor import Visitor

@@ -5,7 +5,6 @@ import pytest
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from runtime.bus.contract import Bus
-from runtime.bus.in_process_bus import SharedState
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.radio import Belief, Radio
@@ -16,6 +15,7 @@ from schemas.side import Side
 from schemas.soccer.game import ActionName, EventKind, OffField, Phase, Score
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
 from schemas.wire.part_faults import validated
+from support.in_process_bus import SharedState
 from support.messages import make_setup
 from support.stepped_clock import SteppedClock
 from touchline.launch.terminal.panel import ARROWS, head, orders, panel, robots

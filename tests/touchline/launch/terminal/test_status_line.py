@@ -2,13 +2,13 @@ import pytest
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.team_names import TeamNames
-from runtime.bus.in_process_bus import SharedState
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.recorder import RecorderProgress
 from schemas.messages.soccer.game import DisciplinaryRecord, GameState
 from schemas.side import Side
 from schemas.soccer.game import GameStage, OffField, Phase, Score
 from schemas.topics import RECORDER_PROGRESS
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
 from touchline.launch.terminal.status_line import robots_text, status_line
 

@@ -7,13 +7,13 @@ from rich.console import Console
 from rich.text import Text
 from typer.testing import CliRunner
 
-from runtime.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.debug import Debug, RobotDebug
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase, Score
 from schemas.topics import DEBUG, EVENT, STATE, WORLD
+from support.in_process_bus import SharedState
 from support.messages import make_setup, make_world
 from support.stepped_clock import SteppedClock
 from touchline.commands.cli.command_line import app

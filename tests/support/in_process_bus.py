@@ -1,4 +1,4 @@
-"""The bus within one process: the same behaviour without a network, for tests and matches in one process."""
+"""The bus within one process: the same behaviour as that over Zenoh, without a network."""
 
 import threading
 from collections import deque
