@@ -56,7 +56,6 @@ class Importer(NamedTuple):
 EXPORTERS = {
     "csv": Exporter("recordings.exchange.csv_files", "-csv", "tables of robots, ball, events, states and commands"),
     "msl-log": Exporter("recordings.soccer.league.export", ".msl.zip", "the log of the league's referee box"),
-    "protobuf": Exporter("recordings.exchange.protobuf.export", "-protobuf.mcap", "MCAP with typed messages"),
     "ros2": Exporter("recordings.exchange.ros2", "-ros2", "a ROS 2 bag of clock, transforms, odometry and twists"),
 }
 """Format → its exporter."""

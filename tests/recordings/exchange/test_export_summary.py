@@ -7,7 +7,6 @@ import pytest
 
 from recordings.editing.atomic_output import ExportSummary
 from recordings.exchange import csv_files, ros2
-from recordings.exchange.protobuf import export as protobuf
 from recordings.reading.recording import Recording
 from recordings.soccer.league import export as msl
 from support.recorder_rig import RecorderRig
@@ -15,7 +14,6 @@ from support.recorder_rig import RecorderRig
 EXPORTS: dict[str, Callable[[Recording, Path], ExportSummary]] = {
     "csv": csv_files.export,
     "msl": msl.export,
-    "protobuf": protobuf.export,
     "ros2": ros2.export,
 }
 

@@ -8,7 +8,7 @@ from mcap_protobuf.decoder import DecoderFactory
 
 from recordings.container.key_selection import KeySelection
 from recordings.editing.filtering import filter_recording
-from recordings.exchange.protobuf.export import export
+from recordings.exchange.csv_files import export
 from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
@@ -111,8 +111,8 @@ def test_with_or_without_it_a_recording_is_the_same_match(short, plain, tmp_path
     assert figures_of_recording(seen).to_json() == figures_of_recording(bare).to_json()
     assert seen.result is not None and bare.result is not None
     assert seen.result.keys == bare.result.keys
-    written = export(seen, tmp_path / "typed.mcap").written
-    assert written == export(bare, tmp_path / "bare.mcap").written
+    written = export(seen, tmp_path / "seen").written
+    assert written == export(bare, tmp_path / "bare").written
     assert facts_of(seen).messages == facts_of(bare).messages
 
 
