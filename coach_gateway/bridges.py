@@ -14,12 +14,12 @@ from coach_gateway.settings import BridgeOptions
 from coach_gateway.soccer import refbox
 from coach_gateway.soccer.refbox.audience_feed import AudienceFeed
 from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.soccer.refbox.framing import BoxProtocol
 from coach_gateway.soccer.refbox.identity import SENT
 from coach_gateway.soccer.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.udp.server import UdpServer
 from runtime.bus.contract import Bus
 from schemas.errors import TouchlineError
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
 
 

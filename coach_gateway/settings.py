@@ -6,11 +6,11 @@ from typing import Annotated
 from pydantic import Field
 
 from coach_gateway.ports import LOOPBACK
-from coach_gateway.soccer.refbox.framing import BoxProtocol
 from coach_gateway.web.settings import WebSettings
 from runtime.bus.settings import ClientSettings
 from runtime.process.log_format import LogSettings
 from schemas.config.settings import CommandLine, Settings
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
 
 

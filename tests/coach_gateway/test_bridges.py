@@ -20,7 +20,6 @@ from coach_gateway.ports import INHERITED, InheritedSockets, inheritance_of
 from coach_gateway.process import say as log
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from coach_gateway.soccer.refbox.client import BoxAddress
-from coach_gateway.soccer.refbox.framing import BoxProtocol
 from coach_gateway.soccer.refbox.server import ServerAddress
 from runtime.bus.endpoint import with_free_port
 from runtime.bus.settings import ClientSettings
@@ -29,6 +28,7 @@ from runtime.process.clock import WallClock
 from runtime.process.settings_file import write_settings
 from schemas.errors import TouchlineError
 from schemas.messages.soccer.game import GameState
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
 from schemas.soccer.game import Phase
 from schemas.topics import SETUP, STATE

@@ -7,8 +7,8 @@ import pytest
 
 from coach_gateway.soccer.refbox import signal_queue
 from coach_gateway.soccer.refbox.client import RefBoxClient
-from coach_gateway.soccer.refbox.framing import BoxProtocol
 from schemas.messages.soccer.game import ActionReply
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.soccer.game import ActionName, Phase
 from support.box_client import connected
 from support.gateway_bench import Bench, until

@@ -8,8 +8,9 @@ import pytest
 
 from coach_gateway.soccer.refbox import peers
 from coach_gateway.soccer.refbox.audience_feed import AudienceFeed
-from coach_gateway.soccer.refbox.framing import BoxProtocol, Framer
+from coach_gateway.soccer.refbox.framing import Framer
 from coach_gateway.soccer.refbox.server import ServerAddress
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
 from support.base_stations import Boxed, boxed
 from support.gateway_bench import until

@@ -5,7 +5,7 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.soccer.refbox.framing import BoxProtocol
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
 from support.gateway_bench import Bench, opened, until
 from support.referee_box import Box

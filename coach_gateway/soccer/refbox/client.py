@@ -16,7 +16,7 @@ from coach_gateway.match.live import LiveMatch
 from coach_gateway.service import pause, until_first
 from coach_gateway.soccer.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.soccer.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_ours, response_to, speaks_for
-from coach_gateway.soccer.refbox.framing import BoxProtocol, Framer
+from coach_gateway.soccer.refbox.framing import Framer
 from coach_gateway.soccer.refbox.own_world_state import own_world_state
 from coach_gateway.soccer.refbox.signal_queue import BoxSignal, SignalQueue
 from coach_gateway.timing import (
@@ -30,6 +30,7 @@ from coach_gateway.timing import (
 from schemas.errors import TouchlineError
 from schemas.messages.coach import CoachMode
 from schemas.messages.soccer.game import RefereeAction
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.messages.soccer.league.robot_numbers import numbers_of
 from schemas.messages.soccer.league.signals import Signal
 from schemas.side import Side

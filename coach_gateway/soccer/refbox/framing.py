@@ -7,9 +7,9 @@ resumes after the next zero byte.
 import json
 import re
 from collections.abc import Iterator
-from enum import StrEnum
 from typing import Any
 
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.messages.soccer.league.signals import BY_CHARACTER
 
 LIMIT = 65_536
@@ -24,15 +24,6 @@ _SILENT = b"\x00\r\n"
 """Bytes without meaning between characters."""
 _NOT_BLANK = re.compile(r"\S")
 _DECODER = json.JSONDecoder(strict=False)
-
-
-class BoxProtocol(StrEnum):
-    """The protocol of a referee box."""
-
-    AUTO = "auto"
-    """Detected by the first bytes: JSON begins with a brace."""
-    JSON = "json"
-    CHARACTERS = "characters"
 
 
 class Framer:

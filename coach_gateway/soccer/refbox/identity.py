@@ -9,8 +9,8 @@ identified by the `teamName` of its world states, or by a port that one team alo
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from coach_gateway.soccer.refbox.framing import BoxProtocol
 from schemas.errors import did_you_mean
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
 
 HELLO = "hello"

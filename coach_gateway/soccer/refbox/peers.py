@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import IntEnum
 
-from coach_gateway.soccer.refbox.framing import BoxProtocol, Framer
+from coach_gateway.soccer.refbox.framing import Framer
 from coach_gateway.timing import SILENCE_S
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
 
 MOST = 16

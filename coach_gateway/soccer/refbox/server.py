@@ -19,12 +19,12 @@ from coach_gateway.ports import LOOPBACK
 from coach_gateway.soccer.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.soccer.refbox.call_generator import CallGenerator
 from coach_gateway.soccer.refbox.commands import BoxCommand
-from coach_gateway.soccer.refbox.framing import BoxProtocol
 from coach_gateway.soccer.refbox.identity import HELLO, Identity, UnknownTeamError, identify, targets
 from coach_gateway.soccer.refbox.peers import MOST, Peer, Peers, Proof
 from coach_gateway.soccer.refbox.team_world_state import TeamWorldState
 from coach_gateway.timing import HELLO_S
 from schemas.messages.soccer.game import GameState
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.messages.soccer.league.calls import Call
 from schemas.messages.soccer.league.robot_numbers import numbers_of
 from schemas.messages.soccer.league.signals import BY_NAME, START, STOP

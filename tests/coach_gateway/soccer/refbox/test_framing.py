@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from coach_gateway.soccer.refbox.framing import BoxProtocol, Framer
+from coach_gateway.soccer.refbox.framing import Framer
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 
 START = {"command": "START", "targetTeam": ""}
 KICKOFF = {"command": "KICKOFF", "targetTeam": "224.16.32.44"}

@@ -11,10 +11,10 @@ import pytest
 
 from coach_gateway.soccer.refbox import server as server_module
 from coach_gateway.soccer.refbox.audience_feed import AudienceFeed
-from coach_gateway.soccer.refbox.framing import BoxProtocol
 from coach_gateway.soccer.refbox.server import ServerAddress
 from coach_gateway.soccer.refbox.team_world_state import TeamWorldState
 from schemas.messages.soccer.game import DisciplinaryRecord
+from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.messages.soccer.league.calls import Call
 from schemas.messages.soccer.league.findings import MOST
 from schemas.messages.soccer.league.lenient_json import _canonical
