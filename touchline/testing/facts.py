@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from recordings.soccer.stats.kicks import PASSES, SHOTS, KickRecord
+from robot_agent.sdk.skills.keep_out import Area
 from schemas.config.sections import Pitch
 from schemas.config.soccer.drill import OCCURRENCES
 from schemas.errors import did_you_mean
@@ -15,15 +16,14 @@ from schemas.messages.command import Command
 from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
 from schemas.soccer.game import Score
-from sim_host.soccer.referee.areas import in_goal_area, in_penalty_area
 from touchline.matches.judging.judge import DrillVerdict
 from touchline.matches.judging.occurrences import Occurrence
 
 Rectangle = tuple[float, float, float, float]
 """Least x and y, greatest x and y, in m, in the field frame."""
 AREAS: dict[str, Callable[[Pitch, int, float, float], bool]] = {
-    "goal_area": in_goal_area,
-    "penalty_area": in_penalty_area,
+    "goal_area": lambda pitch, end, x, y: _is_before_goal(Area.goal(pitch), pitch, end, x, y),
+    "penalty_area": lambda pitch, end, x, y: _is_before_goal(Area.penalty(pitch), pitch, end, x, y),
     "half": lambda _, end, x, __: x * end > 0,
 }
 """Areas of a side; `goal_area:cyan` is the one before cyan's own goal."""
@@ -165,3 +165,8 @@ class Facts:
         return f"{self.scene}, seed {self.seed}: {', '.join(told[:_DETAILS]) or 'nothing happened'}{more}"
 
     __repr__ = __str__
+
+
+def _is_before_goal(area: Area, pitch: Pitch, end: int, x: float, y: float) -> bool:
+    """Whether a place is in the area at that end, or in the goal behind it; not behind the line next to the goal."""
+    return area.has(end, x, y) and (x * end <= pitch.goal_line or abs(y) < pitch.goal_width / 2)

@@ -15,11 +15,11 @@ from schemas.messages.command import Command
 from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
 from touchline.matches.drill.drill_match import drill_match
+from touchline.matches.engine.tick_messages import played_ticks
 from touchline.matches.judging.judge import verdict_of
 from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
 from touchline.matches.series.team_names import brain_of
 from touchline.play.play_match import BrainSource, InProcessMatch
-from touchline.play.tick_messages import played_ticks
 from touchline.testing.facts import Facts
 from touchline.testing.runs import Runs
 

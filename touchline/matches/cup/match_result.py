@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from touchline.matches.statistics.ratings import Scored
+
 Pair = tuple[int, int]
 """A number of each team, in the order of the fixture."""
 
@@ -30,6 +32,11 @@ class MatchResult:
             if first != second:
                 return self.teams[0 if first > second else 1]
         return None
+
+
+def scored(results: Iterable[MatchResult]) -> list[Scored]:
+    """What ratings count: the goals of all matches without a forfeit."""
+    return [Scored(one.teams, one.goals) for one in results if one.forfeited_by is None]
 
 
 def score_text(result: MatchResult, of: str | None = None) -> str:

@@ -5,7 +5,7 @@ from typing import Any
 
 from touchline.launch.terminal.aligned import aligned
 from touchline.matches.cup.cup_state import CupMatch, CupState, MatchState
-from touchline.matches.cup.match_result import score_text
+from touchline.matches.cup.match_result import score_text, scored
 from touchline.matches.cup.site import signed
 from touchline.matches.statistics.ratings import rate
 
@@ -15,7 +15,7 @@ RESULT = "result.json"
 
 def report_of(state: CupState) -> dict[str, Any]:
     """Tables, matches, ratings and winner."""
-    rated = rate(state.cup.names, state.results)
+    rated = rate(state.cup.names, scored(state.results))
     return {
         "name": state.cup.name,
         "complete": state.is_complete,
@@ -41,7 +41,7 @@ def report_text(state: CupState) -> str:
     for one in state.matches:
         if one.state in (MatchState.FORFEITED, MatchState.FAILED) and one.ended is not None:
             lines.append(f"{one.slot.name} {one.state}: {one.ended.reason}")
-    rated = rate(state.cup.names, state.results)
+    rated = rate(state.cup.names, scored(state.results))
     cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]
     sentence = "the order is significant" if rated.significant else "the order is not significant"
     lines += [*aligned([("", "rating", "interval of 95 %"), *cells]), sentence, ""]

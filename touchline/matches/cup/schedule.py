@@ -9,7 +9,7 @@ from touchline.matches.cup.formats.knock_out import Bracket, knock_out
 from touchline.matches.cup.formats.round_robin import round_robin
 from touchline.matches.cup.formats.swiss import STAGE as SWISS
 from touchline.matches.cup.formats.swiss import most_rounds, swiss
-from touchline.matches.cup.match_result import Fixture, FixtureResult
+from touchline.matches.cup.match_result import Fixture, FixtureResult, scored
 from touchline.matches.cup.standings import Standing
 from touchline.matches.cup.tie_breaks import table, winner_of_level
 from touchline.matches.statistics.estimates import LEVEL
@@ -56,7 +56,7 @@ def _repeats(cup: CupConfig, results: Results) -> int:
         played = _of(fixtures, results)
         if len(played) < len(fixtures) or not all(one.is_over for one in played):
             return repeats
-        matches = [match for one in played for match in one.matches]
+        matches = scored(match for one in played for match in one.matches)
         if rate(cup.names, matches, level=look_level(most)).significant:
             return repeats
     return most

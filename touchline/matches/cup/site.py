@@ -15,7 +15,7 @@ from runtime.process.whole_file import written_whole
 from touchline.matches.cup.cup_config import TeamEntry
 from touchline.matches.cup.cup_state import CupMatch, CupState, Ended, MatchState, Slot
 from touchline.matches.cup.formats.knock_out import name_of, stage_of
-from touchline.matches.cup.match_result import score_text
+from touchline.matches.cup.match_result import score_text, scored
 from touchline.matches.cup.standings import Standing
 from touchline.matches.report import page_of, part_of
 from touchline.matches.statistics.ratings import Ratings, rate
@@ -41,7 +41,7 @@ class Site:
         Raises:
             TouchlineError: the recording of a match is damaged.
         """
-        rated = rate(state.cup.names, state.results)
+        rated = rate(state.cup.names, scored(state.results))
         for match in state.matches:
             address = match_address(match.slot)
             if match.state is MatchState.DUE:

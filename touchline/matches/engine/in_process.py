@@ -16,11 +16,11 @@ from touchline.matches.engine.hang_watch import HangWatch
 from touchline.matches.engine.measurement import Measurement
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.tick_messages import played_ticks
 from touchline.matches.judging.judge import verdict_of
 from touchline.matches.judging.occurrences import OccurrenceTracker
 from touchline.play.match_recording import MatchRecording
 from touchline.play.play_match import InProcessMatch, RobotNotStartedError
-from touchline.play.tick_messages import played_ticks
 
 TRACEBACK = "traceback.txt"
 """The file with the traceback of a brain, in the folder of a match's logs."""

@@ -7,15 +7,11 @@ numbers. Cells are compared seed by seed.
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import pandas as pd
 from scipy import stats
 
 from touchline.matches.statistics.estimates import LEVEL, Estimate
-
-if TYPE_CHECKING:
-    from touchline.matches.study.study_config import Study
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,13 +49,13 @@ def estimate_of(values: "pd.Series[float]") -> MeanEstimate:
     return MeanEstimate(float(values.mean()), float(interval.low), float(interval.high), len(values))
 
 
-def seed_means(table: pd.DataFrame, response: str, study: "Study") -> pd.DataFrame:
-    """One row a seed, one column a cell: the mean of the matches of the seed in the cell.
+def seed_means(table: pd.DataFrame, response: str, matches: int) -> pd.DataFrame:
+    """One row a seed, one column a cell: the mean of the `matches` of the seed in the cell.
 
     A seed of which a match is missing in a cell, or does not show the response, has no value in it.
     """
     groups = table.groupby(["seed", "cell"])[response]
-    whole = groups.count() == (2 if study.both_sides else 1)
+    whole = groups.count() == matches
     return groups.mean().where(whole).unstack("cell")
 
 
@@ -83,14 +79,14 @@ def adjusted(comparisons: Sequence[Comparison]) -> list[float | None]:
     return [None if one.p is None else next(each) for one in comparisons]
 
 
-def widest(table: pd.DataFrame, study: "Study") -> float | None:
-    """Width of the widest interval of the primary response: of the differences, or of the mean of the only cell.
+def widest(table: pd.DataFrame, response: str, matches: int) -> float | None:
+    """Width of the widest interval of a response: of the differences, or of the mean of the only cell.
 
     None if one of them has no interval.
     """
-    if table.empty or study.primary not in table:
+    if table.empty or response not in table:
         return None
-    means = seed_means(table, study.primary, study)
+    means = seed_means(table, response, matches)
     first, *others = means.columns
     compared = [means[cell] - means[first] for cell in others] or [means[first]]
     estimates = [estimate_of(values) for values in compared]
@@ -98,7 +94,7 @@ def widest(table: pd.DataFrame, study: "Study") -> float | None:
     return max(widths) if len(widths) == len(estimates) else None
 
 
-def is_narrow(table: pd.DataFrame, study: "Study", limit: float) -> bool:
-    """Whether the widest interval of the primary response is at most this wide."""
-    width = widest(table, study)
+def is_narrow(table: pd.DataFrame, response: str, matches: int, limit: float) -> bool:
+    """Whether the widest interval of a response is at most this wide."""
+    width = widest(table, response, matches)
     return width is not None and width <= limit

@@ -6,9 +6,10 @@ finite. The scale is Elo's: 400 points are odds of ten to one, and the mean of a
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +17,6 @@ from scipy.optimize import minimize
 from scipy.special import ndtri
 from scipy.stats import chi2
 
-from touchline.matches.cup.match_result import MatchResult
 from touchline.matches.statistics.estimates import LEVEL
 
 SCALE = 400 / math.log(10)
@@ -26,6 +26,13 @@ PRIOR = 3.0
 
 
 Array = npt.NDArray[np.float64]
+
+
+class Scored(NamedTuple):
+    """The goals of a match, in the order of its teams."""
+
+    teams: tuple[str, str]
+    goals: tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +75,8 @@ class Ratings:
         return all(one.significant for one in self.order)
 
 
-def rate(teams: Sequence[str], results: Iterable[MatchResult], level: float = LEVEL) -> Ratings:
-    """Ratings from the goals of all matches that were played; a shoot-out counts as a draw, a forfeit not at all."""
-    played = [one for one in results if one.forfeited_by is None]
+def rate(teams: Sequence[str], played: Sequence[Scored], level: float = LEVEL) -> Ratings:
+    """Ratings from the goals of all matches that were played; a shoot-out counts as a draw."""
     model = _Model(teams, played)
     x, least = model.fit(np.eye(len(teams) + 1))
     centring = np.eye(len(teams)) - 1 / len(teams)
@@ -105,7 +111,7 @@ def holm(probabilities: Sequence[float]) -> list[float]:
 class _Model:
     """The likelihood of all matches as a function of x: the strengths of the teams, and ln ν."""
 
-    def __init__(self, teams: Sequence[str], results: Sequence[MatchResult]) -> None:
+    def __init__(self, teams: Sequence[str], results: Sequence[Scored]) -> None:
         place = {team: number for number, team in enumerate(teams)}
         self._rows = np.zeros((len(results), 3, len(teams) + 1))
         """For each match the logits of win, draw and loss, linear in x."""

@@ -24,7 +24,7 @@ class ComparisonGroup:
 
 def comparison_groups(plan: StudyPlan, table: pd.DataFrame, response: str) -> list[ComparisonGroup]:
     """All comparisons of a response; groups without one are left out."""
-    means = seed_means(table, response, plan.study)
+    means = seed_means(table, response, plan.study.matches_of_seed)
     effects = list(_main_effects(plan, means))
     cells = _cells_with_first(plan, means)
     groups = [*effects, ComparisonGroup(f"Cells, against {plan.cells[0].label}", cells, is_answer=not effects)]
@@ -39,16 +39,12 @@ def answers(plan: StudyPlan, table: pd.DataFrame, response: str) -> list[Compari
     return [one for group in comparison_groups(plan, table, response) if group.is_answer for one in group.comparisons]
 
 
-def _sides(plan: StudyPlan) -> int:
-    return 2 if plan.study.both_sides else 1
-
-
 def _cells_with_first(plan: StudyPlan, means: pd.DataFrame) -> list[Comparison]:
     """Each cell against the first one that was played."""
     first, *others = map(int, means.columns)
     labels = [cell.label for cell in plan.cells]
     return [
-        comparison_of(means[cell] - means[first], labels[cell - 1], labels[first - 1], 2 * _sides(plan))
+        comparison_of(means[cell] - means[first], labels[cell - 1], labels[first - 1], 2 * plan.study.matches_of_seed)
         for cell in others
     ]
 
@@ -60,7 +56,7 @@ def _teams(plan: StudyPlan, means: pd.DataFrame) -> list[Comparison]:
         cell = plan.cells[number - 1]
         first, second = team_names(cell.config)
         where = f" ({cell.label})" if cell.levels else ""
-        found.append(comparison_of(means[number], first, f"{second}{where}", _sides(plan)))
+        found.append(comparison_of(means[number], first, f"{second}{where}", plan.study.matches_of_seed))
     return found
 
 
@@ -76,7 +72,7 @@ def _main_effects(plan: StudyPlan, means: pd.DataFrame) -> Iterator[ComparisonGr
             for level in (baseline, *others)
         }
         first = level_text(baseline)
-        matches = 2 * _sides(plan) * len(plan.cells) // (1 + len(others))
+        matches = 2 * plan.study.matches_of_seed * len(plan.cells) // (1 + len(others))
         compared = [
             comparison_of(averages[name] - averages[first], f"{key} = {name}", f"{key} = {first}", matches)
             for name in map(level_text, others)

@@ -56,7 +56,7 @@ def _response(
     p_values: Mapping[int, float | None],
 ) -> dict[str, Any]:
     """Plots and rows of the tables of a response."""
-    means = seed_means(table, response, plan.study)
+    means = seed_means(table, response, plan.study.matches_of_seed)
     plots = [("Means of the cells", plot_of_means(means, plan.cells, response))]
     plots += [(group.title, plot_of_comparisons(group.comparisons, response)) for group in groups]
     cells = (
@@ -83,11 +83,12 @@ def _response(
 
 
 def _interval_text(plan: StudyPlan, table: pd.DataFrame) -> str:
-    limit, width = plan.study.until_interval, widest(table, plan.study)
+    study = plan.study
+    limit, width = study.until_interval, widest(table, study.primary, study.matches_of_seed)
     if limit is None:
         return ""
     reached = width is not None and width <= limit
-    wanted = f"Played until the interval of {response_text(plan.study.primary)} is at most {limit:g} wide: "
+    wanted = f"Played until the interval of {response_text(study.primary)} is at most {limit:g} wide: "
     return wanted + (f"it is {number(width)}." if reached else f"not reached; it is {number(width)}.")
 
 

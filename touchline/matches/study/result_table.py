@@ -1,16 +1,13 @@
 """The results of a study as a table: one row a match."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
 from touchline.matches.engine.outcome import Outcome, Played
-from touchline.matches.study.cells import level_text
-from touchline.matches.study.match_figures import by_team, flat_figures
-
-if TYPE_CHECKING:
-    from touchline.matches.study.study_plan import StudyPlan
+from touchline.matches.series.plan import SeedMatch
+from touchline.matches.study.cells import Cell, level_text
+from touchline.matches.study.match_figures import Value, by_team, flat_figures
 
 KEYS = ("cell", "seed", "swapped", "identity", "chain")
 """Columns before the levels of the factors."""
@@ -20,15 +17,23 @@ _COUNTS = (".fouls.", ".cards.", ".restarts.")
 """Parts of names of columns in which a missing value is 0: nothing of that name was counted in the match."""
 
 
-def result_table(plan: "StudyPlan", seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> pd.DataFrame:
-    """The matches of these seeds that were played, in the order of the plan. Cells are counted from 1."""
+def result_table(
+    matches: Sequence[SeedMatch],
+    cells: Sequence[Cell],
+    outcomes: Mapping[str, Outcome],
+    measured: Mapping[str, Mapping[str, Value]],
+) -> pd.DataFrame:
+    """Those of the matches that were played, in their order. Cells are counted from 1.
+
+    `measured` has the values of a study's own functions, by the identity of a match.
+    """
     rows = []
-    for match in plan.matches(seeds):
+    for match in matches:
         outcome = outcomes.get(match.identity)
         if not isinstance(outcome, Played):
             continue
         keys = (match.cell + 1, match.seed, match.swapped, match.identity, outcome.chain)
-        levels = plan.cells[match.cell].levels
+        levels = cells[match.cell].levels
         rows.append(
             dict(zip(KEYS, keys, strict=True))
             | {
@@ -36,7 +41,7 @@ def result_table(plan: "StudyPlan", seeds: Sequence[int], outcomes: Mapping[str,
                 for key, level in levels.items()
             }
             | by_team(flat_figures(outcome.figures), match.sides)
-            | dict(plan.measured.get(match.identity, {}))
+            | dict(measured.get(match.identity, {}))
         )
     table = pd.DataFrame(rows, columns=None if rows else list(KEYS))
     leading = [name for name in table.columns if name in KEYS or name.startswith(LEVEL)]

@@ -18,7 +18,6 @@ from touchline.matches.engine.store import FILE, RunStore
 from touchline.matches.study.digests import as_text, library_digest, team_digests, versions
 from touchline.matches.study.recording_functions import load_functions, measure
 from touchline.matches.study.report import report_of
-from touchline.matches.study.result_table import result_table
 from touchline.matches.study.study_folder import REPORT, VERSIONS, write_digests, write_plan, write_results
 from touchline.matches.study.study_plan import StudyPlan
 from touchline.matches.study.team_checks import check_study_teams
@@ -75,7 +74,7 @@ def run_study(
     failed = _failed(plan, seeds, outcomes)
     if len(failed) == len(plan.matches(seeds)):
         raise MatchFailedError(f"all {len(failed)} matches failed: {failed[0].reason}; mend it and run with --fresh")
-    table = result_table(plan, seeds, outcomes)
+    table = plan.table(seeds, outcomes)
     write_results(folder, table)
     (folder / REPORT).write_text(report_of(plan, table, seeds, failed, versions(engine)), "utf-8")
     write_digests(folder, seeds, code)

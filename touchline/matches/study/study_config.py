@@ -114,6 +114,11 @@ class Study(ConfigModel):
         return seeds_of(self.seeds)
 
     @property
+    def matches_of_seed(self) -> int:
+        """How many matches a seed has in each cell."""
+        return 2 if self.both_sides else 1
+
+    @property
     def primary(self) -> str:
         """The response that `until_interval` is about."""
         return self.responses[0]

@@ -6,6 +6,8 @@ from functools import cached_property
 from itertools import count, islice
 from pathlib import Path
 
+import pandas as pd
+
 from schemas.config.match_config import MatchConfig
 from touchline.matches.engine.inputs_only import with_inputs_only
 from touchline.matches.engine.outcome import Outcome
@@ -60,8 +62,9 @@ class StudyPlan:
             if any(one.identity not in outcomes for one in matches):
                 break
             if number not in self._narrow:
-                table = result_table(self, seeds, outcomes)
-                self._narrow[number] = is_narrow(table, self.study, self.study.until_interval)
+                table, study = self.table(seeds, outcomes), self.study
+                limit = self.study.until_interval
+                self._narrow[number] = is_narrow(table, study.primary, study.matches_of_seed, limit)
             if self._narrow[number]:
                 break
             number = min(most, number + len(first))
@@ -73,6 +76,10 @@ class StudyPlan:
             if seed not in self._of_seeds:
                 self._of_seeds[seed] = tuple(self._of_seed(seed))
         return [match for seed in seeds for match in self._of_seeds[seed]]
+
+    def table(self, seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> pd.DataFrame:
+        """The results of these seeds, one row a match."""
+        return result_table(self.matches(seeds), self.cells, outcomes, self.measured)
 
     def _of_seed(self, seed: int) -> Iterator[SeedMatch]:
         for number, cell in enumerate(self.cells):

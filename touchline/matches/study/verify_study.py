@@ -16,7 +16,6 @@ from touchline.matches.series.plan import SeedMatch
 from touchline.matches.study.digests import file_digest, library_digest, team_digests
 from touchline.matches.study.match_figures import FIRST, SECOND
 from touchline.matches.study.recording_functions import load_functions, measure
-from touchline.matches.study.result_table import result_table
 from touchline.matches.study.study_folder import CSV, DIGESTS, PARQUET, StoredStudy, csv_bytes, read_study
 from touchline.matches.study.study_plan import recording_name
 
@@ -73,7 +72,7 @@ def verify_study(
                 outcomes[check.identity] = check.again
                 if functions and check.again.recording is not None:
                     plan.measured[check.identity] = measure(functions, Path(check.again.recording))
-        again = result_table(plan, stored.seeds, outcomes)
+        again = plan.table(stored.seeds, outcomes)
     newer = [name for name in again.columns if name not in stored.table.columns]
     again = again.drop(columns=newer)
     faults += [

@@ -4,13 +4,13 @@ import random
 
 import pytest
 
-from touchline.matches.cup.match_result import MatchResult
-from touchline.matches.statistics.ratings import SCALE, holm, rate
+from touchline.matches.cup.match_result import MatchResult, scored
+from touchline.matches.statistics.ratings import SCALE, Scored, holm, rate
 
 pytest.importorskip("scipy", reason="ratings need scipy")
 
 
-def matches(strengths: dict[str, float], number: int, seed: int) -> list[MatchResult]:
+def matches(strengths: dict[str, float], number: int, seed: int) -> list[Scored]:
     """Matches of each pair, with results drawn from the model without draws."""
     drawn, teams = random.Random(seed), list(strengths)
     results = []
@@ -18,12 +18,12 @@ def matches(strengths: dict[str, float], number: int, seed: int) -> list[MatchRe
         for second in teams[place + 1 :]:
             chance = 1 / (1 + 10 ** ((strengths[second] - strengths[first]) / 400))
             won = [drawn.random() < chance for _ in range(number)]
-            results += [MatchResult((first, second), (1, 0) if one else (0, 1)) for one in won]
+            results += [Scored((first, second), (1, 0) if one else (0, 1)) for one in won]
     return results
 
 
 def test_with_two_teams_the_difference_is_the_logarithm_of_the_odds() -> None:
-    results = [MatchResult(("a", "b"), (1, 0))] * 300 + [MatchResult(("a", "b"), (0, 1))] * 100
+    results = [Scored(("a", "b"), (1, 0))] * 300 + [Scored(("a", "b"), (0, 1))] * 100
     ratings = rate(["a", "b"], results)
     assert ratings.order[0].difference == pytest.approx(SCALE * 1.0986, abs=2.5)
     assert [one.value for one in ratings.teams] == pytest.approx([95.4, -95.4], abs=1.5)
@@ -37,21 +37,21 @@ def test_teams_without_a_match_are_level_and_no_order_is_significant() -> None:
 
 
 def test_a_team_that_won_every_match_has_a_finite_rating() -> None:
-    ratings = rate(["a", "b"], [MatchResult(("a", "b"), (1, 0))] * 10)
+    ratings = rate(["a", "b"], [Scored(("a", "b"), (1, 0))] * 10)
     assert 100 < ratings.teams[0].value < 1500
 
 
 def test_draws_bring_teams_together() -> None:
-    wins = [MatchResult(("a", "b"), (1, 0))] * 5
-    draws = [MatchResult(("a", "b"), (2, 2))] * 10
+    wins = [Scored(("a", "b"), (1, 0))] * 5
+    draws = [Scored(("a", "b"), (2, 2))] * 10
     assert rate(["a", "b"], wins + draws).order[0].difference < rate(["a", "b"], wins).order[0].difference
 
 
 def test_forfeits_and_shoot_outs_decide_nothing_on_strength() -> None:
     forfeit = MatchResult(("a", "b"), (3, 0), forfeited_by="b")
-    assert rate(["a", "b"], [forfeit] * 9).teams[0].matches == 0
+    assert rate(["a", "b"], scored([forfeit] * 9)).teams[0].matches == 0
     level = MatchResult(("a", "b"), (1, 1), penalties=(5, 0))
-    assert rate(["a", "b"], [level] * 9).order[0].difference == pytest.approx(0, abs=1e-6)
+    assert rate(["a", "b"], scored([level] * 9)).order[0].difference == pytest.approx(0, abs=1e-6)
 
 
 def test_intervals_cover_the_true_rating_in_about_95_percent_of_80_repetitions() -> None:

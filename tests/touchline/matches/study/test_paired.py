@@ -99,7 +99,7 @@ def test_both_sides_of_a_seed_count_as_one_sample(bare_plan: MakePlan) -> None:
     plan = bare_plan('both_sides = true\nresponses = ["goals"]')
     rows = [(1, 1, False, 4), (1, 1, True, 2), (1, 2, False, 1), (1, 2, True, 0), (1, 3, False, 7)]
     table = pd.DataFrame(rows, columns=["cell", "seed", "swapped", "goals"])
-    means = seed_means(table, "goals", plan.study)
+    means = seed_means(table, "goals", plan.study.matches_of_seed)
     assert means[1].tolist()[:2] == [3.0, 0.5]
     assert pd.isna(means[1].tolist()[2])
 
@@ -125,9 +125,9 @@ def test_p_values_are_adjusted_for_their_number(bare_plan: MakePlan, table: Make
     )
 
 
-def test_an_interval_is_narrow_once_seeds_suffice(bare_plan: MakePlan, table: MakeTable) -> None:
-    plan, rng = bare_plan(TWO_LEVELS), np.random.default_rng(1)
+def test_an_interval_is_narrow_once_seeds_suffice(table: MakeTable) -> None:
+    rng = np.random.default_rng(1)
     few, many = (table("goals", {1: rng.normal(0, 1, n), 2: rng.normal(0, 1, n)}) for n in (4, 400))
-    assert not is_narrow(few, plan.study, 0.5)
-    assert is_narrow(many, plan.study, 0.5)
-    assert not is_narrow(table("goals", {1: [1, 1], 2: [1, 1]}), plan.study, 0.5)
+    assert not is_narrow(few, "goals", 1, 0.5)
+    assert is_narrow(many, "goals", 1, 0.5)
+    assert not is_narrow(table("goals", {1: [1, 1], 2: [1, 1]}), "goals", 1, 0.5)
