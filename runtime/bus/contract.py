@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Self
 from uuid import uuid4
 
 from runtime.access.accounts import Account
-from runtime.bus.mailbox import FifoMailbox
+from runtime.bus.mailbox import Mailbox
 from runtime.bus.refusals import Refusals
 from runtime.process.clock import Clock
 from schemas.errors import TouchlineError
@@ -167,7 +167,7 @@ class Server:
     """Serves the queries of one topic, which wait in a mailbox."""
 
     def __init__(self) -> None:
-        self.mailbox: FifoMailbox[Query] = FifoMailbox()
+        self.mailbox: Mailbox[Query] = Mailbox()
 
     def receive(self, timeout: float | None = 0.0) -> Query | None:
         """The next query; as `Subscription.receive`."""
@@ -179,7 +179,7 @@ class PendingReply:
 
     def __init__(self, topic: Topic, key: str) -> None:
         self._topic, self._key = topic, key
-        self.mailbox: FifoMailbox[bytes | NoReplyError] = FifoMailbox()
+        self.mailbox: Mailbox[bytes | NoReplyError] = Mailbox()
 
     def result(self, timeout: float) -> Any:
         """The reply, waiting up to `timeout` s.
@@ -210,7 +210,7 @@ class PresenceWatch:
     """Watches liveliness tokens; begins with those that exist."""
 
     def __init__(self) -> None:
-        self.mailbox: FifoMailbox[Presence] = FifoMailbox()
+        self.mailbox: Mailbox[Presence] = Mailbox()
         self.is_empty = self.mailbox.is_empty
         """Whether no change is waiting: cheap, for callers that poll."""
 

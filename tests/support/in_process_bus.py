@@ -1,7 +1,7 @@
 """The bus within one process: the same behaviour as that over Zenoh, without a network."""
 
 import threading
-from collections import deque
+from collections import defaultdict, deque
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,7 +23,7 @@ from runtime.bus.contract import (
     check_publishable,
     full_key,
 )
-from runtime.bus.mailbox import FifoMailbox, NewestMailbox
+from runtime.bus.mailbox import Mailbox
 from runtime.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.wire.message import Message
@@ -54,7 +54,7 @@ class SharedState:
                 for watch in self.watches:
                     if watch.match == match:
                         kind = PresenceKind(token[0].removeprefix(match + "/"))
-                        watch.mailbox.put("", Presence(kind, token[1], by > 0))
+                        watch.mailbox.put(Presence(kind, token[1], by > 0))
 
 
 class _Publisher(Publisher):
@@ -99,8 +99,8 @@ class _Subscription(Subscription):
         self._topic = topic
         self._bus = bus
         one = newest or topic.delivery is Delivery.NEWEST
-        self._mailbox: FifoMailbox[ReceivedMessage] | NewestMailbox[ReceivedMessage]
-        self._mailbox = NewestMailbox() if one else FifoMailbox()
+        self._keys: Mailbox[str] = Mailbox()
+        self._received: dict[str, deque[ReceivedMessage]] = defaultdict(lambda: deque(maxlen=1 if one else None))
 
     def wants(self, key: str) -> bool:
         chunks = self._topic.match(key) or {}
@@ -108,17 +108,21 @@ class _Subscription(Subscription):
 
     def deliver(self, key: str, received: ReceivedMessage) -> None:
         if self.wants(key):
-            self._mailbox.put(key, received)
+            self._received[key].append(received)
+            self._keys.put(key)
 
     def receive(self, timeout: float | None = 0.0) -> ReceivedMessage | None:
-        return self._mailbox.get(timeout)
+        while (key := self._keys.get(timeout)) is not None:
+            if self._received[key]:  # replaced messages leave keys behind
+                return self._received[key].popleft()
+        return None
 
     def close(self) -> None:
         with self._bus.shared_state.lock:
             readers = self._bus.shared_state.subscriptions.get(self._bus.prefix + self._topic.key, [])
             if self in readers:
                 readers.remove(self)
-        self._mailbox.close()
+        self._keys.close()
 
 
 class _Query(Query):
@@ -127,10 +131,10 @@ class _Query(Query):
         self._answer = answer
 
     def reply_payload(self, payload: bytes) -> None:
-        self._answer.mailbox.put("", payload)
+        self._answer.mailbox.put(payload)
 
     def fail(self, reason: str) -> None:
-        self._answer.mailbox.put("", RefusedQueryError(reason))
+        self._answer.mailbox.put(RefusedQueryError(reason))
 
 
 class _Watch(PresenceWatch):
@@ -149,7 +153,7 @@ class InProcessBus(Bus):
         self._tokens: list[tuple[str, str]] = []
         self._served: list[str] = []
         self._subscriptions: list[_Subscription] = []
-        self._mailboxes: list[FifoMailbox[Any]] = []
+        self._mailboxes: list[Mailbox[Any]] = []
         self._kept: list[tuple[str, str]] = []
 
     def keep(self, topic: Topic, key: str) -> deque[ReceivedMessage]:
@@ -203,9 +207,9 @@ class InProcessBus(Bus):
         servers = self.shared_state.servers
         server = servers.get(self.prefix + key) or servers.get(self.prefix + topic.fill())
         if server is None:
-            answer.mailbox.put("", NoReplyError(f"no process answers {key}"))
+            answer.mailbox.put(NoReplyError(f"no process answers {key}"))
         else:
-            server.mailbox.put("", _Query(topic, key, request.encode(), answer))
+            server.mailbox.put(_Query(topic, key, request.encode(), answer))
         return answer
 
     def declare_alive(self, kind: PresenceKind, name: str) -> None:
@@ -229,7 +233,7 @@ class InProcessBus(Bus):
             self.shared_state.watches.append(watch)
             for (kind, name), count in self.shared_state.alive.items():
                 if count and kind.startswith(self.prefix):
-                    watch.mailbox.put("", Presence(PresenceKind(kind.removeprefix(self.prefix)), name, True))
+                    watch.mailbox.put(Presence(PresenceKind(kind.removeprefix(self.prefix)), name, True))
         self._mailboxes.append(watch.mailbox)
         return watch
 

@@ -25,7 +25,7 @@ from runtime.bus.contract import (
     full_key,
 )
 from runtime.bus.endpoint import is_cut_off
-from runtime.bus.mailbox import FifoMailbox
+from runtime.bus.mailbox import Mailbox
 from runtime.bus.zenoh.match_at import hosts_of, match_at, other_match
 from runtime.bus.zenoh.newest import ZenohNewest
 from runtime.bus.zenoh.presence import ZenohPresenceWatch
@@ -140,7 +140,7 @@ class ZenohBus(Bus):
         self.endpoint = endpoint
         """Where the host listens; of a client, where it is connected."""
         self._context = SessionContext(session, key_prefix(match), clock, is_client, WaitTimer(clock), self)
-        self._mailboxes: list[FifoMailbox[Any]] = []
+        self._mailboxes: list[Mailbox[Any]] = []
         self._subscriptions: list[ZenohReader] = []
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         _close_at_exit(self)

@@ -31,7 +31,7 @@ class ZenohPresenceWatch(PresenceWatch):
                 context.owner.refusals.add(row.fill(kind=chunks["kind"]), NO_NAME)
             else:
                 alive = sample.kind == zenoh.SampleKind.PUT
-                self.mailbox.put("", Presence(PresenceKind(chunks["kind"]), chunks["name"], alive))
+                self.mailbox.put(Presence(PresenceKind(chunks["kind"]), chunks["name"], alive))
 
         self._watch = context.session.liveliness().declare_subscriber(
             context.prefix + row.fill(), zenoh.handlers.Callback(receive, indirect=False), history=True

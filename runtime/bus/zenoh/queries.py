@@ -53,7 +53,7 @@ class ZenohServer(Server):
                 with query:
                     pass  # ends it without a reply
             else:
-                self.mailbox.put("", ZenohQuery(topic, asked, query))
+                self.mailbox.put(ZenohQuery(topic, asked, query))
 
         self._queryable = context.session.declare_queryable(
             context.prefix + key, zenoh.handlers.Callback(receive, indirect=False)
@@ -69,13 +69,13 @@ class ZenohPendingReply(PendingReply):
 
         def receive(reply: zenoh.Reply) -> None:
             if reply.ok is not None:
-                mailbox.put("", reply.ok.payload.to_bytes())
+                mailbox.put(reply.ok.payload.to_bytes())
             elif reply.err is not None:
                 reason = reply.err.payload.to_string()
-                mailbox.put("", NoReplyError(reason) if reason == _EXPIRED else RefusedQueryError(reason))
+                mailbox.put(NoReplyError(reason) if reason == _EXPIRED else RefusedQueryError(reason))
 
         def end() -> None:
-            mailbox.put("", NoReplyError(f"no process answers {key}"))
+            mailbox.put(NoReplyError(f"no process answers {key}"))
 
         context.session.get(
             context.prefix + key,
