@@ -6,9 +6,9 @@ from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
 from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
+from google.protobuf.descriptor import FileDescriptor
+from google.protobuf.descriptor_pb2 import FileDescriptorProto, FileDescriptorSet
 from google.protobuf.timestamp_pb2 import Timestamp
-
-from recordings.container.file_descriptors import file_descriptor_set
 
 _CLASSES = {kind.DESCRIPTOR.full_name: kind for kind in (FrameTransforms, SceneUpdate, Log, LaserScan)}
 FRAME_TRANSFORMS, SCENE_UPDATE, LOG, LASER_SCAN = _CLASSES
@@ -18,10 +18,21 @@ _NS_PER_S = 1_000_000_000
 
 @cache
 def descriptors(message: str) -> bytes:
-    """The `FileDescriptorSet` of a message, by its name."""
-    return file_descriptor_set(_CLASSES[message].DESCRIPTOR)
+    """The `FileDescriptorSet` of a message, by its name: with it a reader needs nothing but the file."""
+    files: dict[str, FileDescriptorProto] = {}
+    _collect(_CLASSES[message].DESCRIPTOR.file, files)
+    return FileDescriptorSet(file=files.values()).SerializeToString()
 
 
 def set_time(timestamp: Timestamp, ns: int) -> None:
     """Set a timestamp to a time in ns."""
     timestamp.seconds, timestamp.nanos = divmod(ns, _NS_PER_S)
+
+
+def _collect(file: FileDescriptor, files: dict[str, FileDescriptorProto]) -> None:
+    """Add a file after all files that it imports."""
+    for imported in file.dependencies:
+        _collect(imported, files)
+    if file.name not in files:
+        files[file.name] = FileDescriptorProto()
+        file.CopyToProto(files[file.name])
