@@ -35,7 +35,7 @@ from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.sensing.sensors.suite import SensorSuite
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA
 from sim_host.soccer.referee.core import Referee
 
 SIZES = (2, 6, 10, 22, 100)
@@ -78,7 +78,7 @@ class TickRig:
     def __init__(self, profile_name: str, count: int) -> None:
         self.profile = profile = load_profile(profile_name)
         self.roster = roster_of(count, RobotModel.standard(profile))
-        self.world = World(profile, self.roster, BallHandling)
+        self.world = World(profile, self.roster, ARENA)
         self.raw = Engine(profile, self.roster)
         self.world.place(self._spread())
         self.world.make_checkpoint()

@@ -1,14 +1,33 @@
 """The table of games: the one module that imports the rooms of them."""
 
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+from schemas.config.free import GameName
 from schemas.config.match_config import MatchConfig
 from schemas.messages.setup import Setup
-from sim_host.game.ball_control import MakeBallControl
+from sim_host.free.game import ARENA as FREE_ARENA
+from sim_host.free.game import Free
+from sim_host.game.ball_control import Arena
 from sim_host.game.contract import Game
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA as SOCCER_ARENA
 from sim_host.soccer.game import Soccer
 
-BALL_CONTROL: MakeBallControl = BallHandling
-"""What moves the ball in a recorded match; unlike its game, it needs no numbers but the profile's."""
+
+class GameRow(NamedTuple):
+    """One game."""
+
+    arena: Arena
+    of_match: Callable[[MatchConfig], Game]
+    """The game of a match file; raises a `TouchlineError` for invalid numbers."""
+    of_setup: Callable[[Setup], Game] | None = None
+    """The game of a match that is known by its host's setup; None where that does not suffice."""
+
+
+GAMES: Mapping[GameName, GameRow] = {
+    GameName.SOCCER: GameRow(SOCCER_ARENA, Soccer.of_match, Soccer.of_setup),
+    GameName.FREE: GameRow(FREE_ARENA, Free.of_match),
+}
 
 
 def game_of_match(config: MatchConfig) -> Game:
@@ -17,15 +36,22 @@ def game_of_match(config: MatchConfig) -> Game:
     Raises:
         TouchlineError: the numbers of the game are invalid.
     """
-    return Soccer.of_match(config)
+    return GAMES[config.game].of_match(config)
 
 
 def game_of_recording(config: MatchConfig | None, setup: Setup | None) -> Game | None:
-    """The game of a recorded match file, or else of its host's setup; None if there is neither.
+    """The game of a recorded match file, or else of its host's setup; None if neither suffices.
 
     Raises:
         TouchlineError: the numbers of the game are not recorded.
     """
     if config is not None:
         return game_of_match(config)
-    return Soccer.of_setup(setup) if setup is not None else None
+    of_setup = GAMES[setup.game].of_setup if setup is not None else None
+    return of_setup(setup) if of_setup is not None and setup is not None else None
+
+
+def arena_of_recording(config: MatchConfig | None, setup: Setup | None) -> Arena:
+    """What the recorded game needs in the world; soccer's if neither match file nor setup is recorded."""
+    recorded = config or setup
+    return GAMES[recorded.game if recorded is not None else GameName.SOCCER].arena

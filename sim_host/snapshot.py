@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from schemas.config.match_config import MatchConfig
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.roster import RosterEntry
+from schemas.errors import TouchlineError
 from schemas.frames import Pose
 from schemas.side import Side
 
@@ -108,8 +109,30 @@ class BallState(NamedTuple):
     vz: float
 
 
+class NoBallError(TouchlineError):
+    """The ball of a game without one was asked for."""
+
+    def __init__(self) -> None:
+        super().__init__("this game has no ball")
+
+
+class Pushed(NamedTuple):
+    """What an obstacle that can be pushed has besides its place."""
+
+    vx: float
+    """m/s."""
+    vy: float
+    """m/s."""
+    omega: float
+    """rad/s."""
+    mass: float
+    """kg."""
+    friction: float
+    """Coefficient of friction on the ground."""
+
+
 class ObstacleState(NamedTuple):
-    """A fixed body: centre in m, heading in rad."""
+    """An obstacle: centre in m, heading in rad."""
 
     name: str
     x: float
@@ -124,12 +147,22 @@ class ObstacleState(NamedTuple):
     """m; of the box along its heading; a cylinder's diameter."""
     size_y: float
     """m; of the box across; a cylinder's diameter."""
+    pushed: Pushed | None = None
+    """None for an obstacle that stands fast."""
+
+    @property
+    def is_round(self) -> bool:
+        """It is a cylinder."""
+        return self.shape is Shape.CYLINDER
 
     @classmethod
-    def of(cls, obstacle: StaticObstacle) -> "ObstacleState":
+    def of(cls, obstacle: ObstacleConfig) -> "ObstacleState":
         """The state of an obstacle."""
         (x, y), (size_x, size_y, height) = obstacle.place, obstacle.extents
-        return cls(obstacle.name, x, y, obstacle.heading, obstacle.reach, height, obstacle.shape, size_x, size_y)
+        mass, at_rest = obstacle.mass, (0.0, 0.0, 0.0)
+        pushed = Pushed(*at_rest, mass, obstacle.floor_friction) if mass is not None else None
+        shape, sizes = obstacle.shape, (size_x, size_y)
+        return cls(obstacle.name, x, y, obstacle.heading, obstacle.reach, height, shape, *sizes, pushed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,7 +215,8 @@ class Snapshot:
     time: float
     roster: Roster
     robots: RobotStates
-    ball: BallState
+    ball_state: BallState | None
+    """The ball; None in a game without one."""
     possession: str | None
     """The robot that holds the ball."""
     touches: tuple[str, ...]
@@ -204,9 +238,20 @@ class Snapshot:
     ball_spin: tuple[float, float] = (0.0, 0.0)
     """rad/s; the ball's spin about the field's x and y. A rolling ball has the spin (−vy, vx) / radius."""
     obstacles: tuple[ObstacleState, ...] = ()
-    """Fixed bodies, in the order in which they were added."""
+    """Obstacles, in the order in which they were added."""
     kickers_ready: tuple[bool, ...] = ()
     """Per robot: its kicker is charged."""
+
+    @property
+    def ball(self) -> BallState:
+        """The ball.
+
+        Raises:
+            NoBallError: the game has none.
+        """
+        if self.ball_state is None:
+            raise NoBallError
+        return self.ball_state
 
     def with_robot_at(self, name: str, pose: Pose) -> "Snapshot":
         """The same snapshot with a robot at another pose."""

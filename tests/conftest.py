@@ -18,7 +18,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.messages.applied import Applied, chained_part_of
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import Conditions, Resimulation
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -113,7 +113,7 @@ def simulated_again() -> Callable[[MatchConfig, Sequence[bytes]], list[str]]:
     """Gives the hash chain of every tick of a match, from what a recording keeps of it alone."""
 
     def simulate(config: MatchConfig, recorded: Sequence[bytes]) -> list[str]:
-        again = Resimulation(BallHandling, Conditions(LiveParameters.of(config)))
+        again = Resimulation(ARENA, Conditions(LiveParameters.of(config)))
         chains = [again.step(Applied.decode(payload), chained_part_of(payload)).chain for payload in recorded]
         again.close()
         return chains

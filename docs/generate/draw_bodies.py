@@ -12,7 +12,7 @@ from matplotlib.patches import Circle, Polygon
 
 from schemas.frames import Point
 from schemas.messages.setup import Setup
-from schemas.messages.world import World
+from schemas.messages.world import BallTruth, World
 from schemas.side import Side
 
 COLOURS = {Side.CYAN: "#22c3dd", Side.MAGENTA: "#e0389a"}
@@ -37,8 +37,9 @@ def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float)
         _trail(axes, way, COLOURS[side], 6.0 * scale)
         radius = _ROBOT_SCALE * setup.for_robot(name).robot.radius
         _robot(axes, (robot.x, robot.y), robot.heading, radius, side, _number(name, setup), scale)
-    _trail(axes, [(world.ball.x, world.ball.y) for world in worlds], _BALL, 7.5 * scale)
-    _ball(axes, now, setup.ball.radius, scale)
+    _trail(axes, [(ball.x, ball.y) for world in worlds if (ball := world.ball) is not None], _BALL, 7.5 * scale)
+    if now.ball is not None:
+        _ball(axes, now.ball, setup.ball.radius, scale)
 
 
 def _trail(axes: Axes, way: Sequence[Point], colour: str, width: float) -> None:
@@ -73,9 +74,9 @@ def _robot(axes: Axes, place: Point, heading: float, radius: float, side: Side, 
     text.set(ha="center", va="center_baseline")
 
 
-def _ball(axes: Axes, world: World, true_radius: float, scale: float) -> None:
+def _ball(axes: Axes, ball: BallTruth, true_radius: float, scale: float) -> None:
     """Draw the ball above its shadow: the higher it is, the larger and the farther from the shadow."""
-    x, y, lift = world.ball.x, world.ball.y, max(0.0, world.ball.z - true_radius)
+    x, y, lift = ball.x, ball.y, max(0.0, ball.z - true_radius)
     radius = _BALL_SCALE * true_radius
     axes.add_patch(Circle((x + 0.05, y - 0.07), radius, color="#00000055", lw=0, zorder=4))
     shown = radius * (1 + 0.3 * lift)

@@ -21,7 +21,7 @@ from sim_host.match.world import World
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA
 
 Floats = NDArray[np.float64]
 Told = Callable[[float], Mapping[str, AppliedInput]]
@@ -81,9 +81,7 @@ def play(
     `launch` sets the ball going at m/s, without spin; `height` lifts it, m.
     """
     models = tuple(models or (RobotModel.standard(profile),) * len(NAMES))
-    world = World(
-        profile, Roster(NAMES, tuple(Side), {Side.CYAN: NAMES[0], Side.MAGENTA: NAMES[1]}, models), BallHandling
-    )
+    world = World(profile, Roster(NAMES, tuple(Side), {Side.CYAN: NAMES[0], Side.MAGENTA: NAMES[1]}, models), ARENA)
     x, y = profile.field.goal_line - 1.0, profile.field.touch_line - 1.0
     aside = {"cyan1": (-x, y, 0.0), "magenta1": (-x, -y, 0.0)}
     poses = aside | dict(bodies)
@@ -185,7 +183,7 @@ def errors(distance: float, pictures: int) -> Floats:
     profile = load_profile("msl")
     still = replace(profile.sensing, drift_position=0.0, drift_heading=0.0, ball_dropout=0.0, latency=0.0)
     roster = Roster(NAMES[:1], (Side.CYAN,), {Side.CYAN: NAMES[0]}, (RobotModel.standard(profile),))
-    world = World(profile, roster, BallHandling)
+    world = World(profile, roster, ARENA)
     world.place([Placement(body="cyan1", x=0.0, y=0.0), Placement(body="ball", x=distance, y=0.0)])
     snapshot, perception = world.snapshot(), Perception(still, roster, RandomStreams(7), profile.time.tick)
     seen = []

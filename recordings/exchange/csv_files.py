@@ -70,7 +70,8 @@ def _robots(_: RecordedMessage, world: World, sides: Sides) -> Iterable[Row]:
 
 
 def _ball(_: RecordedMessage, world: World, __: Sides) -> Iterable[Row]:
-    ball = world.ball
+    if (ball := world.ball) is None:
+        return
     yield world.tick, world.time, ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz, world.possession, world.kicked
 
 

@@ -106,7 +106,8 @@ class _Bag:
         self._write("/tf", TF, log_ns, self._make(TF.message, transforms))
         for name, robot in world.robots.items():
             self._write(f"/{name}/odom", ODOMETRY, log_ns, self._odometry(stamp, name, robot))
-        self._write(f"/{BALL}/odom", ODOMETRY, log_ns, self._ball(stamp, world.ball))
+        if world.ball is not None:
+            self._write(f"/{BALL}/odom", ODOMETRY, log_ns, self._ball(stamp, world.ball))
 
     def command(self, log_ns: int, robot: str, command: Command) -> None:
         """Write the velocities of a command."""
@@ -150,8 +151,8 @@ class _Bag:
             yield self._transform(
                 stamp, base(name), self._vector(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
             )
-        ball = world.ball
-        yield self._transform(stamp, BALL, self._vector(ball.x, ball.y, ball.z), self._quaternion(0.0))
+        if (ball := world.ball) is not None:
+            yield self._transform(stamp, BALL, self._vector(ball.x, ball.y, ball.z), self._quaternion(0.0))
 
     def _transform(self, stamp: Any, child: str, position: Any, rotation: Any) -> Any:
         transform = self._make("geometry_msgs/msg/Transform", position, rotation)

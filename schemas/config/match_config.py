@@ -8,10 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, SerializerFunctionWrapHandler, field_validator, model_serializer, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.confinement import Isolation, Limits
+from schemas.config.free import REMEDIES as FREE_REMEDIES
+from schemas.config.free import FreeConfig, GameName, with_program
 from schemas.config.match_parts import (
     PROGRAM_KINDS,
     NoiseConfig,
@@ -26,7 +28,7 @@ from schemas.config.match_parts import (
 )
 from schemas.config.noise import PRESETS
 from schemas.config.number_files import NumberFiles
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.profile import FILES as PROFILES
 from schemas.config.profile import Profile, load_profile, profile_of
 from schemas.config.roster import MAX_ROBOTS, RESERVED
@@ -79,6 +81,7 @@ REMEDIES = {
     "limits.processes": "processes and threads of a robot, from 16",
     "limits.file_size": "size of a file in MB, from 0.001",
     "noise.preset": f"one of {', '.join(PRESETS)}",
+    **FREE_REMEDIES,
 }
 """Key → remedy for an invalid value; keys without one get the validator's message."""
 
@@ -119,7 +122,7 @@ class MatchConfig(ConfigModel):
     types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
     """Type of robot → sections of numbers that differ from the profile's; adds types, or changes those of the
     profile."""
-    obstacles: list[StaticObstacle] = Field(default_factory=list)
+    obstacles: list[ObstacleConfig] = Field(default_factory=list)
     """Obstacles on the pitch when the match begins."""
     noise: NoiseConfig = NoiseConfig()
     """Quality of the robots' perception."""
@@ -135,6 +138,18 @@ class MatchConfig(ConfigModel):
     """What separates the robots that this machine launches: `none` or `bubblewrap`."""
     limits: Limits = Limits()
     """What each robot may use of the machine that launches it."""
+    game: GameName = GameName.SOCCER
+    """The game that is played."""
+    free: FreeConfig | None = None
+    """The numbers of the game `free`; None for soccer."""
+
+    @model_serializer(mode="wrap")
+    def _serialize(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Without `game` and `free` for soccer: the identities of published matches are digests of this."""
+        content: dict[str, Any] = handler(self)
+        if self.game is GameName.SOCCER and self.free is None:
+            content = {key: value for key, value in content.items() if key not in ("game", "free")}
+        return content
 
     @field_validator("pace")
     @classmethod
@@ -156,6 +171,17 @@ class MatchConfig(ConfigModel):
             if obstacle.name in bodies:
                 raise ValueError(f'two bodies are named "{obstacle.name}"; every obstacle has a name of its own')
             bodies.append(obstacle.name)
+        return self
+
+    @model_validator(mode="after")
+    def _check_game(self) -> "MatchConfig":
+        if (self.free is not None) != (self.game is GameName.FREE):
+            given = "below it stands [free]" if self.free is not None else "[free] is missing"
+            raise ValueError(f'game is "{self.game}", and {given}; the table [free] belongs to the game "free"')
+        if self.free is not None:
+            missing = [key for key in ("scene", "duration") if getattr(self, key) is None]
+            if missing:
+                raise ValueError(f'{missing[0]} is missing; the game "free" needs one')
         return self
 
     @model_validator(mode="after")
@@ -233,12 +259,14 @@ def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None)
         TouchlineError: one line that names file, key, value and remedy.
     """
     where = str(path) if path is not None else "match"
+    folders = [Path(path).parent if path is not None else Path(), Path()]
     content = read_tables(Path(path), "a match file") if path is not None else {}
     for key, value in (overrides or {}).items():
         _set_at_path(content, key.split("."), value)
         if value is True and key in _REMOTE_KEYS:
             _drop_program(content["teams"], _REMOTE_KEYS[key])
-    return _validate(_with_number_files(_with_scene(content), where), where)
+    content = with_program(_with_number_files(_with_scene(content), where), where, folders)
+    return _validate(content, where)
 
 
 def _with_scene(content: dict[str, Any]) -> dict[str, Any]:

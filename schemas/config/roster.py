@@ -30,19 +30,20 @@ class RosterEntry(ConfigModel):
 
 
 class Placement(Part):
-    """The placement of a robot or the ball, in the field frame; at rest unless it has velocities.
+    """The placement of a robot, the ball, or an obstacle that can be pushed, in the field frame; at rest unless it has
+    velocities.
 
     A ball with a velocity on the ground rolls without sliding.
     """
 
     body: Name
-    """A robot's name, or `ball`."""
+    """Name of a robot or an obstacle, or `ball`."""
     x: Metres
     """x of the centre in the field frame, in m."""
     y: Metres
     """y of the centre in the field frame, in m."""
     heading: Radians = 0.0
-    """Heading of a robot in the field frame, in rad."""
+    """Heading in the field frame, in rad; a ball has none."""
     z: Metres | None = None
     """Height of the ball's centre in m; None for a ball on the ground. Robots stand on the ground."""
     vx: MetresPerSecond = 0.0
@@ -52,7 +53,7 @@ class Placement(Part):
     vz: MetresPerSecond = 0.0
     """Velocity of the ball upward, in m/s."""
     omega: RadiansPerSecond = 0.0
-    """Turn rate of a robot, in rad/s."""
+    """Turn rate, in rad/s; a ball has none."""
 
 
 def goalkeeper_of(robots: Sequence[str], off_field: Container[str]) -> str | None:

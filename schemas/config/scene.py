@@ -11,7 +11,7 @@ from pydantic import Field, StringConstraints, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.number_files import NumberFiles
-from schemas.config.obstacle import StaticObstacle
+from schemas.config.obstacle import ObstacleConfig
 from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.config.soccer.drill import Drill, Variation
 from schemas.config.toml_file import validate_tables
@@ -140,7 +140,7 @@ class Scene(ConfigModel):
     """Place and velocity of the ball."""
     robots: Annotated[list[SceneRobot], Field(min_length=1, max_length=2 * MAX_ROBOTS)]
     """The robots of both sides."""
-    obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
+    obstacles: Annotated[list[ObstacleConfig], Field(max_length=100)] = Field(default_factory=list)
     """The obstacles on the pitch."""
     drill: Drill | None = None
     """What makes it a drill: its end and verdict; a match that starts in the scene plays on."""

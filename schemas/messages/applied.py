@@ -5,7 +5,7 @@ from typing import Any
 
 import msgspec
 
-from schemas.config.obstacle import StaticObstacle
+from schemas.config.obstacle import ObstacleConfig
 from schemas.config.roster import Placement, RosterEntry
 from schemas.messages.command import Drive, Kick
 from schemas.messages.parameters import ParameterName, Setting
@@ -70,7 +70,7 @@ class Applied(Message):
     robots: list[RosterEntry] | None = None
     """The robots that take part from this tick on, in the order of the roster; given at tick 0 and on a change,
     otherwise None."""
-    obstacles: list[StaticObstacle] | None = None
+    obstacles: list[ObstacleConfig] | None = None
     """The obstacles on the pitch from this tick on; None where they have not changed."""
     episode: int = 1
     """The episode that this tick belongs to: the start of the match is 1, and each scene that is loaded and each reset

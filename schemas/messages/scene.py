@@ -5,7 +5,7 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from schemas.config.obstacle import StaticObstacle
+from schemas.config.obstacle import ObstacleConfig
 from schemas.config.roster import MAX_ROBOTS, Placement
 from schemas.config.scene import Scene, SceneRobot
 from schemas.wire.message import Message, Name, Source
@@ -34,7 +34,7 @@ class SceneRequest(Message):
     """For `place`: placements of robots or the ball."""
     robots: Annotated[list[SceneRobot], Meta(max_length=2 * MAX_ROBOTS)] = []
     """For `add`: robots that are added."""
-    obstacles: Annotated[list[StaticObstacle], Meta(max_length=100)] = []
+    obstacles: Annotated[list[ObstacleConfig], Meta(max_length=100)] = []
     """For `add`: obstacles that are added."""
     remove: Annotated[list[Name], Meta(max_length=100)] = []
     """For `remove`: names of robots and obstacles."""

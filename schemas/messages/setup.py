@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
+from schemas.config.free import FreeConfig, GameName, Zone
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig, Parameter
 from schemas.config.number_files import UNVERSIONED
@@ -39,6 +40,17 @@ class TeamSetup(Part):
     """The first robot that is on the field is the goalkeeper; False for a team without one."""
     parameters: dict[Name, Parameter] = {}
     """Values of the match file for the team's own program; the other team can read them, too."""
+
+
+class FreeSetup(Part):
+    """The game `free`: what its score is called, and the zones on the floor."""
+
+    score: str
+    """`module:function` of the score."""
+    unit: str = ""
+    """Unit of the score; empty without one."""
+    zones: list[Zone] = []
+    """Parts of the floor that the score names."""
 
 
 class Setup(Message):
@@ -114,6 +126,10 @@ class Setup(Message):
     """Whether agents claim their robot on `host/claim`; False in a replay, which admits all."""
     orders: dict[Side, int] = {}
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
+    game: GameName = GameName.SOCCER
+    """The game that is played."""
+    free: FreeSetup | None = None
+    """What is known of the game `free`; None for soccer. The numbers of the rule book have no effect in it."""
     sensors: dict[Name, dict[Name, Sensor]] = {}
     """Type → its sensors by name, with their numbers; omitted while no type has any."""
 
@@ -150,6 +166,8 @@ class Setup(Message):
             models=types_of(profile),
             engine=dict(engine),
             parameters=dict(parameters),
+            game=config.game,
+            free=_free(config.free) if config.free is not None else None,
             sensors={name: dict(carried) for name in types_of(profile) if (carried := profile.sensors_of(name))},
             **{name: getattr(book, name) for name in RULE_SECTIONS},
         )
@@ -183,6 +201,10 @@ class Setup(Message):
             "camera": model.camera,
         }
         return self.replace(**own)
+
+
+def _free(free: FreeConfig) -> FreeSetup:
+    return FreeSetup(score=free.score, unit=free.unit, zones=free.zones)
 
 
 def _team(config: MatchConfig, side: Side) -> TeamSetup:

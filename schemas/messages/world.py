@@ -4,6 +4,7 @@ from typing import ClassVar
 
 from schemas.config.obstacle import Shape
 from schemas.config.sensors.table import Reading
+from schemas.errors import TouchlineError
 from schemas.side import Side
 from schemas.soccer.game import OffField
 from schemas.wire.message import WITHOUT_SENSORS, Message, Name
@@ -52,8 +53,23 @@ class BallTruth(Part):
     """Velocity upward, in m/s."""
 
 
-class ObstacleTruth(Part):
-    """Place and size of a static body, in the field frame."""
+class PushedTruth(Part):
+    """What an obstacle that can be pushed has besides its place, in the field frame."""
+
+    vx: float
+    """Velocity along x of the field frame, in m/s."""
+    vy: float
+    """Velocity along y of the field frame, in m/s."""
+    omega: float
+    """Turn rate, counter-clockwise, in rad/s."""
+    mass: float
+    """Mass in kg."""
+    friction: float
+    """Coefficient of friction on the ground."""
+
+
+class ObstacleTruth(Part, omit_defaults=True):
+    """Place and size of an obstacle, in the field frame."""
 
     x: float
     """x of the centre in the field frame, in m."""
@@ -71,6 +87,8 @@ class ObstacleTruth(Part):
     """Size of a box along its heading, or a cylinder's diameter, in m."""
     size_y: float
     """Size of a box across its heading, or a cylinder's diameter, in m."""
+    pushed: PushedTruth | None = None
+    """Velocity and mass of an obstacle that can be pushed; omitted for one that stands fast."""
 
 
 class World(Message):
@@ -86,8 +104,8 @@ class World(Message):
     """Simulated time in s: tick × control tick."""
     robots: dict[Name, RobotTruth]
     """Robot → its true state."""
-    ball: BallTruth
-    """True state of the ball."""
+    ball: BallTruth | None
+    """True state of the ball; None in a game without one."""
     possession: Name | None = None
     """The robot that holds the ball; None while no robot does."""
     touches: list[Name] = []
@@ -104,6 +122,17 @@ class World(Message):
     """Counts the starts of the world: the match's own, each scene that is loaded, each reset. Ticks and time go on."""
     sensors: dict[Name, dict[Name, Reading]] = {}
     """Robot → sensor → the reading taken in this tick, in the robot's frame; omitted without any."""
+
+    @property
+    def match_ball(self) -> BallTruth:
+        """The ball of a game that has one.
+
+        Raises:
+            TouchlineError: the game has none.
+        """
+        if self.ball is None:
+            raise TouchlineError("this game has no ball")
+        return self.ball
 
 
 class RobotFrame(Message):

@@ -159,6 +159,7 @@ class EventKind(StrEnum):
     FORFEIT = "forfeit"
     FULL_TIME = "full_time"
     ACTION = "action"
+    NOTE = "note"
     AGENT = "agent"
     PARAMETERS = "parameters"
     SCENE = "scene"

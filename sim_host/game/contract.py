@@ -1,21 +1,17 @@
 """The contract of a game."""
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
-from schemas.config.robot_model import RobotModel
 from schemas.config.roster import RosterEntry
 from schemas.config.scene import Scene
 from schemas.messages.parameters import Setting
 from schemas.messages.setup import Setup
-from sim_host.game.ball_control import BallControl
+from sim_host.game.ball_control import Arena
 from sim_host.game.judging import Judge
 from sim_host.snapshot import Roster
-
-if TYPE_CHECKING:  # a command that checks a match file runs without PyBullet
-    from sim_host.physics.engine import Engine
 
 
 class Game(Protocol):
@@ -25,8 +21,9 @@ class Game(Protocol):
     def changed_by_layout(self) -> Collection[str]:
         """Fields of the state that `PlayState.after_layout_change` may change."""
 
-    def ball_control(self, profile: Profile, models: Sequence[RobotModel], engine: "Engine") -> BallControl:
-        """What moves the ball; `models` in the order of the roster."""
+    @property
+    def arena(self) -> Arena:
+        """What the game needs in the world."""
 
     def fingerprint(self) -> dict[str, str]:
         """Part → digest of the program that computes it; a recording keeps it."""

@@ -18,8 +18,9 @@ def opening_layout(config: MatchConfig, live_parameters: LiveParameters, game: G
     """
     profile = live_parameters.profile
     scene = config.scene if config.scene is not None else game.start_scene(config, profile)
-    began = scene_layout(scene, "")
-    specs = Specs(profile.field, profile.ball, live_parameters.types, game.check_team_sizes)
+    furniture = game.arena.furniture
+    began = scene_layout(scene, furniture, "")
+    specs = Specs(profile.field, profile.ball, live_parameters.types, game.check_team_sizes, furniture)
     check_layout(began.layout, specs, began.layout.names)
     return scene, began
 

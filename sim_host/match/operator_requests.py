@@ -82,8 +82,11 @@ class OperatorRequests:
 
     def _current_layout(self, snapshot: Snapshot) -> Layout:
         """The layout, with bodies where they are or are about to be set down."""
-        ball = snapshot.ball
-        at = {BALL: Placement(body=BALL, x=ball.x, y=ball.y, z=ball.z)}
+        ball = snapshot.ball_state
+        at = {} if ball is None else {BALL: Placement(body=BALL, x=ball.x, y=ball.y, z=ball.z)}
+        for one in snapshot.obstacles:
+            if one.pushed is not None:
+                at[one.name] = Placement(body=one.name, x=one.x, y=one.y, heading=one.heading)
         for name, robot in zip(snapshot.roster.names, snapshot.robots, strict=True):
             at[name] = Placement(body=name, x=robot.x, y=robot.y, heading=robot.heading)
         at.update({one.body: one for one in self.pending.placements})
@@ -113,7 +116,10 @@ class OperatorRequests:
     @property
     def _specs(self) -> Specs:
         profile = self.live_parameters.profile
-        return Specs(profile.field, profile.ball, self.live_parameters.types, self._game.check_team_sizes)
+        game = self._game
+        return Specs(
+            profile.field, profile.ball, self.live_parameters.types, game.check_team_sizes, game.arena.furniture
+        )
 
 
 def _setting_text(value: Setting) -> str:

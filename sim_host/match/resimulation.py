@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import msgspec
 
-from schemas.config.obstacle import StaticObstacle
+from schemas.config.obstacle import ObstacleConfig
 from schemas.config.profile import STANDARD, Profile, load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import RosterEntry
@@ -19,16 +19,17 @@ from schemas.config.sections import TYPE_SECTIONS
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied
 from schemas.messages.setup import Setup
+from schemas.messages.world import ObstacleTruth
 from schemas.messages.world import World as WorldMessage
 from schemas.natural_order import natural_order
 from schemas.wire.part import encode
-from sim_host.game.ball_control import MakeBallControl
+from sim_host.game.ball_control import Arena
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, bodies_fields
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.sensing.sensors.suite import SensorSuite
-from sim_host.snapshot import BALL, BallState, RobotState, Roster, Snapshot
+from sim_host.snapshot import BALL, BallState, ObstacleState, Pushed, RobotState, Roster, Snapshot
 
 
 class ImpossibleTickError(TouchlineError):
@@ -42,7 +43,7 @@ class Conditions:
     live_parameters: LiveParameters
     robots: tuple[RosterEntry, ...] = ()
     """In the order of the roster."""
-    obstacles: tuple[StaticObstacle, ...] = ()
+    obstacles: tuple[ObstacleConfig, ...] = ()
 
     def after(self, applied: Applied) -> "Conditions":
         """The conditions after the changes of a tick.
@@ -141,7 +142,7 @@ class Resimulation:
 
     def __init__(
         self,
-        make_ball_control: MakeBallControl,
+        arena: Arena,
         initial: Conditions,
         checkpoint: CheckpointState | None = None,
         seed: int | None = None,
@@ -152,7 +153,7 @@ class Resimulation:
         """
         self._streams = RandomStreams(seed) if seed is not None else None
         self._sensors: SensorSuite | None = None
-        self._make_ball_control = make_ball_control
+        self._arena = arena
         self._conditions = initial
         self._checkpoint = checkpoint
         self._names: set[str] = set()
@@ -204,13 +205,14 @@ class Resimulation:
     def _new_world(self, conditions: Conditions) -> World:
         """The world before the first tick of the resimulation."""
         roster = self._roster_of(conditions)
-        world = World(conditions.live_parameters.profile, roster, self._make_ball_control)
+        world = World(conditions.live_parameters.profile, roster, self._arena)
         for obstacle in conditions.obstacles:
             world.put_obstacle(obstacle)
         if self._checkpoint is not None:
             before, chain = self._checkpoint
             robots, ball = _states(before, roster)
-            world.begin_at(before.tick, robots, ball, bytes.fromhex(chain))
+            obstacles = [_obstacle(name, one) for name, one in before.obstacles.items()]
+            world.begin_at(before.tick, robots, ball, bytes.fromhex(chain), obstacles)
         return world
 
     def _roster_of(self, conditions: Conditions) -> Roster:
@@ -227,12 +229,13 @@ class Resimulation:
         if applied.tick > 0 and applied.inputs.keys() != names:
             odd = ", ".join(sorted(applied.inputs.keys() ^ names, key=natural_order))
             raise ImpossibleTickError(f"tick {applied.tick}: inputs do not match the robots that take part: {odd}")
+        movable = {*names, *(one.name for one in self._conditions.obstacles if one.mass is not None)}
         for placement in applied.placements:
-            if placement.body not in names and placement.body != BALL:
+            if placement.body not in movable and placement.body != BALL:
                 raise ImpossibleTickError(f"tick {applied.tick}: {placement.body} is placed, but does not take part")
 
 
-def _states(world: WorldMessage, roster: Roster) -> tuple[list[RobotState], BallState]:
+def _states(world: WorldMessage, roster: Roster) -> tuple[list[RobotState], BallState | None]:
     if world.robots.keys() != set(roster.names):
         odd = ", ".join(sorted(world.robots.keys() ^ set(roster.names), key=natural_order))
         raise ImpossibleTickError(f"tick {world.tick}: the world does not match the robots that take part: {odd}")
@@ -241,4 +244,10 @@ def _states(world: WorldMessage, roster: Roster) -> tuple[list[RobotState], Ball
         its = world.robots[name]
         robots.append(RobotState(its.x, its.y, its.z, its.heading, its.vx, its.vy, its.omega, holding=False))
     ball = world.ball
-    return robots, BallState(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)
+    return robots, BallState(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz) if ball is not None else None
+
+
+def _obstacle(name: str, one: ObstacleTruth) -> ObstacleState:
+    pushed = None if one.pushed is None else Pushed(**one.pushed.plain())
+    sizes = one.radius, one.height, one.shape, one.size_x, one.size_y
+    return ObstacleState(name, one.x, one.y, one.heading, *sizes, pushed)

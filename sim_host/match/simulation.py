@@ -74,7 +74,7 @@ class Simulation:
         self._subsystems = Subsystems(config.seed, self._game, live_parameters, began.layout.robots)
         self._operator = OperatorRequests(live_parameters, self._subsystems, self._game, start, began)
         self.state: PlayState = self.judge.begin_at(start.game, began.ball)
-        self.world = World(self.profile, self.roster, self._game.ball_control)
+        self.world = World(self.profile, self.roster, self._game.arena)
         for obstacle in began.layout.obstacles:
             self.world.put_obstacle(obstacle)
         self.orders: dict[Side, CoachOrder] = {}

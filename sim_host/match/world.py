@@ -1,15 +1,15 @@
 """The world over one control tick: moves bodies by the robots' inputs in physics steps, and takes a snapshot."""
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 
-from schemas.config.obstacle import StaticObstacle
+from schemas.config.obstacle import ObstacleConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.messages.applied import AppliedInput
 from sim_host.actuation.chassis import Chassis
-from sim_host.game.ball_control import BallReport, MakeBallControl
+from sim_host.game.ball_control import Arena, BallReport
 from sim_host.physics.collision_candidates import CollisionCandidates
 from sim_host.physics.continuous_collision import ContinuousCollision
 from sim_host.physics.engine import Engine
@@ -33,17 +33,15 @@ class WorldTick:
 class World:
     """All bodies of a match, with the actuators that move them."""
 
-    def __init__(
-        self, profile: Profile, roster: Roster, make_ball_control: MakeBallControl, engine: Engine | None = None
-    ) -> None:
+    def __init__(self, profile: Profile, roster: Roster, arena: Arena, engine: Engine | None = None) -> None:
         """`engine`, if given, was made of the same profile and roster, and has no obstacles yet."""
         self._roster = roster
-        self._make_ball_control = make_ball_control
+        self._arena = arena
         self._tick_s = profile.time.tick
-        self._engine = engine or Engine(profile, roster)
+        self._engine = engine or Engine(profile, roster, arena.furniture)
         self._chassis = Chassis(profile.time, roster.models, self._engine)
-        self._ball = make_ball_control(profile, roster.models, self._engine)
-        self._candidates = CollisionCandidates(profile, roster.models, self._chassis.yielding)
+        self._ball = arena.ball_control(profile, roster.models, self._engine)
+        self._candidates = CollisionCandidates(profile, roster.models, self._chassis.yielding, self._arena.furniture)
         self._collision = ContinuousCollision(profile, self._engine)
         self.tick = 0
         self._obstacles: tuple[ObstacleState, ...] = ()
@@ -64,8 +62,9 @@ class World:
         self._read_placed({placement.body for placement in placements})
         if any(placement.body != BALL for placement in placements):
             self._chassis.reset()
+        self._update_obstacles()
 
-    def put_obstacle(self, obstacle: StaticObstacle) -> None:
+    def put_obstacle(self, obstacle: ObstacleConfig) -> None:
         """Add an obstacle with a name that no other has; later changes are made by `rebuild_with`."""
         self._engine.put_obstacle(ObstacleState.of(obstacle))
         self._update_obstacles()
@@ -82,23 +81,26 @@ class World:
         self._chassis.reset()
         self._read_states()
 
-    def rebuild_with(self, profile: Profile, roster: Roster, obstacles: Sequence[StaticObstacle]) -> None:
+    def rebuild_with(self, profile: Profile, roster: Roster, obstacles: Sequence[ObstacleConfig]) -> None:
         """Rebuild the world with another profile, roster or obstacles; makes a checkpoint.
 
-        Robots that remain keep their pose and velocity. New robots stand aside until they are placed.
+        Robots, and obstacles that can be pushed, keep their pose and velocity where they remain. New robots stand aside
+        until they are placed.
         """
         kept, ball = dict(zip(self._roster.names, self._robots, strict=True)), self._ball_state
+        before = self._engine.obstacles
         self._engine.close()
-        self._engine = Engine(profile, roster)
+        self._engine = Engine(profile, roster, self._arena.furniture)
         for obstacle in obstacles:
             self._engine.put_obstacle(ObstacleState.of(obstacle))
+        self._engine.continue_pushables(before)
         self._chassis = Chassis(profile.time, roster.models, self._engine)
-        self._candidates = CollisionCandidates(profile, roster.models, self._chassis.yielding)
+        self._candidates = CollisionCandidates(profile, roster.models, self._chassis.yielding, self._arena.furniture)
         self._collision = ContinuousCollision(profile, self._engine)
         self._update_obstacles()
         new_states = self._engine.robot_states(None)
         self._roster = roster
-        self._ball = self._make_ball_control(profile, roster.models, self._engine)
+        self._ball = self._arena.ball_control(profile, roster.models, self._engine)
         robots = [kept.get(name, state) for name, state in zip(roster.names, new_states, strict=True)]
         self._engine.rebuild(robots, ball)
         self._ball.reset(ball)
@@ -106,12 +108,21 @@ class World:
         self._chassis.reset()
         self._read_states()
 
-    def begin_at(self, tick: int, robots: Sequence[RobotState], ball: BallState, chain: bytes) -> None:
-        """Continue a history after a tick, with its robots in the order of the roster and its chain.
+    def begin_at(
+        self,
+        tick: int,
+        robots: Sequence[RobotState],
+        ball: BallState | None,
+        chain: bytes,
+        obstacles: Iterable[ObstacleState] = (),
+    ) -> None:
+        """Continue a history after a tick, with its robots in the order of the roster, its chain and its `obstacles`.
 
         A checkpoint has to be made before the next tick; it is made from the states given here, bit for bit.
         """
         self.tick, self._robots, self._ball_state, self._chain = tick, RobotStates(robots), ball, chain
+        self._engine.continue_pushables(obstacles)
+        self._update_obstacles()
 
     def advance(self, inputs: Mapping[str, AppliedInput]) -> WorldTick:
         """Simulate one control tick."""
@@ -154,7 +165,7 @@ class World:
             time=self.tick * self._tick_s,
             roster=self._roster,
             robots=self._robots,
-            ball=self._ball_state,
+            ball_state=self._ball_state,
             possession=None if holding is None else names[holding],
             touches=tuple([names[place] for place in reversed(last_touches)]),
             level=tuple([names[place] for place in report.level]),
@@ -168,6 +179,8 @@ class World:
 
     def _read_states(self) -> None:
         """Take over the states that the engine has read."""
+        if self._engine.has_pushables:
+            self._update_obstacles()
         self._robots = self._engine.robot_states(self._ball.holder)
         self._ball_state = self._engine.ball_state()
 

@@ -36,7 +36,7 @@ def bodies_fields(snapshot: Snapshot, stuck: list[bool]) -> Fields:
             }
             for name, robot, is_stuck in zip(snapshot.roster.names, snapshot.robots, stuck, strict=True)
         },
-        "ball": snapshot.ball._asdict(),
+        "ball": snapshot.ball_state._asdict() if snapshot.ball_state is not None else None,
         "possession": snapshot.possession,
     }
     if snapshot.touches:
@@ -53,4 +53,8 @@ def bodies_fields(snapshot: Snapshot, stuck: list[bool]) -> Fields:
 def _obstacle_fields(obstacle: ObstacleState) -> Fields:
     fields = obstacle._asdict()
     del fields["name"]
+    if obstacle.pushed is None:
+        del fields["pushed"]
+    else:
+        fields["pushed"] = obstacle.pushed._asdict()
     return fields

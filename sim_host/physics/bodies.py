@@ -44,11 +44,11 @@ class BodyMaker:
         self._surface(body, friction=1.0, restitution=0.0)
         return body
 
-    def pitch(self) -> Iterator[int]:
+    def pitch(self, *, with_goals: bool) -> Iterator[int]:
         """The boxes of the pitch, in the order of `sim_host.physics.pitch.fixed_boxes`."""
         for box in boundary(self._profile.field):
             yield self._box(box, 0.5, _WALL_RESTITUTION)
-        for goal in goals(self._profile.field):
+        for goal in goals(self._profile.field) if with_goals else ():
             for box in goal.frame:
                 yield self._box(box, 0.5, 1.0)
             for box in goal.net:
@@ -73,7 +73,7 @@ class BodyMaker:
         return body
 
     def obstacle(self, obstacle: ObstacleState) -> int:
-        """A fixed obstacle at its place."""
+        """An obstacle that stands fast, at its place."""
         client, half_z = self._client, obstacle.height / 2
         if obstacle.shape is Shape.CYLINDER:
             shape = pybullet.createCollisionShape(
@@ -84,6 +84,32 @@ class BodyMaker:
             shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, physicsClientId=client)
         body = self._fixed(shape, (obstacle.x, obstacle.y, half_z), upright(obstacle.heading))
         self._surface(body, friction=0.5, restitution=_WALL_RESTITUTION)
+        return body
+
+    def pushable(self, obstacle: ObstacleState, mass: float, inertia: Vector, ground: int) -> int:
+        """An obstacle of this `mass` in kg and moments of `inertia` in kg·m², at its place.
+
+        Like a robot's hull it has two halves, one on the other.
+        """
+        client, half = self._client, obstacle.height / 2
+        kind = pybullet.GEOM_CYLINDER if obstacle.is_round else pybullet.GEOM_BOX
+        shape = pybullet.createCollisionShapeArray(
+            shapeTypes=[kind] * 2,
+            radii=[obstacle.size_x / 2] * 2,
+            lengths=[half] * 2,
+            halfExtents=[(obstacle.size_x / 2, obstacle.size_y / 2, half / 2)] * 2,
+            collisionFramePositions=[(0.0, 0.0, -half / 2), (0.0, 0.0, half / 2)],
+            physicsClientId=client,
+        )
+        at, turned = (obstacle.x, obstacle.y, half), upright(obstacle.heading)
+        body: int = pybullet.createMultiBody(
+            mass, shape, basePosition=at, baseOrientation=turned, physicsClientId=client
+        )
+        pybullet.changeDynamics(
+            body, -1, localInertiaDiagonal=inertia, linearDamping=0.0, angularDamping=0.0, physicsClientId=client
+        )
+        self._surface(body, friction=0.5, restitution=0.0)
+        pybullet.setCollisionFilterPair(body, ground, -1, -1, 0, physicsClientId=client)
         return body
 
     def ball(self) -> int:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
-from sim_host.physics.pitch import fixed_boxes
+from sim_host.physics.pitch import Furniture, fixed_boxes
 from sim_host.snapshot import BallState, ObstacleState, RobotState
 
 MAX_DEPTH = 0.01
@@ -20,6 +20,9 @@ MIN_IMPACT = 0.5
 
 _MARGIN = 0.02
 """m; bodies this much farther apart may still touch: the engine's contacts begin at such a gap."""
+
+_NOWHERE = BallState(math.inf, math.inf, 0.0, 0.0, 0.0, 0.0)
+"""A ball that no robot can touch stands for none."""
 
 IndexPairs = list[tuple[int, int]]
 _Moving = tuple[float, float, float, float, float, float, int]
@@ -32,7 +35,7 @@ class Candidates(NamedTuple):
     robots: IndexPairs
     """Pairs of robots that approach each other fast."""
     fixed: IndexPairs
-    """Pairs of a robot and a fixed body that it approaches fast: first the boxes of the pitch, then the obstacles."""
+    """Pairs of a robot and a body that it approaches fast: first the boxes of the pitch, then the obstacles."""
     touching: list[int]
     """Robots that may touch a robot, a fixed body or the ball, at any speed, sorted; of those whose drive yields."""
     meeting: bool
@@ -44,7 +47,9 @@ class Candidates(NamedTuple):
 class CollisionCandidates:
     """Finds robots that may meet another body; the cost grows with their number."""
 
-    def __init__(self, profile: Profile, models: Sequence[RobotModel], yields: Sequence[bool]) -> None:
+    def __init__(
+        self, profile: Profile, models: Sequence[RobotModel], yields: Sequence[bool], furniture: Furniture
+    ) -> None:
         self._tick = tick = profile.time.tick
         self._ball_radius, pitch = profile.ball.radius, profile.field
         self._yields = yields
@@ -54,7 +59,7 @@ class CollisionCandidates:
         self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
         """m from the axis to where a turning hull can strike; 0 for a round hull, which slides past."""
         self._gains = [max(model.drive.acceleration, model.drive.deceleration) * tick for model in models]
-        self._boxes = [(box.x, box.y, box.half_x, box.half_y) for box in fixed_boxes(pitch)]
+        self._boxes = [(box.x, box.y, box.half_x, box.half_y) for box in fixed_boxes(pitch, furniture)]
         self._free_x, self._free_y = pitch.goal_line, pitch.touch_line + pitch.border
         """m; no box of the pitch lies within these."""
         self._obstacles: list[tuple[float, float, float]] = []
@@ -63,11 +68,11 @@ class CollisionCandidates:
         """Set the obstacles on the pitch."""
         self._obstacles = [(obstacle.x, obstacle.y, obstacle.radius) for obstacle in obstacles]
 
-    def find(self, robots: Sequence[RobotState], ball: BallState) -> Candidates:
+    def find(self, robots: Sequence[RobotState], ball: BallState | None) -> Candidates:
         """The robots that may meet another body within the tick."""
         fast, tick, obstacles = self._fast, self._tick, self._obstacles
         free_x, free_y = self._free_x - _MARGIN, self._free_y - _MARGIN
-        ball_x, ball_y, _, ball_vx, ball_vy, _ = ball
+        ball_x, ball_y, _, ball_vx, ball_vy, _ = ball or _NOWHERE
         room = self._ball_radius + math.hypot(ball_vx, ball_vy) * tick + _MARGIN
         gains, strikes, reaches, yields = self._gains, self._strikes, self._reaches, self._yields
         moving, fixed, touching = [], [], set()

@@ -39,14 +39,16 @@ class ContinuousCollision:
     def advance_robots(self, robots: IndexPairs, fixed: IndexPairs, twists: Sequence[FieldTwist]) -> None:
         """Move robots that would sink into another body in the next step to where they touch it.
 
-        `robots` are pairs of robots. `fixed` are pairs of a robot and a fixed body: first the boxes of the pitch, then
+        `robots` are pairs of robots. `fixed` are pairs of a robot and another body: first the boxes of the pitch, then
         the obstacles. `twists` are the velocities of the robots in the next step.
         """
         bodies, fixed_bodies = self._engine.robots, self._engine.fixed_bodies() if fixed else []
+        pushed = self._engine.pushed_twists() if fixed else {}
         for one, other in robots:
             self._advance_pair({bodies[one]: twists[one], bodies[other]: twists[other]})
         for one, other in fixed:
-            self._advance_pair({bodies[one]: twists[one], fixed_bodies[other]: _AT_REST})
+            body = fixed_bodies[other]
+            self._advance_pair({bodies[one]: twists[one], body: pushed.get(body, _AT_REST)})
 
     def _advance_pair(self, twists: Mapping[int, FieldTwist]) -> None:
         """Move two bodies with these velocities to where they touch, if they would overlap too far in the next step."""

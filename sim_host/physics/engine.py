@@ -1,12 +1,12 @@
 """The physics engine: poses, velocities, steps and contacts.
 
-Only this module, `bodies` and `fingerprint` import PyBullet.
+Only this module, `bodies`, `pushables` and `fingerprint` import PyBullet.
 """
 
 import math
 import struct
 import weakref
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import chain
 from typing import Any
 
@@ -18,8 +18,10 @@ from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Ga
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
 from sim_host.physics.bullet import pybullet
 from sim_host.physics.gravity import GRAVITY
+from sim_host.physics.pitch import SOCCER, Furniture
+from sim_host.physics.pushables import Pushable, inertia
 from sim_host.physics.vectors import FieldTwist, Vector
-from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster
+from sim_host.snapshot import BALL, BallState, NoBallError, ObstacleState, RobotState, RobotStates, Roster
 
 _ITERATIONS = 200
 """Maximum of the solver; with Bullet's 50, two robots press a ball, of a hundredth of their mass, into their hulls."""
@@ -39,8 +41,9 @@ _ZERO: Vector = (0.0, 0.0, 0.0)
 class Engine:
     """One physical world; bodies are addressed by their index in the roster."""
 
-    def __init__(self, profile: Profile, roster: Roster) -> None:
+    def __init__(self, profile: Profile, roster: Roster, furniture: Furniture = SOCCER) -> None:
         self._profile = profile
+        self._furniture = furniture
         self.names = roster.names
         self._models = roster.models
         self._heights = [model.body.height / 2 for model in roster.models]
@@ -53,7 +56,8 @@ class Engine:
         """The state of the ball; None when it has to be read again."""
         self._noted_contacts: set[tuple[int, int]] = set()
         self._obstacles: dict[str, tuple[ObstacleState, int]] = {}
-        """Name → the obstacle and its body, in the order in which they were added."""
+        """Name → the obstacle as it was put there, and its body, in the order in which they were added."""
+        self._pushables: dict[str, Pushable] = {}
         self._build()
 
     def close(self) -> None:
@@ -74,25 +78,61 @@ class Engine:
         )
         make = self._make
         self._ground = make.ground()
-        self._boxes = list(make.pitch())
+        self._boxes = list(make.pitch(with_goals=self._furniture.goals))
         self.robots = [make.robot(place, model, self._ground) for place, model in enumerate(self._models)]
         self._robot_of = {body: place for place, body in enumerate(self.robots)}
-        self.ball = make.ball()
-        kept = [obstacle for obstacle, _ in self._obstacles.values()]
-        self._obstacles = {obstacle.name: (obstacle, make.obstacle(obstacle)) for obstacle in kept}
+        self._balls = [make.ball()] if self._furniture.ball else []
+        kept = self.obstacles
+        self._obstacles, self._pushables = {}, {}
+        for obstacle in kept:
+            self.put_obstacle(obstacle)
         self._ball_ignores: int | None = None
         self.read()
 
     @property
     def obstacles(self) -> tuple[ObstacleState, ...]:
-        """All obstacles, in the order in which they were added."""
-        return tuple([obstacle for obstacle, _ in self._obstacles.values()])
+        """All obstacles, in the order in which they were added; those that can be pushed as last read."""
+        pushables = self._pushables
+        return tuple(
+            [pushables[name].obstacle if name in pushables else at for name, (at, _) in self._obstacles.items()]
+        )
+
+    @property
+    def has_pushables(self) -> bool:
+        """Whether an obstacle can be pushed."""
+        return bool(self._pushables)
 
     def put_obstacle(self, obstacle: ObstacleState) -> None:
         """Add an obstacle with a name that no other has."""
-        self._obstacles[obstacle.name] = obstacle, self._make.obstacle(obstacle)
+        pushed = obstacle.pushed
+        if pushed is None:
+            body = self._make.obstacle(obstacle)
+        else:
+            moments = inertia(obstacle, pushed.mass)
+            body = self._make.pushable(obstacle, pushed.mass, moments, self._ground)
+            pushable = Pushable(self.client, body, obstacle, pushed, self._profile.time.physics_step)
+            pushable.continue_from(obstacle)
+            self._pushables[obstacle.name] = pushable
+        self._obstacles[obstacle.name] = obstacle, body
 
-    def rebuild(self, robots: Sequence[RobotState], ball: BallState) -> None:
+    def continue_pushables(self, obstacles: Iterable[ObstacleState]) -> None:
+        """Let obstacles that can be pushed go on with the poses and velocities of those of the same names."""
+        for obstacle in obstacles:
+            if obstacle.pushed is not None and obstacle.name in self._pushables:
+                self._pushables[obstacle.name].continue_from(obstacle)
+
+    @property
+    def ball(self) -> int:
+        """The body of the ball.
+
+        Raises:
+            NoBallError: the game has none.
+        """
+        if not self._balls:
+            raise NoBallError
+        return self._balls[0]
+
+    def rebuild(self, robots: Sequence[RobotState], ball: BallState | None) -> None:
         """Rebuild the world with these poses and velocities: robots upright, the ball without spin and not held.
 
         Its future then depends on these numbers alone: contact caches and warm starts are cleared.
@@ -101,8 +141,9 @@ class Engine:
         for body, height, robot in zip(self.robots, self._heights, robots, strict=True):
             velocity, spin = (robot.vx, robot.vy, 0.0), (0.0, 0.0, robot.omega)
             self.set_state(body, BodyState((robot.x, robot.y, height), upright(robot.heading), velocity, spin))
-        position, velocity = (ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz)
-        self.set_state(self.ball, BodyState(position, NO_TURN, velocity, _ZERO))
+        if ball is not None:
+            position, velocity = (ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz)
+            self.set_state(self.ball, BodyState(position, NO_TURN, velocity, _ZERO))
         self.read()
 
     def state(self, body: int) -> BodyState:
@@ -118,12 +159,16 @@ class Engine:
         pybullet.resetBaseVelocity(body, state.velocity, state.spin, physicsClientId=self.client)
 
     def place(self, placement: Placement) -> None:
-        """Place a robot or the ball, at rest or with a velocity, and read its state."""
+        """Place a robot, the ball or an obstacle that can be pushed, at rest or with a velocity, and read its state."""
         if placement.body == BALL:
             height = self._profile.ball.radius if placement.z is None else placement.z
             velocity = (placement.vx, placement.vy, placement.vz)
             self.set_state(self.ball, BodyState((placement.x, placement.y, height), NO_TURN, velocity, _ZERO))
             self._states[-1] = self.state(self.ball)
+            return
+        twist = (placement.vx, placement.vy, placement.omega)
+        if placement.body in self._pushables:
+            self._pushables[placement.body].set(placement.x, placement.y, placement.heading, twist)
             return
         place = self.names.index(placement.body)
         position = (placement.x, placement.y, self._heights[place])
@@ -133,8 +178,11 @@ class Engine:
 
     def read(self) -> None:
         """Read the state of all bodies; a robot that was lifted or tipped is put upright first."""
-        self._states = [self.state(body) for body in (*self.robots, self.ball)]
-        self._ball_now = self._states[-1]
+        self._states = [self.state(body) for body in (*self.robots, *self._balls)]
+        """Of all robots, then of the ball."""
+        self._ball_now = self._states[-1] if self._balls else None
+        for pushable in self._pushables.values():
+            pushable.read()
         self.robot_contacts = tuple(sorted(self._noted_contacts | self._robot_contacts()))
         """Pairs of robots that touched in the last step or in a noted one; sorted, the smaller index first."""
         self._noted_contacts.clear()
@@ -151,8 +199,10 @@ class Engine:
         A pressed ball is light and touches a hull near its foot or near its top, so that the solver tips the robot
         rather than stops it. A robot put upright about its centre would then come down into the ball.
         """
-        (x, y, _), (qx, qy, qz, qw), *_ = self._states[place]
-        (ball_x, ball_y, ball_z), height = self._states[-1].position, self._heights[place]
+        ((x, y, _), (qx, qy, qz, qw), *_), height = self._states[place], self._heights[place]
+        if not self._balls:
+            return x, y, height
+        ball_x, ball_y, ball_z = self._states[-1].position
         if math.hypot(ball_x - x, ball_y - y) < self._models[place].body.reach + 2.0 * self._profile.ball.radius:
             below = height - min(ball_z, 2.0 * height)
             x, y = x - below * 2.0 * (qx * qz + qw * qy), y - below * 2.0 * (qy * qz - qw * qx)
@@ -160,21 +210,25 @@ class Engine:
 
     def robot_states(self, holding: int | None) -> RobotStates:
         """The states of all robots, as last read."""
-        return RobotStates([_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1])])
+        robots = self._states[: len(self.robots)]
+        return RobotStates([_robot_state(state, place == holding) for place, state in enumerate(robots)])
 
-    def ball_state(self) -> BallState:
-        """The state of the ball, as last read."""
+    def ball_state(self) -> BallState | None:
+        """The state of the ball, as last read; None without one."""
+        if not self._balls:
+            return None
         position, _, velocity, _ = self._states[-1]
         return BallState(*position, *velocity)
 
     def ball_spin(self) -> tuple[float, float]:
-        """The ball's spin about x and y in rad/s, as last read."""
-        return self._states[-1].spin[:2]
+        """The ball's spin about x and y in rad/s, as last read; 0 without a ball."""
+        return self._states[-1].spin[:2] if self._balls else (0.0, 0.0)
 
     def packed(self) -> bytes:
         """Robots, ball and obstacles, as last read, as little-endian doubles: equal bytes mean equal worlds."""
-        numbers = chain.from_iterable(chain.from_iterable(self._states))
-        bodies = struct.pack(f"<{_STATE_SIZE * len(self._states)}d", *numbers)
+        states = [*self._states, *[pushable.state() for pushable in self._pushables.values()]]
+        numbers = chain.from_iterable(chain.from_iterable(states))
+        bodies = struct.pack(f"<{_STATE_SIZE * len(states)}d", *numbers)
         return b"".join([bodies, *[_pack(obstacle) for obstacle, _ in self._obstacles.values()]])
 
     def robot_now(self, place: int) -> RobotState:
@@ -193,14 +247,20 @@ class Engine:
         return self._ball_now
 
     def set_velocities(self, velocities: Sequence[FieldTwist]) -> None:
-        """Set every robot's velocity in the field frame, (vx, vy, omega), for the next step."""
+        """Set every robot's velocity in the field frame, (vx, vy, omega), for the next step; brake what is pushed."""
         lift, client, reset = self._lift, self.client, pybullet.resetBaseVelocity
         for body, (vx, vy, omega) in zip(self.robots, velocities, strict=True):
             reset(body, (vx, vy, lift), (0.0, 0.0, omega), physicsClientId=client)
+        for pushable in self._pushables.values():
+            pushable.brake()
 
     def fixed_bodies(self) -> list[int]:
-        """Fixed bodies other than the ground: the boxes of the pitch, then the obstacles."""
+        """Bodies other than robots, ball and ground: the boxes of the pitch, then the obstacles."""
         return self._boxes + [body for _, body in self._obstacles.values()]
+
+    def pushed_twists(self) -> dict[int, FieldTwist]:
+        """Body of each obstacle that can be pushed → its velocity between two steps."""
+        return {pushable.body: pushable.twist() for pushable in self._pushables.values()}
 
     def gap(self, one: int, other: int, within: float) -> Gap | None:
         """The gap between the nearest points of two bodies; None if they are more than `within` m apart."""
@@ -213,7 +273,7 @@ class Engine:
     def bodies_near_ball(self, low: Sequence[float], high: Sequence[float]) -> list[int]:
         """Bodies, other than the ground, that may reach into the box between two corners and collide with the ball."""
         found = pybullet.getOverlappingObjects(low, high, physicsClientId=self.client) or ()
-        passes = {self.ball, self._ground, None if self._ball_ignores is None else self.robots[self._ball_ignores]}
+        passes = {*self._balls, self._ground, None if self._ball_ignores is None else self.robots[self._ball_ignores]}
         return sorted({body for body, _ in found} - passes)
 
     def set_ball_motion(self, velocity: Vector, spin: Vector) -> None:

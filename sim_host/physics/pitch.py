@@ -19,6 +19,16 @@ class Box(NamedTuple):
     half_z: float
 
 
+class Furniture(NamedTuple):
+    """What a game has on its floor besides robots and obstacles."""
+
+    ball: bool = True
+    goals: bool = True
+
+
+SOCCER = Furniture()
+
+
 def boundary(pitch: Pitch) -> list[Box]:
     """Four walls around the border."""
     out_x = pitch.goal_line + pitch.border + _WALL / 2
@@ -29,9 +39,10 @@ def boundary(pitch: Pitch) -> list[Box]:
     return ends + sides
 
 
-def fixed_boxes(pitch: Pitch) -> list[Box]:
+def fixed_boxes(pitch: Pitch, furniture: Furniture) -> list[Box]:
     """Everything of a pitch that robots can run into."""
-    return [*boundary(pitch), *(box for goal in goals(pitch) for box in (*goal.frame, *goal.net))]
+    both = goals(pitch) if furniture.goals else []
+    return [*boundary(pitch), *(box for goal in both for box in (*goal.frame, *goal.net))]
 
 
 class Goal(NamedTuple):

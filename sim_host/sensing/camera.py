@@ -20,6 +20,8 @@ from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Rost
 
 _NO_DISTANCE = np.array(1e-9)
 """m; avoids a division by zero for the distance of a robot from itself, which is not used."""
+_OUT_OF_RANGE = BallState(1e9, 0.0, 0.0, 0.0, 0.0, 0.0)
+"""A ball that no camera sees stands for none."""
 _LATER = 1e-9
 """m by which an opponent seems farther than a teammate; without it, equally far bodies would be in roster order."""
 
@@ -97,11 +99,19 @@ class Camera:
         self._ends = np.arange(1, robots + 1)
         self._radius = self._hulls.reach.round(DIGITS)
 
+    def _set_obstacles(self, obstacles: tuple[ObstacleState, ...]) -> None:
+        """Look for other obstacles; where the same ones have only moved, all but their hulls stays."""
+        if [one.name for one in obstacles] == [one.name for one in self._obstacles]:
+            self._obstacles, self._hulls = obstacles, Hulls(self._roster.models, obstacles)
+            self._radius = self._hulls.reach.round(DIGITS)
+        else:
+            self._prepare(obstacles)
+
     def take_picture(self, snapshot: Snapshot, robots: RobotMotions, frames: TeamFrames) -> Picture:
         """Take a picture, in a tick in which one is due."""
         if snapshot.obstacles != self._obstacles:
-            self._prepare(snapshot.obstacles)
-        number, ball = self._shutter.number(snapshot.tick), snapshot.ball
+            self._set_obstacles(snapshot.obstacles)
+        number, ball = self._shutter.number(snapshot.tick), snapshot.ball_state or _OUT_OF_RANGE
         places = self._hulls.places(complex(ball.x, ball.y), robots.position) - robots.position[:, None]
         distance = np.abs(places)
         found: Flags = distance <= self._range

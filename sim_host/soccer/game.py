@@ -1,18 +1,18 @@
 """Soccer as a game: the referee of a match, its ball, and its start."""
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
-from schemas.config.robot_model import RobotModel
 from schemas.config.roster import RosterEntry
 from schemas.config.scene import Scene
 from schemas.config.soccer.rule_book import RuleBook
 from schemas.config.team_sizes import check_team_sizes
 from schemas.messages.parameters import Setting
 from schemas.messages.setup import Setup
+from sim_host.game.ball_control import Arena
 from sim_host.snapshot import Roster
 from sim_host.soccer.ball.ball_handling import BallHandling
 from sim_host.soccer.referee.core import Referee
@@ -22,8 +22,8 @@ from sim_host.soccer.referee.game.state_json import state_from_json, state_json
 from sim_host.soccer.start_poses import start_poses
 from sim_host.soccer.start_scene import start_scene
 
-if TYPE_CHECKING:  # a command that checks a match file runs without PyBullet
-    from sim_host.physics.engine import Engine
+ARENA = Arena(BallHandling)
+"""Possession, dribbling and kicks."""
 
 
 class Soccer(NamedTuple):
@@ -53,9 +53,10 @@ class Soccer(NamedTuple):
         """Fields of the referee's state that an operator who moves bodies changes."""
         return "participation", "evidence", "set_piece", "proposal", "advantage"
 
-    def ball_control(self, profile: Profile, models: Sequence[RobotModel], engine: "Engine") -> BallHandling:
-        """Possession, dribbling and kicks."""
-        return BallHandling(profile, models, engine)
+    @property
+    def arena(self) -> Arena:
+        """A ball and goals."""
+        return ARENA
 
     def fingerprint(self) -> dict[str, str]:
         """Digest of the referee's program."""

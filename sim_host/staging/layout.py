@@ -3,13 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement, RosterEntry
 from schemas.config.scene import Scene, SceneGame, check_names, check_sides
 from schemas.config.sections import Ball, Pitch
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
+from sim_host.physics.pitch import SOCCER, Furniture
 from sim_host.snapshot import BALL
 from sim_host.staging.overlap import Block, Body, Disc, goal_blocks, why_outside, why_overlapping
 
@@ -24,6 +25,7 @@ class Specs:
     """All robot types by name."""
     check_team_sizes: Callable[[Sequence[RosterEntry]], None]
     """Raises a `TouchlineError` where a side has more robots than the game allows."""
+    furniture: Furniture = SOCCER
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,14 +34,21 @@ class Layout:
 
     robots: tuple[RosterEntry, ...]
     """In the order of the roster."""
-    obstacles: tuple[StaticObstacle, ...]
+    obstacles: tuple[ObstacleConfig, ...]
     at: Mapping[str, Placement]
-    """Robot or ball → where it is, or is about to be placed."""
+    """Robot, ball, or obstacle that can be pushed → where it is, or is about to be placed."""
 
     @property
     def names(self) -> list[str]:
-        """Robots, obstacles, and the ball."""
-        return [*(entry.name for entry in self.robots), *(one.name for one in self.obstacles), BALL]
+        """Robots, obstacles, and the ball where there is one."""
+        ball = [BALL] if BALL in self.at else []
+        return [*(entry.name for entry in self.robots), *(one.name for one in self.obstacles), *ball]
+
+    @property
+    def movable(self) -> list[str]:
+        """What can be placed: robots, obstacles that can be pushed, and the ball."""
+        pushed = [one.name for one in self.obstacles if one.mass is not None]
+        return [name for name in self.names if name in self.at or name in pushed]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,9 +64,9 @@ class LayoutChange:
 
     @property
     def ball(self) -> tuple[float, float]:
-        """Position of the ball on the ground, m."""
-        at = self.layout.at[BALL]
-        return at.x, at.y
+        """Position of the ball on the ground, m; the centre without one."""
+        at = self.layout.at.get(BALL)
+        return (at.x, at.y) if at is not None else (0.0, 0.0)
 
 
 def in_roster_order(robots: Sequence[RosterEntry]) -> tuple[RosterEntry, ...]:
@@ -66,9 +75,11 @@ def in_roster_order(robots: Sequence[RosterEntry]) -> tuple[RosterEntry, ...]:
     return tuple(sorted(robots, key=lambda entry: (sides.index(entry.side), not entry.keeper)))
 
 
-def scene_layout(scene: Scene, summary: str) -> LayoutChange:
+def scene_layout(scene: Scene, furniture: Furniture, summary: str) -> LayoutChange:
     """The change that begins a scene; the layout is not checked."""
-    placements = [*(robot.placement for robot in scene.robots), scene.ball.placement]
+    placements = [robot.placement for robot in scene.robots]
+    placements += [one.placement for one in scene.obstacles if one.mass is not None]
+    placements += [scene.ball.placement] if furniture.ball else []
     robots = in_roster_order([robot.entry for robot in scene.robots])
     layout = Layout(robots, tuple(scene.obstacles), {one.body: one for one in placements})
     return LayoutChange(layout, summary, placements, scene.game)
@@ -93,7 +104,7 @@ def check_layout(layout: Layout, specs: Specs, new: Sequence[str]) -> None:
             raise TouchlineError(f'{entry.name} has the type "{entry.type}"; {did_you_mean(entry.type, specs.types)}')
     bodies = _bodies(layout, specs)
     movable = [body for name, body in bodies.items() if name in layout.at and isinstance(body, Disc)]
-    goals = goal_blocks(specs.pitch)
+    goals = goal_blocks(specs.pitch) if specs.furniture.goals else []
     for name in new:
         body = bodies[name]
         if name in layout.at and isinstance(body, Disc):
@@ -111,18 +122,19 @@ def _bodies(layout: Layout, specs: Specs) -> dict[str, Body]:
         hull, at = specs.types[entry.type].body, layout.at[entry.name]
         bodies[entry.name] = Disc(entry.name, at.x, at.y, hull.reach, 0.0, hull.height, core=hull.radius)
     for one in layout.obstacles:
-        bodies[one.name] = _obstacle(one)
-    radius, at = specs.ball.radius, layout.at[BALL]
-    height = radius if at.z is None else at.z
-    bodies[BALL] = Disc("the ball", at.x, at.y, radius, height - radius, height + radius, is_ball=True)
+        bodies[one.name] = _obstacle(one, layout.at.get(one.name, one.placement))
+    if BALL in layout.at:
+        radius, at = specs.ball.radius, layout.at[BALL]
+        height = radius if at.z is None else at.z
+        bodies[BALL] = Disc("the ball", at.x, at.y, radius, height - radius, height + radius, is_ball=True)
     return bodies
 
 
-def _obstacle(one: StaticObstacle) -> Body:
-    (x, y), (long, wide, high) = one.place, one.extents
+def _obstacle(one: ObstacleConfig, at: Placement) -> Body:
+    long, wide, high = one.extents
     if one.shape is Shape.CYLINDER:
-        return Disc(one.name, x, y, long / 2, 0.0, high)
-    return Block(one.name, x, y, one.heading, long / 2, wide / 2, 0.0, high)
+        return Disc(one.name, at.x, at.y, long / 2, 0.0, high)
+    return Block(one.name, at.x, at.y, at.heading, long / 2, wide / 2, 0.0, high)
 
 
 def with_placements(layout: Layout, placements: Sequence[Placement]) -> Layout:

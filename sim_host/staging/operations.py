@@ -48,19 +48,19 @@ def _load(
     if request.load is not None and request.load.endswith(".toml"):
         raise TouchlineError(f'scene is "{request.load}"; the host reads no files: send the scene itself')
     scene = request.scene or load_scene(str(request.load))
-    change = scene_layout(scene, f"loads the scene {scene.name}")
+    change = scene_layout(scene, specs.furniture, f"loads the scene {scene.name}")
     check_layout(change.layout, specs, change.layout.names)
     return change, scenes._replace(loaded=scene)
 
 
 def _reset(
-    _layout: Layout, request: SceneRequest, scenes: ResetScenes, _specs: Specs
+    _layout: Layout, request: SceneRequest, scenes: ResetScenes, specs: Specs
 ) -> tuple[LayoutChange, ResetScenes]:
     if request.to_match:
-        return scene_layout(scenes.start, "goes back to the start of the match"), ResetScenes(
-            scenes.start, scenes.start
-        )
-    return scene_layout(scenes.loaded, f"goes back to the start of {scenes.loaded.name}"), scenes
+        scenes, back = ResetScenes(scenes.start, scenes.start), "the start of the match"
+    else:
+        back = f"the start of {scenes.loaded.name}"
+    return scene_layout(scenes.loaded, specs.furniture, f"goes back to {back}"), scenes
 
 
 def _place(
@@ -68,10 +68,12 @@ def _place(
 ) -> tuple[LayoutChange, ResetScenes]:
     if not request.place:
         raise TouchlineError("no body to place is named; name a robot or the ball")
-    movable = [*(entry.name for entry in layout.robots), BALL]
+    movable = layout.movable
     for one in request.place:
         if one.body not in movable:
-            raise TouchlineError(f"{one.body} is neither a robot nor the ball; {did_you_mean(one.body, movable)}")
+            raise TouchlineError(
+                f"{one.body} is neither a robot, the ball nor an obstacle that can be pushed; {did_you_mean(one.body, movable)}"
+            )
         if one.body != BALL and (one.z is not None or one.vz):
             raise TouchlineError(f"{one.body} stands on the ground; z and vz are for the ball")
         if one.body == BALL and one.z is not None and one.z < specs.ball.radius:
@@ -86,6 +88,7 @@ def _add(layout: Layout, request: SceneRequest, scenes: ResetScenes, specs: Spec
     if not request.robots and not request.obstacles:
         raise TouchlineError("no body to add is named; name a robot or an obstacle")
     placements = [robot.placement for robot in request.robots]
+    placements += [one.placement for one in request.obstacles if one.mass is not None]
     robots = in_roster_order([*layout.robots, *(robot.entry for robot in request.robots)])
     after = replace(
         with_placements(layout, placements), robots=robots, obstacles=(*layout.obstacles, *request.obstacles)

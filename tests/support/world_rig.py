@@ -13,7 +13,7 @@ from sim_host.match.world import World, WorldTick
 from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import Vector
 from sim_host.snapshot import RobotState, Roster, Snapshot
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA
 
 REST = AppliedInput(Drive(), dribble=False)
 
@@ -38,7 +38,7 @@ class WorldRig:
         self.profile = profile
         self.roster = roster or two_a_side(profile)
         self.engine = Engine(profile, self.roster)
-        self.world = World(profile, self.roster, BallHandling, self.engine)
+        self.world = World(profile, self.roster, ARENA, self.engine)
         self.refused: dict[str, str] = {}
         """Robot → why its kick was refused in the last tick."""
         self.stuck: list[bool] = []

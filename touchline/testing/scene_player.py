@@ -131,7 +131,7 @@ class _Log:
             way = self.robots.setdefault(name, [(nan, nan, nan)] * len(self.times))
             way.append((nan, nan, nan) if robot.off_field is not None else (robot.x, robot.y, robot.heading))
         self.times.append(world.time)
-        self.ball.append((world.ball.x, world.ball.y, world.ball.z))
+        self.ball.append((world.match_ball.x, world.match_ball.y, world.match_ball.z))
         self.events.extend(tick.events)
         self.occurrences.extend(occurrences)
 

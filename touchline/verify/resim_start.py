@@ -8,7 +8,7 @@ from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
 from recordings.reading.tick_index import Segment
 from recordings.reading.tick_records import TickRecord
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.roster import RosterEntry
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
@@ -101,10 +101,12 @@ def _robots(recording: Recording) -> Iterable[RosterEntry]:
     return Lineup.of(setup).robots.values()
 
 
-def _obstacles(world: World) -> Iterable[StaticObstacle]:
+def _obstacles(world: World) -> Iterable[ObstacleConfig]:
     """The obstacles on the pitch, from the world message."""
     for name, one in world.obstacles.items():
         extents: dict[str, Any] = {"size": [one.size_x, one.size_y, one.height]}
         if one.shape is Shape.CYLINDER:
             extents = {"radius": one.radius, "height": one.height}
-        yield StaticObstacle(name=name, shape=one.shape, place=[one.x, one.y], heading=one.heading, **extents)
+        if one.pushed is not None:
+            extents |= {"mass": one.pushed.mass, "friction": one.pushed.friction}
+        yield ObstacleConfig(name=name, shape=one.shape, place=[one.x, one.y], heading=one.heading, **extents)

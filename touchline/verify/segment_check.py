@@ -13,7 +13,7 @@ from recordings.reading.tick_records import TickRecord, command_check_of, tick_r
 from schemas.messages.applied import Applied, chained_part_of
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
-from sim_host.games import BALL_CONTROL, game_of_recording
+from sim_host.games import arena_of_recording, game_of_recording
 from sim_host.match.game_resimulation import GameResimulation, OfficiatedTick
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation
 from sim_host.match.world_difference import differences
@@ -61,7 +61,8 @@ class SegmentCheck:
         applied: Applied = record.applied or record.recorded.message()  # raises the reason if it is damaged
         if self._world is None:
             start, config = resim_start(self._recording, self._segment, before), config_of(self._recording)
-            self._world = Resimulation(BALL_CONTROL, *start, seed=config.seed if config is not None else None)
+            arena = arena_of_recording(config, self._recording.manifest.setup)
+            self._world = Resimulation(arena, *start, seed=config.seed if config is not None else None)
         simulated = self._world.step(applied, chained_part_of(record.recorded.payload))
         fields, judged = simulated.bodies, None
         if self._referee is not None:

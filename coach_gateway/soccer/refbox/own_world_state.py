@@ -77,7 +77,7 @@ def _robot(number: int, truth: RobotTruth, belief: Belief | None, attack: int) -
 def _balls(setup: Setup, world: World, beliefs: Mapping[str, Belief], attack: int) -> list[BallSeen]:
     """The ball as last seen by any robot; the true ball where no robot of the team sends anything."""
     if not beliefs:
-        ball = world.ball
+        ball = world.match_ball
         return [BallSeen(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)]
     seen = [(one.radio.ball, world.time - one.time) for one in beliefs.values() if one.radio.ball is not None]
     if not seen:

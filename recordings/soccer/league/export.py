@@ -112,7 +112,7 @@ class _Log:
     def _world_state(self, world: World, side: Side, attack: int) -> dict[str, Any]:
         playing = {name: robot for name, robot in world.robots.items() if robot.off_field is None}
         others = [robot for name, robot in playing.items() if self._sides.get(name) is side.opponent]
-        radius, ball = self._setup.robot.radius, world.ball
+        radius, ball = self._setup.robot.radius, world.match_ball
         return world_state(
             self._setup.teams[side].name,
             attack,

@@ -30,7 +30,7 @@ class Crowding:
 
 
 def _is_crowded(match_tick: MatchTick) -> bool:
-    ball = match_tick.world.ball
+    ball = match_tick.world.match_ball
     robots = match_tick.world.robots.values()
     near = [one for one in robots if one.off_field is None and math.hypot(one.x - ball.x, one.y - ball.y) <= RADIUS]
     return len(near) >= CROWD

@@ -126,7 +126,7 @@ class KickTracker:
         side = match_tick.side(kicker)
         if side is None:
             return
-        ball = match_tick.world.ball
+        ball = match_tick.world.match_ball
         if touched_after:
             ball = _ball_as_kicked(match_tick, kicker)
         self._flight = _Flight(match_tick, kicker, side, ball, aim(ball, match_tick.attack(side), self._setup))
@@ -195,7 +195,7 @@ class KickTracker:
 
 def _ball_as_kicked(match_tick: MatchTick, kicker: str) -> BallTruth:
     """The ball as it left the kicker, along its heading, if another robot touched it in the same tick."""
-    ball, robot = match_tick.world.ball, match_tick.world.robots.get(kicker)
+    ball, robot = match_tick.world.match_ball, match_tick.world.robots.get(kicker)
     if robot is None:
         return ball
     speed = match_tick.kick.speed if match_tick.kick is not None else math.hypot(ball.vx, ball.vy)
@@ -203,7 +203,7 @@ def _ball_as_kicked(match_tick: MatchTick, kicker: str) -> BallTruth:
 
 
 def _pass_outcome(match_tick: MatchTick, flight: _Flight) -> KickOutcome:
-    ball = match_tick.world.ball
+    ball = match_tick.world.match_ball
     return (
         KickOutcome.RECEIVED
         if math.dist((ball.x, ball.y), (flight.ball.x, flight.ball.y)) >= MIN_PASS_M

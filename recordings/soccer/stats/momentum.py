@@ -43,7 +43,7 @@ class Momentum:
         now.in_play += dt
         if control is not None:
             now.control += dt if control is Side.CYAN else -dt
-        share = match_tick.attack(Side.CYAN) * match_tick.world.ball.x / self._half_length
+        share = match_tick.attack(Side.CYAN) * match_tick.world.match_ball.x / self._half_length
         now.territory += dt * min(1.0, max(-1.0, share))
 
     def values(self) -> list[float]:

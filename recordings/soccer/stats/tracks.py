@@ -88,7 +88,7 @@ class Tracks:
                 track.add(ABSENT, 0, 0)
             else:
                 track.add(_cm(robot.x), _cm(robot.y), round(robot.heading * _TURN) & 255)
-        ball, names = world.ball, list(self.robots)
+        ball, names = world.match_ball, list(self.robots)
         self.ball_x.append(_cm(ball.x))
         self.ball_y.append(_cm(ball.y))
         self.ball_z.append(_cm(ball.z))

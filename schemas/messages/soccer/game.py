@@ -83,6 +83,8 @@ class GameState(Message):
     the box has been gone for 10 s of simulated time."""
     questions: list[RobotQuestion] = []
     """Actions that wait for a side to name its robot; of two questions to one side, the first is answered first."""
+    value: float | None = None
+    """Score of a game without goals, in the unit that its setup names; None in soccer."""
 
 
 class GameView(Part):

@@ -67,9 +67,11 @@ class Shapes:
         self.axis[:count] = axis
         self.centre[:count] = motions.position[self._robots] + self._ahead * axis
         if self._ball_radius is not None:
-            ball = snapshot.ball
-            self.centre[-1] = complex(ball.x, ball.y)
-            self.radius[-1] = self.reach[-1] = max(self._ball_radius**2 - (ball.z - self._height) ** 2, 0.0) ** 0.5
+            ball, square = snapshot.ball_state, 0.0
+            if ball is not None:
+                self.centre[-1] = complex(ball.x, ball.y)
+                square = self._ball_radius**2 - (ball.z - self._height) ** 2
+            self.radius[-1] = self.reach[-1] = max(square, 0.0) ** 0.5
         return self
 
     def distances(self, shape: NDArray[np.intp], eyes: Vectors, ways: Vectors) -> Floats:

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from pydantic_core import from_json
 
 from schemas.config.match_config import load_match
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.roster import Placement
 from schemas.messages.applied import Applied, AppliedInput, chained_part_of
 from schemas.messages.command import Command, Drive, Kick, KickMode
@@ -28,7 +28,7 @@ from sim_host.match.resimulation import (
 )
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.match.world_difference import Difference, differences
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA
 
 CRATE = {"name": "crate", "shape": "box", "place": [1.5, 1.0], "heading": 0.4, "size": [0.4, 0.8, 0.6]}
 KINDS: dict[str, dict[str, Any]] = {
@@ -93,7 +93,7 @@ def operated(simulation: Simulation, number: int) -> None:
     assert operations[number % len(operations)]().accepted
 
 
-POST = StaticObstacle(name="post", shape=Shape.CYLINDER, place=[0.0, 0.0], radius=0.15, height=0.9)
+POST = ObstacleConfig(name="post", shape=Shape.CYLINDER, place=[0.0, 0.0], radius=0.15, height=0.9)
 
 
 @pytest.fixture(
@@ -141,7 +141,7 @@ def fields_of(tick: TickResult) -> dict[str, Any]:
 @pytest.mark.slow
 def test_from_tick_0_every_tick_comes_out_the_same_with_all_that_the_world_tells(recorded) -> None:
     simulation, ticks = recorded
-    again = Resimulation(BallHandling, Conditions(LiveParameters.of(simulation.config)))
+    again = Resimulation(ARENA, Conditions(LiveParameters.of(simulation.config)))
     kicks = holds = 0
     for tick, (applied, said) in zip(ticks, notes(ticks), strict=True):
         came = again.step(applied, said)
@@ -164,9 +164,7 @@ def test_from_every_checkpoint_it_does_so_too(recorded) -> None:
         conditions = Conditions(LiveParameters.of(simulation.config))
         for applied, _ in told[:start]:
             conditions = conditions.after(applied)
-        again = Resimulation(
-            BallHandling, conditions, CheckpointState(world_of(ticks[start - 1]), told[start - 1][0].chain)
-        )
+        again = Resimulation(ARENA, conditions, CheckpointState(world_of(ticks[start - 1]), told[start - 1][0].chain))
         for tick, (applied, said) in list(zip(ticks, told, strict=True))[start : start + 60]:
             came = again.step(applied, said)
             assert differences(fields_of(tick), came.bodies) == []
@@ -177,9 +175,7 @@ def test_from_every_checkpoint_it_does_so_too(recorded) -> None:
 def test_the_hosts_words_on_its_setup_are_enough_for_the_numbers(recorded) -> None:
     simulation, ticks = recorded
     assert simulation.handle_parameters(ParametersRequest(operation=ParameterOperation.RESET)).accepted
-    again = Resimulation(
-        BallHandling, Conditions(parameters_of(type(simulation.setup()).decode(simulation.setup().encode())))
-    )
+    again = Resimulation(ARENA, Conditions(parameters_of(type(simulation.setup()).decode(simulation.setup().encode()))))
     for applied, said in notes(ticks):
         assert again.step(applied, said).chain == applied.chain
     again.close()
@@ -194,7 +190,7 @@ def plain() -> Iterator[tuple[Simulation, list[TickResult]]]:
 
 
 def first_different(simulation: Simulation, told: list[tuple[Applied, bytes]]) -> int | None:
-    again = Resimulation(BallHandling, Conditions(LiveParameters.of(simulation.config)))
+    again = Resimulation(ARENA, Conditions(LiveParameters.of(simulation.config)))
     try:
         for applied, said in told:
             if again.step(applied, said).chain != applied.chain:
@@ -243,7 +239,7 @@ IMPOSSIBLE: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("change, said", IMPOSSIBLE.values(), ids=IMPOSSIBLE)
 def test_impossible_inputs_are_reported_in_one_sentence(plain, change, said) -> None:
     told = notes(plain[1])
-    again = Resimulation(BallHandling, Conditions(LiveParameters.of(plain[0].config)))
+    again = Resimulation(ARENA, Conditions(LiveParameters.of(plain[0].config)))
     for applied, payload in told[:5]:
         again.step(applied, payload)
     with pytest.raises(ImpossibleTickError, match=said):

@@ -8,7 +8,7 @@ import pytest
 from pytest import approx
 
 from schemas.config.match_config import load_match
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.roster import Placement
 from schemas.config.scene import Scene, SceneBall, SceneGame, SceneRobot, load_scene, shipped_scenes
 from schemas.messages.applied import Applied
@@ -22,7 +22,7 @@ from schemas.soccer.game import EventKind, Phase, TeamPhase
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation, TickResult
 
-WALL = StaticObstacle(name="wall", shape=Shape.BOX, place=[3.0, 3.0], size=[0.2, 2.0, 0.5])
+WALL = ObstacleConfig(name="wall", shape=Shape.BOX, place=[3.0, 3.0], size=[0.2, 2.0, 0.5])
 
 
 @pytest.fixture

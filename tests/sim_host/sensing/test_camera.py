@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from sim_host.sensing.shutter import Shutter
@@ -81,11 +81,11 @@ def test_a_taller_robot_is_seen_over_a_smaller_one(scenery):
 
 
 def box(name, x, y, heading=0.0, size=(0.4, 2.0, 1.0)):
-    return ObstacleState.of(StaticObstacle(name=name, shape=Shape.BOX, place=[x, y], heading=heading, size=list(size)))
+    return ObstacleState.of(ObstacleConfig(name=name, shape=Shape.BOX, place=[x, y], heading=heading, size=list(size)))
 
 
 def cylinder(name, x, y, radius=0.5, height=1.0):
-    return ObstacleState.of(StaticObstacle(name=name, shape=Shape.CYLINDER, place=[x, y], radius=radius, height=height))
+    return ObstacleState.of(ObstacleConfig(name=name, shape=Shape.CYLINDER, place=[x, y], radius=radius, height=height))
 
 
 def test_static_obstacles_are_seen_among_the_robots_with_the_radius_of_the_circle_around_them(scenery):

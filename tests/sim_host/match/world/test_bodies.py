@@ -10,7 +10,7 @@ import pytest
 from pytest import approx
 
 from schemas.config.match_config import load_match
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.profile import load_profile
 from sim_host.snapshot import Roster
 from support.world_rig import WorldRig
@@ -18,8 +18,8 @@ from support.world_rig import tell as drive
 
 DEEP = 0.02
 """m; no body is ever deeper in another."""
-CRATE = StaticObstacle(name="crate", shape=Shape.BOX, place=[1.0, 2.0], heading=0.2, size=[0.4, 2.0, 0.5])
-POLE = StaticObstacle(name="pole", shape=Shape.CYLINDER, place=[-1.5, -2.0], radius=0.15, height=1.0)
+CRATE = ObstacleConfig(name="crate", shape=Shape.BOX, place=[1.0, 2.0], heading=0.2, size=[0.4, 2.0, 0.5])
+POLE = ObstacleConfig(name="pole", shape=Shape.CYLINDER, place=[-1.5, -2.0], radius=0.15, height=1.0)
 
 
 def new_pitch(profile: str = "msl", size: int = 5, **types: str) -> WorldRig:
@@ -142,7 +142,7 @@ def test_robots_that_are_pushed_together_by_all_others_do_not_overlap(profile: s
 
 
 @pytest.mark.parametrize("obstacle", [CRATE, POLE], ids=lambda obstacle: obstacle.name)
-def test_an_obstacle_stops_robots_and_the_ball_and_stays_where_it_is(pitch: WorldRig, obstacle: StaticObstacle) -> None:
+def test_an_obstacle_stops_robots_and_the_ball_and_stays_where_it_is(pitch: WorldRig, obstacle: ObstacleConfig) -> None:
     pitch.world.put_obstacle(obstacle)
     x, y = obstacle.place
     pitch.place(cyan1=(x - 2, y, 0), ball=(x + 2, y, 0))
@@ -168,7 +168,7 @@ def test_an_obstacle_reports_its_size_and_the_circle_around_it(pitch: WorldRig) 
 
 
 def test_obstacles_are_put_moved_and_taken_away_between_two_ticks(pitch: WorldRig) -> None:
-    def rebuilt(*obstacles: StaticObstacle) -> None:
+    def rebuilt(*obstacles: ObstacleConfig) -> None:
         pitch.world.rebuild_with(pitch.profile, pitch.roster, obstacles)
 
     pitch.place(cyan1=(-3, 2, 0))

@@ -10,7 +10,7 @@ import pytest
 from pytest import approx
 
 from schemas.config.match_config import load_match
-from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel, models_of
 from support.world_rig import WorldRig, tell, two_a_side
@@ -163,7 +163,7 @@ def test_a_robot_that_hits_what_stands_rebounds_and_gets_going_with_its_accelera
     elif what == "post":
         x, y = pitch.goal_line - RADIUS, (pitch.goal_width + pitch.post) / 2
     else:
-        column = StaticObstacle(
+        column = ObstacleConfig(
             name="column", shape=Shape.CYLINDER, place=[x + RADIUS + 0.2, y], radius=0.2, height=1.0
         )
         rig.world.put_obstacle(column)

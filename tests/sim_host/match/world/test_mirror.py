@@ -27,7 +27,7 @@ from schemas.messages.command import Drive, Kick, KickMode
 from schemas.side import Side
 from sim_host.match.world import World
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA
 
 PROFILE = load_profile("msl")
 NAMES = ("cyan1", "cyan2", "cyan3", "magenta1", "magenta2", "magenta3")
@@ -148,7 +148,7 @@ DRIVES = {
 def begin(scene: Scene, drives: dict[str, str], mirror: Mirror | None) -> World:
     model = RobotModel.standard(PROFILE)
     models = tuple(replace(model, drive=replace(model.drive, model=drives[name])) for name in NAMES)
-    world = World(PROFILE, Roster(NAMES, SIDES, {side: f"{side.value}1" for side in Side}, models), BallHandling)
+    world = World(PROFILE, Roster(NAMES, SIDES, {side: f"{side.value}1" for side in Side}, models), ARENA)
     placements = []
     for body, (x, y, heading) in scene.poses.items():
         if mirror is not None:

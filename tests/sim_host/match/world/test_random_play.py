@@ -29,8 +29,8 @@ from sim_host.match.world import World
 from sim_host.physics.engine import Engine
 from sim_host.physics.gravity import GRAVITY
 from sim_host.snapshot import RobotState, Roster, Snapshot
-from sim_host.soccer.ball.ball_handling import BallHandling
 from sim_host.soccer.ball.carrying import PULL_SPEED
+from sim_host.soccer.game import ARENA
 
 NAMES = tuple(f"{side.value}{number}" for side in Side for number in range(1, 6))
 SIDES = tuple(side for side in Side for _ in range(5))
@@ -144,7 +144,7 @@ class Watched:
         profile = PROFILES[play.profile]
         roster = Roster(NAMES, SIDES, {side: f"{side.value}1" for side in Side}, tuple(models(play, profile)))
         engine = NotingEngine(profile, roster)
-        watched = cls(play, profile, roster, engine, World(profile, roster, BallHandling, engine))
+        watched = cls(play, profile, roster, engine, World(profile, roster, ARENA, engine))
         watched.world.place(watched.starts())
         engine.set_ball_motion(play.ball, (0.0, 0.0, 0.0))
         return watched

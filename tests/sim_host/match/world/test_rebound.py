@@ -16,7 +16,7 @@ from sim_host.match.world import World
 from sim_host.physics.continuous_collision import ContinuousCollision
 from sim_host.physics.engine import Engine
 from sim_host.snapshot import Roster
-from sim_host.soccer.ball.ball_handling import BallHandling
+from sim_host.soccer.game import ARENA
 
 PROFILE = load_profile("msl")
 ROSTER = Roster(("cyan1",), (Side.CYAN,), {Side.CYAN: "cyan1"}, (RobotModel.standard(PROFILE),))
@@ -116,7 +116,7 @@ def test_a_held_ball_is_not_pushed_into_its_holder(method: str) -> None:
     standard = RobotModel.standard(PROFILE)
     model = replace(standard, dribble=replace(standard.dribble, method=method))
     roster = Roster(("cyan1", "magenta1"), tuple(Side), {Side.CYAN: "cyan1", Side.MAGENTA: "magenta1"}, (model,) * 2)
-    world, gap = World(PROFILE, roster, BallHandling), model.dribble.gap
+    world, gap = World(PROFILE, roster, ARENA), model.dribble.gap
     world.place(
         [
             Placement(body="cyan1", x=0.0, y=0.0),

@@ -1,0 +1,133 @@
+"""The game `free` of a match file: its score, and the zones that the score names.
+
+The text of the score's module is embedded like a profile: a config is self-contained, so that a recording can be judged
+again where the module's file is not, or has changed since.
+"""
+
+import ast
+import math
+from collections.abc import Iterable
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, StringConstraints, model_validator
+
+from schemas.config.config_model import ConfigModel
+from schemas.config.obstacle import Length
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.frames import rotate
+from schemas.wire.message import Name
+
+
+class GameName(StrEnum):
+    """A game that a match can be played by."""
+
+    SOCCER = "soccer"
+    FREE = "free"
+
+
+REMEDIES = {
+    "game": f"one of {', '.join(GameName)}",
+    "free": "write [free], and below it score",
+    "free.score": 'write "module:function"',
+    "free.zones": "write [[free.zones]] above each zone",
+    "free.zones.place": "x and y of the centre in m",
+    "free.zones.size": "x and y of a rectangle in m",
+}
+"""Key → remedy for an invalid value."""
+
+
+class Zone(ConfigModel):
+    """A part of the floor, which the score names and viewers draw: a circle or a rectangle."""
+
+    name: Name
+    """Name of the zone."""
+    place: Annotated[list[float], Field(min_length=2, max_length=2)]
+    """x and y of its centre in m, field frame."""
+    radius: Length | None = None
+    """Radius of a circle in m; None for a rectangle."""
+    size: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = None
+    """Size of a rectangle in m: x along its heading, y across; None for a circle."""
+    heading: float = 0.0
+    """Direction of a rectangle's `size` x in the field frame, in rad."""
+
+    @model_validator(mode="after")
+    def _check_shape(self) -> "Zone":
+        if (self.radius is None) == (self.size is None):
+            raise ValueError(f'zone "{self.name}": give radius or size = [x, y]')
+        return self
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point of the field frame, m, lies in the zone or on its edge."""
+        away_x, away_y = x - self.place[0], y - self.place[1]
+        if self.size is None:
+            return math.hypot(away_x, away_y) <= (self.radius or 0.0)
+        along, across = rotate(away_x, away_y, -self.heading)
+        return abs(along) <= self.size[0] / 2 and abs(across) <= self.size[1] / 2
+
+
+class FreeConfig(ConfigModel):
+    """The game `free`: robots, obstacles and zones, no ball and no referee."""
+
+    score: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")]
+    """`module:function` that scores each tick, see `sim_host.free.score`; the module is a file beside the match file or
+    in the current directory."""
+    unit: Annotated[str, StringConstraints(max_length=20)] = ""
+    """Unit of the score, for display."""
+    zones: Annotated[list[Zone], Field(max_length=100)] = Field(default_factory=list)
+    """Parts of the floor that the score names."""
+    program: str = ""
+    """Text of the score's module; a match file gives none."""
+
+    @model_validator(mode="after")
+    def _check_names(self) -> "FreeConfig":
+        names = [zone.name for zone in self.zones]
+        if doubled := next((name for name in names if names.count(name) > 1), None):
+            raise ValueError(f'two zones are named "{doubled}"; every zone has a name of its own')
+        return self
+
+
+def with_program(content: dict[str, Any], where: str, folders: Iterable[Path]) -> dict[str, Any]:
+    """The content of a match file with the text of its score's module.
+
+    Args:
+        where: names the match file.
+        folders: where the module is looked for.
+
+    Raises:
+        TouchlineError: there is no such module, it is no Python, or it has no such function.
+    """
+    free = content.get("free")
+    score = free.get("score") if isinstance(free, dict) else None
+    if not isinstance(free, dict) or not isinstance(score, str) or ":" not in score:
+        return content  # the validator names what is wrong
+    if "program" in free:
+        raise TouchlineError(f'{where}: free.program is not for match files; write free.score = "module:function"')
+    module, _, name = score.partition(":")
+    file = _file_of(module, f'{where}: free.score is "{score}"', folders)
+    program = file.read_text("utf-8")
+    names = _names_in(program, file, f'{where}: free.score is "{score}"')
+    if name not in names:
+        hint = did_you_mean(name, names) if names else "it defines none"
+        raise TouchlineError(f'{where}: free.score is "{score}"; {file} has no function {name}; {hint}')
+    return content | {"free": {**free, "program": program}}
+
+
+def _file_of(module: str, fault: str, folders: Iterable[Path]) -> Path:
+    folders = list(dict.fromkeys(folder.resolve() for folder in folders))
+    stem = Path(*module.split(".")).with_suffix(".py")
+    for folder in folders:
+        if (folder / stem).is_file():
+            return folder / stem
+    raise TouchlineError(f"{fault}; there is no {stem} in {' or '.join(map(str, folders))}; put its file there")
+
+
+def _names_in(program: str, file: Path, fault: str) -> list[str]:
+    """The functions that a module defines."""
+    try:
+        tree = ast.parse(program)
+    except (SyntaxError, ValueError) as error:
+        line = f", line {error.lineno}" if isinstance(error, SyntaxError) else ""
+        raise TouchlineError(f"{fault}; {error.args[0]} ({file}{line})") from None
+    return [node.name for node in tree.body if isinstance(node, ast.FunctionDef)]

@@ -1,0 +1,156 @@
+"""The judge of a free game: asks the score function each tick, and ends the match."""
+
+import json
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from schemas.config.free import FreeConfig
+from schemas.config.scene import SceneGame
+from schemas.config.sections import Pitch
+from schemas.messages.soccer.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
+from schemas.side import Side
+from schemas.soccer.game import EventKind, Phase, Score, TeamPhase
+from sim_host.free.score import Moment, ScoreFunction, call_score, load_score, memory_text
+from sim_host.game.judging import Absence, Ruling
+from sim_host.snapshot import Roster, Snapshot
+
+
+class FreeState(NamedTuple):
+    """The whole memory of a free game between two ticks."""
+
+    duration: float
+    """Simulated time after which it ends in s."""
+    clock: float = 0.0
+    """s since it began."""
+    value: float | None = None
+    """The score; None before the first tick."""
+    over: bool = False
+    memory: str = "null"
+    """What the score function remembers, as JSON."""
+
+    @property
+    def score(self) -> Score:
+        """No goals."""
+        return Score()
+
+    @property
+    def cyan_attacks(self) -> int:
+        """Cyan's frame is the field frame."""
+        return 1
+
+    @property
+    def absences(self) -> Mapping[str, Absence]:
+        """No robot is off the field."""
+        return {}
+
+    @property
+    def change_key(self) -> tuple[Any, ...]:
+        """The score, and whether the match is over."""
+        return self.value, self.over
+
+    def attack(self, side: Side) -> int:
+        """Sign of the x direction of a side's frame."""
+        return side.attack(1)
+
+    def game_state(self, tick: int, time: float, episode: int = 1) -> GameState:
+        """The published state."""
+        phase = Phase.FULL_TIME if self.over else Phase.PLAY
+        left = max(0.0, self.duration - self.clock)
+        clock, running = self.clock, not self.over
+        return GameState(
+            tick=tick,
+            time=time,
+            phase=phase,
+            running=running,
+            clock=clock,
+            left=left,
+            episode=episode,
+            value=self.value,
+        )
+
+    def after_layout_change(self, _names: Collection[str]) -> "FreeState":
+        """An operator who moves bodies changes nothing that the game remembers."""
+        return self
+
+    def json(self) -> str:
+        """The state as JSON; floats keep every bit."""
+        return json.dumps(self._asdict())
+
+    @classmethod
+    def from_json(cls, text: str) -> "FreeState":
+        """The state in a text of `json`.
+
+        Raises:
+            ValueError: the text is no such state.
+        """
+        try:
+            return cls(**json.loads(text))
+        except TypeError as error:
+            raise ValueError(str(error)) from None
+
+
+class FreeJudge:
+    """A `sim_host.game.judging.Judge`."""
+
+    def __init__(self, free: FreeConfig, duration: float, seed: int, pitch: Pitch, roster: Roster) -> None:
+        self._free = free
+        self._duration = duration
+        self._seed = seed
+        self._pitch = pitch
+        self._roster = roster
+        self._zones = {zone.name: zone for zone in free.zones}
+        self._function: ScoreFunction | None = None
+
+    def begin_at(self, game: SceneGame, _ball: tuple[float, float]) -> FreeState:
+        """The state with which a scene begins."""
+        return FreeState(self._duration, clock=game.clock)
+
+    def step(self, state: FreeState, snapshot: Snapshot, actions: Sequence[RefereeAction], dt: float) -> Ruling:
+        """Score one tick of `dt` in s.
+
+        Raises:
+            TouchlineError: the score function raises, or returns what is no score.
+        """
+        refusal = ActionReply(accepted=False, reason="a free game has no referee", tick=snapshot.tick)
+        replies = tuple(refusal for _ in actions)
+        if state.over:
+            return Ruling(state, replies=replies)
+        if self._function is None:
+            self._function = load_score(self._free)
+        score = call_score(self._free, self._function, self._moment(state, snapshot))
+        clock = state.clock + dt
+        over = bool(score.over) or clock >= self._duration - dt / 2
+        memory = memory_text(self._free, score.memory)
+        after = FreeState(self._duration, clock, float(score.value), over, memory)
+        happened = [(EventKind.NOTE, " ".join(str(text).split())) for text in score.events]
+        if over:
+            unit = f" {self._free.unit}".rstrip()
+            happened.append((EventKind.FULL_TIME, f"ends after {clock:.2f} s with the score {score.value:.6g}{unit}"))
+        tick, time = snapshot.tick, snapshot.time
+        events = [
+            GameEvent(tick=tick, time=time, clock=clock, kind=kind, rule="score", text=text) for kind, text in happened
+        ]
+        return Ruling(after, tuple(events), replies=replies)
+
+    def views(self, state: FreeState, episode: int) -> dict[Side, GameView]:
+        """Side → the game from its point of view."""
+        phase, left = TeamPhase.FULL_TIME if state.over else TeamPhase.PLAY, max(0.0, state.duration - state.clock)
+        running, clock = not state.over, state.clock
+        view = GameView(
+            phase=phase, running=running, clock=clock, our_score=0, their_score=0, left=left, episode=episode
+        )
+        return dict.fromkeys(Side, view)
+
+    def _moment(self, state: FreeState, snapshot: Snapshot) -> Moment:
+        names = self._roster.names
+        return Moment(
+            tick=snapshot.tick,
+            time=snapshot.time,
+            robots=dict(zip(names, snapshot.robots, strict=True)),
+            obstacles={one.name: one for one in snapshot.obstacles},
+            contacts=frozenset((names[one], names[other]) for one, other in snapshot.contacts),
+            zones=self._zones,
+            pitch=self._pitch,
+            memory=json.loads(state.memory),
+            seed=self._seed,
+        )
