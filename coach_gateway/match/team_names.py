@@ -1,7 +1,7 @@
 """The teams' names in texts for people, in place of the sides' where the match file gives names."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from schemas.config.match_config import MatchConfig
@@ -23,26 +23,30 @@ class TeamNames:
 
     cyan: str = Side.CYAN.value
     magenta: str = Side.MAGENTA.value
+    playing: tuple[Side, ...] = tuple(Side)
+    """The sides that have robots."""
 
     @classmethod
-    def of(cls, names: Mapping[Side, str]) -> "TeamNames":
+    def of(cls, names: Mapping[Side, str], playing: Collection[Side] = tuple(Side)) -> "TeamNames":
         """Two different names: a name that both teams have, or that is the other side's, gets its side."""
         shown = {side: printable(names[side]).strip() or side.value for side in Side}
         is_same = shown[Side.CYAN].casefold() == shown[Side.MAGENTA].casefold()
         for side in Side:
             if is_same or shown[side].casefold() == side.opponent.value:
                 shown[side] = f"{shown[side]} ({side.value})"
-        return cls(shown[Side.CYAN], shown[Side.MAGENTA])
+        return cls(shown[Side.CYAN], shown[Side.MAGENTA], tuple(side for side in Side if side in playing))
 
     @classmethod
     def of_match(cls, config: MatchConfig) -> "TeamNames":
         """The names in a match file."""
-        return cls.of({side: config.team(side).name for side in Side})
+        playing = [side for side in Side if config.robots(side)]
+        return cls.of({side: config.team(side).name for side in Side}, playing)
 
     @classmethod
     def of_setup(cls, setup: Setup) -> "TeamNames":
         """The names that a host publishes."""
-        return cls.of({side: setup.teams[side].name for side in Side})
+        playing = [side for side in Side if setup.teams[side].robots]
+        return cls.of({side: setup.teams[side].name for side in Side}, playing)
 
     def __getitem__(self, side: Side) -> str:
         return self.cyan if side is Side.CYAN else self.magenta
@@ -53,17 +57,17 @@ class TeamNames:
         name = self[side].removesuffix(suffix)
         return name if name == side.value else name + suffix
 
-    def score(self, score: Score) -> str:
-        """`Lions 2 : 0 NuBot`."""
-        return f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}"
+    def score(self, score: Score, value: float | None = None) -> str:
+        """`Lions 2 : 0 NuBot`; the `value` of a game without goals as `score 0.25`."""
+        return f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}" if value is None else f"score {value:.6g}"
 
     def in_text(self, text: str) -> str:
         """The text of an event with the teams' names in place of the sides'; names of robots stay."""
         return _SIDES.sub(lambda side: self[Side(side[0])], text)
 
     def __str__(self) -> str:
-        """Both teams with their sides."""
-        return f"{self.with_side(Side.CYAN)} – {self.with_side(Side.MAGENTA)}"
+        """The teams that have robots, with their sides."""
+        return " – ".join(self.with_side(side) for side in self.playing)
 
 
 SIDES_ALONE = TeamNames()

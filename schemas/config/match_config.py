@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, SerializerFunctionWrapHandler, field_validator, model_serializer, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.confinement import Isolation, Limits
@@ -142,14 +142,6 @@ class MatchConfig(ConfigModel):
     """The game that is played."""
     free: FreeConfig | None = None
     """The numbers of the game `free`; None for soccer."""
-
-    @model_serializer(mode="wrap")
-    def _serialize(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Without `game` and `free` for soccer: the identities of published matches are digests of this."""
-        content: dict[str, Any] = handler(self)
-        if self.game is GameName.SOCCER and self.free is None:
-            content = {key: value for key, value in content.items() if key not in ("game", "free")}
-        return content
 
     @field_validator("pace")
     @classmethod

@@ -5,7 +5,7 @@ from collections.abc import Generator
 from enum import StrEnum
 from typing import Annotated, Any
 
-from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
+from pydantic import Field, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.roster import Placement
@@ -68,10 +68,6 @@ class ObstacleConfig(ConfigModel):
     def __iter__(self) -> Generator[tuple[str, Any], None, None]:
         """Field and value, without `mass` and `friction` where they are None, as on the wire."""
         yield from ((key, value) for key, value in super().__iter__() if value is not None or key not in _OF_MOVABLES)
-
-    @model_serializer(mode="wrap")
-    def _serialize(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in handler(self).items() if value is not None or key not in _OF_MOVABLES}
 
     @property
     def extents(self) -> tuple[float, float, float]:

@@ -32,7 +32,7 @@ def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Diffe
         theirs, ours = _table(recorded.get(group)), simulated.get(group, {})
         for name in dict.fromkeys([*ours, *theirs]):
             found += _body_differences(name, _table(theirs.get(name)), ours.get(name, {}))
-    found += _body_differences(BALL, _table(recorded.get("ball")), simulated["ball"])
+    found += _body_differences(BALL, _table(recorded.get("ball")), simulated["ball"] or {})
     own = {key: simulated.get(key, _ABSENT.get(key)) for key in _OWN}
     own |= {key: simulated[key] for key in _OFFICIATED if key in simulated}
     found += _body_differences("world", recorded, own)

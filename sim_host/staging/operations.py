@@ -71,9 +71,7 @@ def _place(
     movable = layout.movable
     for one in request.place:
         if one.body not in movable:
-            raise TouchlineError(
-                f"{one.body} is neither a robot, the ball nor an obstacle that can be pushed; {did_you_mean(one.body, movable)}"
-            )
+            raise TouchlineError(f"{one.body} is neither a robot nor the ball; {did_you_mean(one.body, movable)}")
         if one.body != BALL and (one.z is not None or one.vz):
             raise TouchlineError(f"{one.body} stands on the ground; z and vz are for the ball")
         if one.body == BALL and one.z is not None and one.z < specs.ball.radius:

@@ -172,6 +172,8 @@ def _match_sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
 
     if isinstance(outcome, Failed):
         return f"{planned.label}: failed: {outcome.reason}"
+    if outcome.value is not None:
+        return f"{planned.label}: score {outcome.value:.6g} after {outcome.playing_time:.1f} s"
     return f"{planned.label}: cyan {outcome.goals[Side.CYAN]} : {outcome.goals[Side.MAGENTA]} magenta"
 
 

@@ -29,7 +29,8 @@ def verify(
         bool | None,
         typer.Option(
             "--referee/--no-referee",
-            help="Simulate the referee, too; by default where the recording has its settings and states.",
+            help="Simulate the referee, too; by default where the recording has its settings and states. The score of "
+            "a free game is a program in the recording, which runs with --referee only.",
             show_default=False,
         ),
     ] = None,

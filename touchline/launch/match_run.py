@@ -200,7 +200,7 @@ class MatchRun:
             return self._remote.absence(side)
         state = follower.state if follower is not None else None
         when = (
-            f"at {clock_text(state.clock)}, {self._names.score(state.score)}"
+            f"at {clock_text(state.clock)}, {self._names.score(state.score, state.value)}"
             if state is not None
             else "before it began"
         )

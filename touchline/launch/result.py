@@ -29,6 +29,7 @@ NOTABLE = frozenset(
         EventKind.FORFEIT,
         EventKind.HALF_TIME,
         EventKind.FULL_TIME,
+        EventKind.NOTE,
         EventKind.ACTION,
         EventKind.AGENT,
         EventKind.STALL,
@@ -61,6 +62,8 @@ class MatchResult:
     """Goals of the penalty shoot-out, if there was one."""
     names: TeamNames = SIDES_ALONE
     """The teams' names."""
+    value: float | None = None
+    """Score of a game without goals."""
 
     @classmethod
     def of(cls, follower: MatchFollower, recording: RecordingOutcome, names: TeamNames) -> "MatchResult":
@@ -77,6 +80,7 @@ class MatchResult:
             robots=follower.state.robots if follower.state is not None else {},
             shoot_out=follower.state.shoot_out if follower.state is not None else None,
             names=names,
+            value=follower.state.value if follower.state is not None else None,
         )
 
     @property
@@ -90,6 +94,7 @@ class MatchResult:
         content = {
             "teams": {side.value: self.names[side] for side in Side},
             "score": self.score.plain(),
+            "value": self.value,
             "halves": [score.plain() for score in self.halves],
             "shoot_out": self.shoot_out.plain() if self.shoot_out is not None else None,
             "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.robots.items()},
@@ -107,7 +112,7 @@ class MatchResult:
 
     def render(self) -> RenderableType:
         """Score, events and recording, for a console."""
-        headline = Text(f"\n{self.names.score(self.score)}", style="bold")
+        headline = Text(f"\n{self.names.score(self.score, self.value)}", style="bold")
         headline.append(
             f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
         )
@@ -123,6 +128,8 @@ class MatchResult:
     def _summary(self) -> str:
         """Score by halves, penalties, ball in play, and each robot's cards at the end."""
         parts = [str(self.names)] if self.names != SIDES_ALONE else []
+        if self.value is not None:
+            return "; ".join(parts)
         parts += ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
         if self.shoot_out is not None:
             parts.append(f"penalties {self.shoot_out.cyan}:{self.shoot_out.magenta}")

@@ -32,7 +32,8 @@ _WORTH_A_PROCESS = 1500
 def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, referee: bool | None = None) -> Verdict:
     """Simulate a recording again and compare every tick, from tick 0 or from the kick-off of this number.
 
-    With `referee`, the referee is simulated, too; by default where the recording has what that requires.
+    With `referee`, the referee is simulated, too; by default where the recording has what that requires, and does not
+    bring the program of a score.
 
     Raises:
         TouchlineError: not a recording, too few kick-offs, no tick can be simulated again, or `referee` is demanded of
@@ -51,7 +52,7 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, ref
             f"{path}: no tick can be simulated again; that requires host/applied at tick 0, or at a kick-off, "
             "and host/applied and world of the tick before"
         )
-    why_no_referee = _why_no_referee(recording) if referee is not False else "--no-referee"
+    why_no_referee = _why_no_referee(recording, referee)
     if referee and why_no_referee:
         raise TouchlineError(f"{path}: the referee cannot be simulated: {why_no_referee}; verify with --no-referee")
     verdict = Verdict(
@@ -98,10 +99,15 @@ def _missing_worlds(recording: Recording, missing: int) -> list[str]:
     return [f"{missing} ticks have no world, and {lost} were lost"] if missing > lost else []
 
 
-def _why_no_referee(recording: Recording) -> str:
-    """Why the referee cannot be simulated; empty if it can."""
-    if game_of_recording(config_of(recording), recording.manifest.setup) is None:
+def _why_no_referee(recording: Recording, wanted: bool | None) -> str:
+    """Why the referee is not simulated; empty if it is."""
+    if wanted is False:
+        return "--no-referee"
+    config = config_of(recording)
+    if game_of_recording(config, recording.manifest.setup) is None:
         return "the recording has neither its match file nor a setup with the referee's settings"
+    if config is not None and config.free is not None and not wanted:
+        return "its score is a program in the recording, which --referee runs"
     return ""
 
 

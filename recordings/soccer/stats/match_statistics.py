@@ -13,6 +13,7 @@ from recordings.soccer.stats.match_tick import GAP, KEYS, MatchTick, match_ticks
 from recordings.soccer.stats.momentum import Momentum
 from recordings.soccer.stats.motion import MotionTracker
 from recordings.soccer.stats.referee_calls import RefereeCalls
+from schemas.config.free import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
@@ -46,7 +47,13 @@ class MatchStatistics:
     """Accumulates the figures of a match, tick by tick."""
 
     def __init__(self, setup: Setup, start: float, end: float) -> None:
-        """`start` and `end` are in s of simulated time."""
+        """`start` and `end` are in s of simulated time.
+
+        Raises:
+            TouchlineError: another game than soccer is played.
+        """
+        if setup.game is not GameName.SOCCER:
+            raise TouchlineError(f'the match is of the game "{setup.game}", and these figures are of soccer')
         self._setup = setup
         self._control = BallControl()
         self._crowding = Crowding()

@@ -76,12 +76,16 @@ def head(setup: Setup, state: GameState | None) -> Text:
     names = TeamNames.of_setup(setup)
     if state is None:
         return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for the robots")
+    phase = (phase_text(state, names), Style(bold=True))
+    if state.value is not None:
+        score = (f" {names.score(state.score, state.value)} ", Style(bold=True))
+        return Text.assemble(score, f"  {clock_text(state.clock)}  ", phase)
     line = Text.assemble(
         (f" {names[Side.CYAN]} ", SIDES[Side.CYAN]),
         (f" {state.score.cyan} : {state.score.magenta} ", Style(bold=True)),
         (f" {names[Side.MAGENTA]} ", SIDES[Side.MAGENTA]),
         f"  {clock_text(state.clock)}  {half_text(state)}  ",
-        (phase_text(state, names), Style(bold=True)),
+        phase,
     )
     if state.proposal is not None:
         line.append(f"  proposed: {names.in_text(state.proposal)}", TROUBLE)

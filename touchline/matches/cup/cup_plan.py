@@ -181,7 +181,7 @@ def _team(entry: TeamEntry, cup: CupConfig) -> TeamConfig:
 def _result(slot: Slot, played: Played) -> MatchResult:
     """The result in the order of the fixture; figures are by side."""
     order = [tuple(Side)[slot.sides.index(team)] for team in slot.fixture.teams]
-    first, second = (played.figures.sides[side] for side in order)
+    first, second = (played.of_soccer.sides[side] for side in order)
     penalties: Pair | None = None
     if first.shoot_out is not None and second.shoot_out is not None:
         penalties = first.shoot_out, second.shoot_out

@@ -5,6 +5,7 @@ from pathlib import Path
 from recordings.reading.recording import open_recording
 from recordings.soccer.stats.match_statistics import MatchStatistics, match_ticks_of
 from recordings.soccer.stats.match_tick import MatchTick
+from schemas.config.free import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState
@@ -15,14 +16,15 @@ class Measurement:
     """The figures of a match so far."""
 
     def __init__(self, setup: Setup) -> None:
-        self._statistics = MatchStatistics(setup, 0.0, 0.0)
+        self._statistics = MatchStatistics(setup, 0.0, 0.0) if setup.game is GameName.SOCCER else None
         self._first: GameState | None = None
         self._last: GameState | None = None
         self._chain: str | None = None
 
     def update(self, tick: MatchTick) -> None:
         """Add a tick."""
-        self._statistics.update(tick)
+        if self._statistics is not None:
+            self._statistics.update(tick)
         self._first, self._last = self._first or tick.state, tick.state
         self._chain = tick.chain
 
@@ -37,10 +39,11 @@ class Measurement:
         clocks = [state.clock for state in (self._first, self._last) if state is not None]
         return Played(
             identity=identity,
-            figures=self._statistics.figures(),
+            figures=self._statistics.figures() if self._statistics is not None else None,
             playing_time=clocks[-1] - clocks[0] if clocks else 0.0,
             chain=self._chain,
             recording=str(recording) if recording is not None else None,
+            value=self._last.value if self._last is not None else None,
         )
 
 

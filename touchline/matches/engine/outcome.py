@@ -7,6 +7,7 @@ from pathlib import Path
 from msgspec import ValidationError
 
 from recordings.soccer.stats.figures import MatchFigures
+from schemas.errors import TouchlineError
 from schemas.side import Side
 from schemas.wire.part import decoder, encode
 from touchline.matches.judging.judge import DrillVerdict
@@ -33,8 +34,8 @@ class Played:
     """A match that was played to its end."""
 
     identity: str
-    figures: MatchFigures
-    """The figures of `touchline stats`."""
+    figures: MatchFigures | None
+    """The figures of `touchline stats`; None for a game without goals."""
     playing_time: float
     """Game clock at the end less that at the beginning, in s."""
     chain: str
@@ -43,11 +44,25 @@ class Played:
     """The file of its recording; relative to the folder of the run if it is in there."""
     verdict: DrillVerdict | None = None
     """How a drill ended; None for a match, and for a drill that was over without a verdict."""
+    value: float | None = None
+    """The score of a game without goals."""
+
+    @property
+    def of_soccer(self) -> MatchFigures:
+        """The figures of a match of soccer.
+
+        Raises:
+            TouchlineError: another game was played.
+        """
+        if self.figures is None:
+            raise TouchlineError("a free game has no goals to compare; measure it with touchline experiment")
+        return self.figures
 
     @property
     def goals(self) -> dict[Side, int]:
         """The goals of each side."""
-        return {side: self.figures.sides[side].goals or 0 for side in Side}
+        sides = self.figures.sides if self.figures is not None else {}
+        return {side: sides[side].goals or 0 if side in sides else 0 for side in Side}
 
 
 @dataclass(frozen=True, slots=True)

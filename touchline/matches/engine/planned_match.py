@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
+from schemas.config.free import GameName
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.side import Side
 from touchline.timing import HANG_S
@@ -53,10 +55,23 @@ class PlannedMatch:
     def identity(self) -> str:
         """A digest of configuration and code: equal for matches with equal results."""
         content = {
-            "config": json.loads(self.config.model_dump_json(exclude={"record", "patience", "pace"})),
+            "config": _as_published(json.loads(self.config.model_dump_json(exclude={"record", "patience", "pace"}))),
             "pace": self.config.pace if self.config.pace != LOCKSTEP else None,
             "code": {side.value: digest for side, digest in self.code.items()},
             **({"drill": True} if self.is_drill else {}),
         }
         text = json.dumps(content, sort_keys=True, ensure_ascii=False)
         return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
+
+
+_LATER = {"game": GameName.SOCCER, "free": None, "mass": None, "friction": None}
+"""Fields that the configs of published matches do not have → the value at which an identity leaves them out."""
+
+
+def _as_published(content: Any) -> Any:
+    """The JSON values of a config without what published ones do not have."""
+    if isinstance(content, list):
+        return [_as_published(one) for one in content]
+    if not isinstance(content, dict):
+        return content
+    return {key: _as_published(value) for key, value in content.items() if key not in _LATER or value != _LATER[key]}

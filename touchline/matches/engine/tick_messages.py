@@ -30,7 +30,8 @@ def _messages(match: InProcessMatch, after: Callable[[TickResult], None]) -> Ite
             yield log_ns, event
         if schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
             yield log_ns, state.game_state(tick.tick, tick.time, episode)
-        yield log_ns, validated(World, tick.world)
+        # without the readings, which are structs already, and which no figure needs
+        yield log_ns, validated(World, {key: value for key, value in tick.world.items() if key != "sensors"})
         yield log_ns, Applied.decode(tick.applied_encoded)
         if simulation.over:
             return

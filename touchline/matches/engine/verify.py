@@ -148,8 +148,12 @@ def _check_recording(
 ) -> tuple[int, list[str], Played | None]:
     try:
         recorded = open_recording(path).manifest.config
-        ticks, faults = _simulated(path) if simulates else (0, [])
-        if recorded is None or _compared(recorded) != _compared(planned.config):
+        is_own = recorded is not None and _compared(recorded) == _compared(planned.config)
+        runs_score = (
+            is_own and planned.config.free is not None
+        )  # the plan's own program, not one that a recording brings
+        ticks, faults = _simulated(path, runs_score=runs_score) if simulates else (0, [])
+        if not is_own:
             faults.append("it is the recording of another match: its configuration is not that of the plan")
         again = None if has_inputs_only(planned.config) else measured(path, planned.identity)
         chain = again.chain if again is not None else _last_chain(path)
@@ -159,8 +163,10 @@ def _check_recording(
         faults.append(f"its hash chain ends with {chain}, that of the table with {outcome.chain}")
     if again is not None and again.goals != outcome.goals:
         faults.append(f"{_score(again.goals)} is recorded, and {_score(outcome.goals)} in the table")
-    elif again is not None and isinstance(outcome, Played) and again.figures != outcome.figures:
-        faults.append("its figures are not those of its recording, such as cards and penalties")
+    elif again is not None and isinstance(outcome, Played) and _measured(again) != _measured(outcome):
+        faults.append(
+            "its figures are not those of its recording, such as cards, penalties, and the score of a free game"
+        )
     return ticks, faults, again
 
 
@@ -168,9 +174,13 @@ def _compared(config: MatchConfig) -> dict[str, Any]:
     return config.model_dump(exclude={"record", "patience"})
 
 
-def _simulated(path: Path) -> tuple[int, list[str]]:
+def _measured(played: Played) -> tuple[object, ...]:
+    return played.figures, played.value
+
+
+def _simulated(path: Path, *, runs_score: bool) -> tuple[int, list[str]]:
     """The number of ticks that were simulated again, and the first that differs."""
-    verdict = verify(path)
+    verdict = verify(path, referee=True if runs_score else None)
     if verdict.difference is not None:
         why = f"tick {verdict.difference.tick} is the first that differs: {verdict.difference.why}"
         return verdict.ticks, [why]

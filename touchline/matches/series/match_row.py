@@ -78,7 +78,7 @@ def rows_of(plan: SeriesPlan, outcomes: Mapping[str, Outcome]) -> list[Row]:
 
 
 def _played_row(number: int, match: SeedMatch, played: Played) -> MatchRow:
-    figures = played.figures
+    figures = played.of_soccer
     first, second = (_team_row(figures, side) for side in match.sides)
     return MatchRow(
         number=number,

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from schemas.config.free import GameName
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
 from schemas.errors import TouchlineError
@@ -59,8 +60,12 @@ def plan_series(
     `record` is the folder for recordings, if there shall be any.
 
     Raises:
-        TouchlineError: a team is none that a match in one process can play.
+        TouchlineError: a team is none that a match in one process can play, or the game has no goals.
     """
+    if config.game is not GameName.SOCCER:
+        raise TouchlineError(
+            f'game is "{config.game}", and a series counts goals; measure it with touchline experiment'
+        )
     for side in Side:
         if config.team(side).brain is None and config.team(side).stdio is None:
             kind = "remote" if config.team(side).remote else "a program on the network"

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
+from schemas.side import Side
 from touchline.matches.engine.outcome import Outcome, Played
 from touchline.matches.series.plan import SeedMatch
 from touchline.matches.study.cells import Cell, level_text
@@ -40,7 +41,7 @@ def result_table(
                 f"{LEVEL}{key}": level if isinstance(level, bool | int | float) else level_text(level)
                 for key, level in levels.items()
             }
-            | by_team(flat_figures(outcome.figures), match.sides)
+            | _figures(outcome, match.sides)
             | dict(measured.get(match.identity, {}))
         )
     table = pd.DataFrame(rows, columns=None if rows else list(KEYS))
@@ -52,3 +53,10 @@ def result_table(
         elif any(part in name for part in _COUNTS):
             table[name] = table[name].fillna(0)
     return table
+
+
+def _figures(played: Played, sides: tuple[Side, Side]) -> dict[str, Value]:
+    """All figures of a match by name: of soccer, or score and simulated time in s of a free game."""
+    if played.figures is None:
+        return {"score": played.value, "duration": played.playing_time}
+    return by_team(flat_figures(played.figures), sides)
