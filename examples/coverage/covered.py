@@ -4,7 +4,7 @@ from touchline import Moment, Score
 
 
 def covered(now: Moment) -> Score:
-    half_x, half_y = int(now.pitch.goal_line), int(now.pitch.touch_line)
+    half_x, half_y = int(now.pitch.length / 2), int(now.pitch.width / 2)
     seen = set(now.memory or [])
     for robot in now.robots.values():
         x, y = int(robot.x + half_x), int(robot.y + half_y)

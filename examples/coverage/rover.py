@@ -12,7 +12,7 @@ class Rover:
     def __init__(self, briefing: Briefing) -> None:
         pitch, self.limits = briefing.setup.pitch, skills.DriveLimits.of(briefing.setup)
         self.room = briefing.setup.robot.radius + 0.15
-        half_x, half_y = int(pitch.goal_line), int(pitch.touch_line)
+        half_x, half_y = int(pitch.length / 2), int(pitch.width / 2)
         self.open = {(x + 0.5, y + 0.5) for x in range(-half_x, half_x) for y in range(-half_y, half_y)}
         self.goal, self.best, self.since = None, math.inf, 0.0
 
