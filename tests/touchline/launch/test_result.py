@@ -53,6 +53,7 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
     assert content == {
         "teams": {"cyan": "cyan", "magenta": "magenta"},
         "score": {"cyan": 2, "magenta": 1},
+        "value": None,
         "halves": [{"cyan": 2, "magenta": 1}],
         "shoot_out": None,
         "cards": {"cyan3": {"yellow": 1, "red": 0}},
@@ -111,3 +112,8 @@ def test_what_people_have_written_into_an_event_is_shown_as_it_is() -> None:
     shown = render(replace(result(Path("runs/[/a]/m.mcap")), events=(asked,)))
     assert "[/b] asks: stop [bold]now[0.1, 0.2]" in shown
     assert "runs/[/a]/m.mcap" in shown
+
+
+def test_the_score_of_a_game_without_goals_is_shown_in_their_place() -> None:
+    shown = render(replace(result(), value=0.953))
+    assert "score 0.953   120.0 s played" in shown and "2 : 1" not in shown and "halves" not in shown

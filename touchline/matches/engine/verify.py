@@ -164,9 +164,7 @@ def _check_recording(
     if again is not None and again.goals != outcome.goals:
         faults.append(f"{_score(again.goals)} is recorded, and {_score(outcome.goals)} in the table")
     elif again is not None and isinstance(outcome, Played) and _measured(again) != _measured(outcome):
-        faults.append(
-            "its figures are not those of its recording, such as cards, penalties, and the score of a free game"
-        )
+        faults.append("its figures are not those of its recording, such as cards and penalties")
     return ticks, faults, again
 
 
