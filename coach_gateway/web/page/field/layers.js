@@ -1,6 +1,7 @@
 // What the picture shows: switches that are kept for the next visit.
 
 import { byId, choice, element, offer, show } from "../parts/elements.js";
+import { keep, kept } from "../parts/storage.js";
 import { TRAILS } from "./trails.js";
 import { SEEN_FROM } from "./seen_from.js";
 
@@ -21,7 +22,7 @@ export class Layers {
 
   constructor(match) {
     for (const [name, , initial] of SWITCHES) this[name] = initial;
-    Object.assign(this, kept());
+    Object.assign(this, JSON.parse(kept("localStorage", KEY) ?? "{}"));
     this.#lay(match);
   }
 
@@ -77,23 +78,6 @@ export class Layers {
     if (input.type === "checkbox") input.checked = value;
     else input.value = value;
     const all = Object.fromEntries([...SWITCHES.map(([word]) => word), "trails", "seenFrom"].map((word) => [word, this[word]]));
-    keep(all);
-  }
-}
-
-function keep(all) {
-  try {
-    localStorage.setItem(KEY, JSON.stringify(all));
-  } catch {
-    // storage may be forbidden: the choice lasts for this visit
-  }
-}
-
-/** The choices of the last visit. */
-function kept() {
-  try {
-    return JSON.parse(localStorage.getItem(KEY) ?? "{}");
-  } catch {
-    return {};
+    keep("localStorage", KEY, JSON.stringify(all));
   }
 }

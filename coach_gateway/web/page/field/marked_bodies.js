@@ -2,7 +2,7 @@
 
 import { HOLDS } from "../shared/palette.js";
 import { drawRobot, drawnRadius, inPicture } from "../shared/bodies.js";
-import { circle, write } from "../shared/shapes.js";
+import { circle, line, write } from "../shared/shapes.js";
 import { numberOf } from "../parts/text.js";
 
 const AHEAD_S = 0.5; // how far a line of velocity leads
@@ -28,10 +28,7 @@ export function drawVelocity(context, projection, body, colour) {
   context.strokeStyle = colour;
   context.lineWidth = 1.6;
   context.lineCap = "round";
-  context.beginPath();
-  context.moveTo(projection.x(body.x), projection.y(body.y));
-  context.lineTo(projection.x(body.x + AHEAD_S * body.vx), projection.y(body.y + AHEAD_S * body.vy));
-  context.stroke();
+  line(context, projection, body, { x: body.x + AHEAD_S * body.vx, y: body.y + AHEAD_S * body.vy });
 }
 
 /** A body that stands on the pitch and is not a robot. */

@@ -1,6 +1,7 @@
 // Seats: who looks at the page, and which parts of it that person has. A part names its seats in `data-for`.
 
 import { byId, setText, show } from "../parts/elements.js";
+import { keep, kept } from "../parts/storage.js";
 
 const KEY = "touchline.seat";
 const NAMES = { spectator: "watching", referee: "referee", operator: "operator", cyan: "coach of cyan", magenta: "coach of magenta" };
@@ -12,7 +13,7 @@ export function seatOf(role, operates) {
 }
 
 export class Seats {
-  #operates = kept();
+  #operates = kept("sessionStorage", KEY) === "operator";
 
   /** `changed` is called when the seat has changed. */
   constructor(match, changed) {
@@ -43,24 +44,7 @@ export class Seats {
 
   #swap() {
     this.#operates = !this.#operates;
-    keep(this.#operates);
+    keep("sessionStorage", KEY, this.#operates ? "operator" : "referee");
     this.update();
-  }
-}
-
-/** Whether this tab is the operator's. */
-function kept() {
-  try {
-    return sessionStorage.getItem(KEY) === "operator";
-  } catch {
-    return false; // storage may be forbidden
-  }
-}
-
-function keep(operates) {
-  try {
-    sessionStorage.setItem(KEY, operates ? "operator" : "referee");
-  } catch {
-    // storage may be forbidden: the choice lasts until the page is closed
   }
 }
