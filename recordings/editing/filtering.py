@@ -6,7 +6,7 @@ from pathlib import Path
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import Manifest
 from recordings.editing.compose import composition
-from recordings.reading.recording import RecordedMessage, Recording
+from recordings.reading.recording import RecordedMessage, Recording, nanoseconds
 from recordings.recorder.latched_messages import LATCHED, LatchedMessages
 from recordings.recorder.recording_writer import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
@@ -33,7 +33,7 @@ def filter_recording(
         raise TouchlineError(f"{out}: would overwrite the recording that is read; give another name for --out")
     if not any(selection.includes(channel.key) for channel in recording.channels):
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
-    manifest = _manifest_of_copy(recording.manifest, selection, _ns(start))
+    manifest = _manifest_of_copy(recording.manifest, selection, nanoseconds(start))
     roster = RosterMetadata(recording.manifest.setup, recording.lineup())
     with composition(out, manifest, recording.attachments, roster, viz=bool(recording.drawn)) as copy:
         for log_ns, received in _latched_at(recording, selection, start) if start is not None else ():
@@ -80,7 +80,3 @@ def _latched_at(recording: Recording, selection: KeySelection, start: float) -> 
         if recorded.topic.key in LATCHED:
             latched.update((recorded.log_ns, recorded.received()))
     return [logged for logged in latched.messages() if selection.includes(logged[1].key)]
-
-
-def _ns(seconds: float | None) -> int | None:
-    return round(seconds * 1e9) if seconds is not None else None

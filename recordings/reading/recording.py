@@ -176,7 +176,7 @@ class Recording:
             TouchlineError: the file is damaged inside.
         """
         wanted = {key for key, topic in self._topics.items() if topic is not None and _wanted(key, keys)}
-        for key, message in self.mcap_file.messages(wanted, _ns(start), _ns(end)):
+        for key, message in self.mcap_file.messages(wanted, nanoseconds(start), nanoseconds(end)):
             topic = self._topics[key]
             if topic is not None:
                 yield RecordedMessage(
@@ -239,5 +239,6 @@ def _wanted(key: str, patterns: tuple[str, ...]) -> bool:
     return not patterns or any(fnmatchcase(key, pattern) for pattern in patterns)
 
 
-def _ns(seconds: float | None) -> int | None:
+def nanoseconds(seconds: float | None) -> int | None:
+    """A simulated time in s as messages are filed under it, in ns."""
     return round(seconds * 1e9) if seconds is not None else None

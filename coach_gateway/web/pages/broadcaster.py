@@ -66,8 +66,8 @@ class PageBroadcaster:
             live=feed.live,
             deeds=rights.deeds_of(role),
             beliefs=self._beliefs_of(role),
-            debug=self._debug_of(role),
-            orders=self._orders_of(role),
+            debug=self._own_sides(role),
+            orders=self._own_sides(role),
             scenes=self._scenes,
         )
         page.queue.restart(welcome.json())
@@ -75,8 +75,8 @@ class PageBroadcaster:
             page.queue.put(text)
         if self._result.result is not None:
             page.queue.put(self._result.result.json())
-        page.queue.put(feed.orders(self._orders_of(role)))
-        frame = feed.frame(self._beliefs_of(role), self._debug_of(role))
+        page.queue.put(feed.orders(self._own_sides(role)))
+        frame = feed.frame(self._beliefs_of(role), self._own_sides(role))
         if frame is not None:
             page.queue.put_frame(frame)
 
@@ -118,12 +118,8 @@ class PageBroadcaster:
             wanted = BeliefsFor.ALL if friendly else BeliefsFor.TEAMS
         return rights.sides_shown(role, to_all=wanted is BeliefsFor.ALL)
 
-    def _debug_of(self, role: TokenRole) -> list[Side]:
-        """The sides whose robots' drawings a role is shown; in a replay both, as in the recording."""
-        return rights.sides_shown(role, to_all=not self.feed.live)
-
-    def _orders_of(self, role: TokenRole) -> list[Side]:
-        """The sides whose orders a role is shown; in a replay all of them."""
+    def _own_sides(self, role: TokenRole) -> list[Side]:
+        """The sides whose orders and drawings a role is shown; in a replay both, as in the recording."""
         return rights.sides_shown(role, to_all=not self.feed.live)
 
     async def _broadcast(self) -> None:
@@ -140,7 +136,7 @@ class PageBroadcaster:
             if feed.orders_changed:
                 feed.orders_changed = False
                 for role in pages.roles():
-                    pages.send(feed.orders(self._orders_of(role)), role)
+                    pages.send(feed.orders(self._own_sides(role)), role)
             if feed.frame_changed and self._pace.due(now):
                 feed.frame_changed = False
                 sent_at = now
@@ -151,7 +147,7 @@ class PageBroadcaster:
         """Send the newest frame to all pages; it is encoded once for all roles with the same view."""
         made: dict[tuple[tuple[Side, ...], tuple[Side, ...]], str | None] = {}
         for role in self._pages.roles():
-            view = tuple(self._beliefs_of(role)), tuple(self._debug_of(role))
+            view = tuple(self._beliefs_of(role)), tuple(self._own_sides(role))
             if view not in made:
                 made[view] = self.feed.frame(*view)
             frame = made[view]

@@ -1,5 +1,6 @@
 """The progress of a replay in one line."""
 
+from coach_gateway.match.lines import clock_text
 from schemas.messages.replay import ReplayReply
 
 _CELLS = 40
@@ -9,7 +10,7 @@ _CELLS = 40
 def status_text(status: ReplayReply) -> str:
     """A status as text: `0:24.7 of 0:28.0  ×2  paused  loop`."""
     speed = "as fast as possible" if status.rate is None else f"×{status.rate:g}"
-    parts = [f"{_minutes(status.time)} of {_minutes(status.end)}", speed]
+    parts = [f"{clock_text(status.time)} of {clock_text(status.end)}", speed]
     return "  ".join([*parts, *(name for name, is_on in (("paused", status.paused), ("loop", status.loop)) if is_on)])
 
 
@@ -18,8 +19,3 @@ def bar_text(status: ReplayReply) -> str:
     share = (status.time - status.start) / max(status.end - status.start, 1e-9)
     done = round(_CELLS * min(1.0, max(0.0, share)))
     return f"{'━' * done}{'╌' * (_CELLS - done)}  {status_text(status)}"
-
-
-def _minutes(seconds: float) -> str:
-    minutes, rest = divmod(max(0.0, round(seconds, 1)), 60)
-    return f"{int(minutes)}:{rest:04.1f}"
