@@ -10,6 +10,7 @@ import json
 import os
 import runpy
 import selectors
+import signal
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -93,6 +94,9 @@ def _reply(pid: int, status: int | None) -> None:
 
 if __name__ == "__main__":
     gc.freeze()  # what has been imported is shared memory, and stays so while it is not looked through
-    requested = serve()
-    if requested is not None:
-        become(requested)
+    try:
+        requested = serve()
+        if requested is not None:
+            become(requested)
+    except KeyboardInterrupt:  # before the module has its own handler
+        sys.exit(128 + signal.SIGINT)

@@ -224,6 +224,14 @@ def test_in_bubblewrap_a_robot_has_the_exit_status_that_it_has_elsewhere(
     assert end_of(launch(process)) == status
 
 
+def test_an_interrupt_before_the_robot_is_ready_ends_it_without_a_traceback(launch: Launch, tmp_path: Path) -> None:
+    launched = launch(brain(tmp_path, "import time\nprint('here', flush=True)\ntime.sleep(600)"))
+    wait_for(lambda: launched.last_lines() == ["here"])
+    launched.send(signal.SIGINT)
+    assert end_of(launched) == 128 + signal.SIGINT
+    assert launched.last_lines() == ["here"]
+
+
 SUPERVISOR = """
 import signal, sys
 from pathlib import Path
