@@ -72,22 +72,6 @@ class FreeState(NamedTuple):
         """An operator who moves bodies changes nothing that the game remembers."""
         return self
 
-    def json(self) -> str:
-        """The state as JSON; floats keep every bit."""
-        return json.dumps(self._asdict())
-
-    @classmethod
-    def from_json(cls, text: str) -> "FreeState":
-        """The state in a text of `json`.
-
-        Raises:
-            ValueError: the text is no such state.
-        """
-        try:
-            return cls(**json.loads(text))
-        except TypeError as error:
-            raise ValueError(str(error)) from None
-
 
 class FreeJudge:
     """A `sim_host.game.judging.Judge`."""

@@ -11,11 +11,7 @@ from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import ActionName
 from sim_host.match.simulation import Simulation, TickResult
-from sim_host.server.admission.account_limits import AccountLimits
-from sim_host.server.admission.eligibility import Eligibility
-from sim_host.server.admission.invalid_log import InvalidLog
-from sim_host.server.admission.presence_tracker import PresenceTracker
-from sim_host.server.admission.recorder_admission import Admission
+from sim_host.server.admission.door import Admission, PresenceTracker
 from sim_host.server.inbox import Inbox
 from sim_host.server.manual_control import ManualControl
 from sim_host.server.pace import Lockstep, Pace, Realtime
@@ -51,35 +47,18 @@ class Host:
             has_accounts: credentials bind each key to an account.
         """
         self.simulation = Simulation(config)
-        self._invalid_log = InvalidLog()
-        self.accounts = AccountLimits(self._sides(), has_accounts=has_accounts)
-        admission = Admission([*config.record.admit, *recorders], any_recorder=has_accounts)
-        self._batches = BatchPublisher(bus, self._invalid_log.add)
-        self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches, self.accounts)
-        self._eligibility = Eligibility.of(config, launch_token)
-        self.presence = PresenceTracker(
-            bus,
-            self.inbox.agent_stats,
-            config.patience.recorder,
-            self._invalid_log,
-            self.accounts,
-            admission,
-            self._eligibility,
-        )
-        self._manual = ManualControl(bus, self._invalid_log, self.accounts)
+        self._admission = Admission(config, self._sides(), launch_token, recorders, has_accounts=has_accounts)
+        self.accounts = self._admission.accounts
+        self._batches = BatchPublisher(bus, self._admission.invalid_log.add)
+        self.inbox = Inbox(bus, self.simulation.roster, self._batches, self._admission)
+        self.presence = self._admission.follow(bus, self.inbox.agent_stats)
+        self._manual = ManualControl(bus, self._admission)
         self._first = self.simulation.now, self.simulation.state
         self._config = config
         self._clock = bus.clock
         self._seat = RefereeSeat()
         self._services = Services(
-            bus,
-            self.simulation,
-            self._invalid_log,
-            self._batches,
-            self._seat,
-            self.accounts,
-            admission,
-            self.presence.add_refusal,
+            bus, self.simulation, self._batches, self._seat, self._admission, self.presence.add_refusal
         )
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
         self._bus = bus
@@ -87,7 +66,7 @@ class Host:
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
         self._debug = DebugPublisher(self._batches, tick_s)
-        self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self.accounts, admission)
+        self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self._admission)
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
         )
@@ -203,11 +182,10 @@ class Host:
         self._services.process()
         roster = self.simulation.roster
         if (roster.names, roster.sides, roster.still) != (self._roster.names, self._roster.sides, self._roster.still):
-            self._eligibility.add_robots(dict(zip(roster.names, roster.sides, strict=True)))
+            self._admission.add_robots(self._sides())
             self.inbox.set_roster(roster)
             self.presence.refresh_agents()
             self._outbox.set_roster(roster)
-            self.accounts.sides = {**self.accounts.sides, **self._sides()}
             self._silent = {name: self._silent.get(name, False) for name in roster.names}
         self._roster = roster
 
@@ -273,7 +251,7 @@ class Host:
     def _report(self, tick: TickResult) -> None:
         """Publish the host's health when a report is due, and at most one invalid payload: a flood is not echoed."""
         self._update_accounts()
-        invalid = self._invalid_log.pop(tick.tick, tick.time)
+        invalid = self._admission.invalid_log.pop(tick.tick, tick.time)
         if invalid is not None:
             self._outbox.invalid.put(invalid)
         if self._health.end_tick(tick.time):
@@ -288,7 +266,7 @@ class Host:
             late,
             self.inbox,
             self.presence,
-            self.accounts,
+            self._admission,
             simulation.radio_use,
             budget,
         )

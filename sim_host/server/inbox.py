@@ -8,9 +8,7 @@ from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.messages.command import Command
 from schemas.topics import COMMAND
 from schemas.wire.message import BadMessageError
-from sim_host.server.admission.account_limits import AccountLimits
-from sim_host.server.admission.agent_stats import AgentStats
-from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.door import Admission, AgentStats
 from sim_host.snapshot import Roster
 
 _MAX_UNKNOWN_SENDERS = 100
@@ -24,14 +22,12 @@ _TICKS_WITH_TIMES = 500
 class Inbox:
     """Receives the commands of all robots."""
 
-    def __init__(
-        self, bus: Bus, roster: Roster, invalid_log: InvalidLog, batches: BatchPublisher, accounts: AccountLimits
-    ) -> None:
+    def __init__(self, bus: Bus, roster: Roster, batches: BatchPublisher, admission: Admission) -> None:
         """All commands within the limits of their accounts are added to `batches`."""
         self._commands = bus.subscribe(COMMAND)
-        self._invalid_log = invalid_log
+        self._invalid_log = admission.invalid_log
         self._batches = batches
-        self._accounts = accounts
+        self._accounts = admission.accounts
         self.agent_stats: dict[str, AgentStats] = {}
         self.unknown_senders: dict[str, int] = {}
         """Key → commands received on it, for names that no robot of the match has."""

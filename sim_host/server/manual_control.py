@@ -9,8 +9,7 @@ from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.natural_order import natural_order
 from schemas.topics import MANUAL
 from schemas.wire.message import BadMessageError
-from sim_host.server.admission.account_limits import AccountLimits
-from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.door import Admission
 
 
 @dataclass(slots=True)
@@ -25,11 +24,11 @@ class _DrivenRobot:
 class ManualControl:
     """Manual control of all robots."""
 
-    def __init__(self, bus: Bus, invalid_log: InvalidLog, accounts: AccountLimits) -> None:
-        self._accounts = accounts
+    def __init__(self, bus: Bus, admission: Admission) -> None:
+        self._accounts = admission.accounts
         self._subscription = bus.subscribe(MANUAL)
         self._clock = bus.clock
-        self._invalid_log = invalid_log
+        self._invalid_log = admission.invalid_log
         self._driven: dict[str, _DrivenRobot] = {}
         self._reported: dict[str, bool] = {}
 

@@ -8,8 +8,7 @@ from runtime.process.clock import Clock
 from schemas.config.match_parts import Patience
 from schemas.messages.command import Command
 from schemas.recovery_window import RUN_AHEAD_TICKS
-from sim_host.server.admission.agent_stats import SILENT_TICKS
-from sim_host.server.admission.presence_tracker import PresenceTracker
+from sim_host.server.admission.door import SILENT_TICKS, PresenceTracker
 from sim_host.server.inbox import Inbox
 from sim_host.timing import PRESENCE_S, RESEND_S
 

@@ -6,12 +6,12 @@ from runtime.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
 from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.admitted_recorders import AdmittedRecorders
 from sim_host.server.admission.agent_stats import AgentStats
 from sim_host.server.admission.claim_handler import ClaimHandler, RefusedAgent
 from sim_host.server.admission.claims import Claims
 from sim_host.server.admission.eligibility import Eligibility
 from sim_host.server.admission.invalid_log import InvalidLog
-from sim_host.server.admission.recorder_admission import Admission
 
 _REMEMBERED = (PresenceKind.REFBOX, PresenceKind.COACH)
 _MAX_CHANGES = 500
@@ -32,7 +32,7 @@ class PresenceTracker:
         patience: float,
         invalid_log: InvalidLog,
         accounts: AccountLimits,
-        admission: Admission,
+        admitted: AdmittedRecorders,
         eligibility: Eligibility,
     ) -> None:
         """`patience` is the wall time in s after which a recorder with a broken link is dropped."""
@@ -42,7 +42,7 @@ class PresenceTracker:
         self._progress = bus.subscribe(RECORDER_PROGRESS)
         self._agent_stats = agent_stats
         self._accounts = accounts
-        self._admission = admission
+        self._admitted = admitted
         self._claims = Claims(eligibility)
         self._claim_handler = ClaimHandler(bus, self._claims, invalid_log)
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
@@ -150,11 +150,11 @@ class PresenceTracker:
         """
         name = presence.name
         if presence.alive:
-            self._admission.join(name)
-            if name in self.recorders or self._admission.waits_for(name) or len(self.recorders) < _MAX_RECORDERS:
+            self._admitted.join(name)
+            if name in self.recorders or self._admitted.waits_for(name) or len(self.recorders) < _MAX_RECORDERS:
                 self.recorders.setdefault(name, -1)
             self._lost.pop(name, None)
-        elif not self._admission.waits_for(name):
+        elif not self._admitted.waits_for(name):
             self._forget(name)
         elif name in self.recorders:
             self._lost[name] = self._clock.now() + self._patience
@@ -197,7 +197,7 @@ class PresenceTracker:
 
     def awaited_recorders(self) -> dict[str, int]:
         """Recorder → the newest tick it has read, of the recorders that a lockstep host waits for."""
-        return {name: newest for name, newest in self.recorders.items() if self._admission.waits_for(name)}
+        return {name: newest for name, newest in self.recorders.items() if self._admitted.waits_for(name)}
 
     def recorder_lags(self, tick: int) -> dict[str, int]:
         """How many ticks each recorder is behind."""

@@ -6,7 +6,7 @@ from runtime.bus.batch_publisher import BatchPublisher
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
-from sim_host.server.admission.agent_stats import AgentStats
+from sim_host.server.admission.door import AgentStats
 from sim_host.snapshot import Roster
 
 _PERIOD_S = 1.0

@@ -6,8 +6,7 @@ from runtime.process.clock import Clock
 from schemas.messages.health import Health, TeamRadio
 from schemas.side import Side
 from sim_host.match.radio_use import RadioUse
-from sim_host.server.admission.account_limits import AccountLimits
-from sim_host.server.admission.presence_tracker import PresenceTracker
+from sim_host.server.admission.door import Admission, PresenceTracker
 from sim_host.server.inbox import Inbox
 from sim_host.timing import AVERAGING_S, HEALTH_S
 
@@ -46,7 +45,7 @@ class HealthReporter:
         late: int,
         inbox: Inbox,
         presence: PresenceTracker,
-        accounts: AccountLimits,
+        admission: Admission,
         radio: RadioUse,
         radio_budget: float,
     ) -> Health:
@@ -64,5 +63,5 @@ class HealthReporter:
             strangers=dict(inbox.unknown_senders),
             recorders=presence.recorder_lags(tick),
             radio={side: TeamRadio(budget=radio_budget, busiest=radio.busiest(side)) for side in Side},
-            accounts=accounts.health(),
+            accounts=admission.accounts.health(),
         )

@@ -6,9 +6,7 @@ from typing import Any
 from schemas.messages.soccer.game import GameEvent
 from schemas.soccer.game import EventKind
 from sim_host.match.simulation import Simulation, TickResult
-from sim_host.server.admission.account_limits import AccountLimits
-from sim_host.server.admission.presence_tracker import PresenceTracker
-from sim_host.server.admission.recorder_admission import Admission
+from sim_host.server.admission.door import Admission, PresenceTracker
 from sim_host.server.reports.outbox import Outbox
 from sim_host.server.services.referee_seat import RefereeSeat
 
@@ -24,14 +22,12 @@ class HostReports:
         simulation: Simulation,
         presence: PresenceTracker,
         seat: RefereeSeat,
-        accounts: AccountLimits,
         admission: Admission,
     ) -> None:
         self._outbox = outbox
         self._simulation = simulation
         self._presence = presence
         self._seat = seat
-        self._accounts = accounts
         self._admission = admission
 
     def publish(self, tick: TickResult) -> None:
@@ -46,10 +42,9 @@ class HostReports:
         for text in self._seat.pop_changes():
             log.warning(text)
             self._publish(tick, "referee_seat", text)
-        over = [
-            f"{name} is over its limit of messages: the rest is not read" for name in self._accounts.pop_over_limit()
-        ]
-        for text in [*over, *self._admission.pop_changes()]:
+        names = self._admission.accounts.pop_over_limit()
+        over = [f"{name} is over its limit of messages: the rest is not read" for name in names]
+        for text in [*over, *self._admission.recorders.pop_changes()]:
             log.warning(text)
             self._publish(tick, "account", text)
 

@@ -6,9 +6,7 @@ from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus
 from schemas.topics import ADMISSION, PARAMETERS, REFEREE_SEAT, SCENE, SETUP
 from sim_host.match.simulation import Simulation
-from sim_host.server.admission.account_limits import AccountLimits
-from sim_host.server.admission.invalid_log import InvalidLog
-from sim_host.server.admission.recorder_admission import Admission
+from sim_host.server.admission.door import Admission
 from sim_host.server.services.action_handler import ActionHandler
 from sim_host.server.services.order_handler import OrderHandler
 from sim_host.server.services.query_handler import QueryHandler
@@ -22,15 +20,13 @@ class Services:
         self,
         bus: Bus,
         simulation: Simulation,
-        invalid_log: InvalidLog,
         batches: BatchPublisher,
         seat: RefereeSeat,
-        accounts: AccountLimits,
         admission: Admission,
         report_refusal: Callable[[str], None],
     ) -> None:
         """`report_refusal` receives the reason why a process gets no setup, which is what it asks for first."""
-        self._batches = batches
+        self._batches, invalid_log = batches, admission.invalid_log
         self._setup = QueryHandler(
             bus,
             SETUP,
@@ -41,10 +37,8 @@ class Services:
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
         self._seat = QueryHandler(bus, REFEREE_SEAT, seat.handle, invalid_log)
-        self._orders = OrderHandler(
-            bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches, accounts
-        )
-        self._admission = QueryHandler(bus, ADMISSION, admission.handle, invalid_log)
+        self._orders = OrderHandler(bus, simulation.orders, lambda: simulation.profile.field, batches, admission)
+        self._admission = QueryHandler(bus, ADMISSION, admission.recorders.handle, invalid_log)
         self.requests = ActionHandler(bus, invalid_log, seat)
         """The requested actions, which the referee decides on in the next tick."""
 

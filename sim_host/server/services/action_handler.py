@@ -6,7 +6,7 @@ from runtime.bus.contract import Bus, Query
 from schemas.messages.soccer.game import ActionReply, RefereeAction
 from schemas.topics import ACTION
 from schemas.wire.message import BadMessageError
-from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.door import InvalidLog
 from sim_host.server.services.referee_seat import RefereeSeat
 
 

@@ -9,8 +9,7 @@ from schemas.messages.coach import CoachOrder
 from schemas.side import Side
 from schemas.topics import ORDER
 from schemas.wire.message import BadMessageError
-from sim_host.server.admission.account_limits import ORDER_WEIGHT, AccountLimits
-from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.door import ORDER_WEIGHT, Admission
 
 
 class OrderHandler:
@@ -21,17 +20,16 @@ class OrderHandler:
         bus: Bus,
         active: dict[Side, CoachOrder],
         pitch: Callable[[], Pitch],
-        invalid_log: InvalidLog,
         batches: BatchPublisher,
-        accounts: AccountLimits,
+        admission: Admission,
     ) -> None:
         """`active` maps each side to its newest order, and is updated in place; `pitch` returns the pitch in force."""
         self._orders = bus.subscribe(ORDER)
         self._active = active
         self._pitch = pitch
-        self._invalid_log = invalid_log
+        self._invalid_log = admission.invalid_log
         self._batches = batches
-        self._accounts = accounts
+        self._accounts = admission.accounts
 
     def process(self) -> None:
         """Process all orders that have arrived."""

@@ -6,7 +6,7 @@ from typing import Any
 from runtime.bus.contract import Bus
 from schemas.topic import Topic
 from schemas.wire.message import BadMessageError, Message
-from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.door import InvalidLog
 
 _MOST_AT_ONCE = 32
 """Most queries in one call after a time with few, as at the start of a match."""

@@ -4,9 +4,10 @@ from types import SimpleNamespace
 
 import pytest
 
+from schemas.config.match_config import MatchConfig
 from sim_host.match.radio_use import RadioUse
-from sim_host.server.admission.account_limits import AccountLimits
 from sim_host.server.admission.agent_stats import AgentStats
+from sim_host.server.admission.door import Admission
 from sim_host.server.reports.health_reporter import HealthReporter
 from support.stepped_clock import SteppedClock
 
@@ -23,7 +24,7 @@ def speed_after(*stretches):
             clock.sleep_until(clock.now() + took)
             tick += 1
             reporter.end_tick(tick * 0.02)
-    return reporter.report(tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS, AccountLimits({}), RadioUse(), 2e6)
+    return reporter.report(tick, tick * 0.02, 0, NO_AGENTS, NO_RECORDERS, Admission(MatchConfig(), {}), RadioUse(), 2e6)
 
 
 def test_the_real_time_factor_and_the_worst_tick_are_those_of_the_last_second():

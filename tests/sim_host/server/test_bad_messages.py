@@ -11,7 +11,7 @@ from schemas.messages.command import Command
 from schemas.side import Side
 from schemas.topics import COMMAND, INVALID, ORDER, WORLD
 from sim_host.server import inbox
-from sim_host.server.admission.account_limits import AccountLimits
+from sim_host.server.admission.door import Admission
 from sim_host.server.admission.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 from support.in_process_bus import InProcessBus, SharedState
@@ -105,7 +105,7 @@ class FloodedBus(InProcessBus):
 def test_a_flood_does_not_hold_the_host():
     bus = FloodedBus("friendly", SteppedClock(), SharedState())
     box = inbox.Inbox(
-        bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus), AccountLimits({})
+        bus, Roster.of(MatchConfig(), load_profile("msl")), BatchPublisher(bus), Admission(MatchConfig(), {})
     )
     for _ in range(5):
         assert box.receive_command(0, 0.0) is None

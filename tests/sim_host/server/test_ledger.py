@@ -13,9 +13,8 @@ from schemas.side import Side
 from schemas.topics import COMMAND, HEALTH
 from sim_host.match.radio_medium import Budget
 from sim_host.match.radio_use import RadioUse
-from sim_host.server.admission.account_limits import AccountLimits
 from sim_host.server.admission.agent_stats import AgentStats
-from sim_host.server.admission.invalid_log import InvalidLog
+from sim_host.server.admission.door import Admission
 from sim_host.server.inbox import Inbox
 from sim_host.snapshot import Roster
 from support.in_process_bus import InProcessBus, SharedState
@@ -66,9 +65,7 @@ def bus():
 
 @pytest.fixture
 def inbox(bus):
-    inbox = Inbox(
-        bus, Roster.of(MatchConfig(), load_profile("msl")), InvalidLog(), BatchPublisher(bus), AccountLimits({})
-    )
+    inbox = Inbox(bus, Roster.of(MatchConfig(), load_profile("msl")), BatchPublisher(bus), Admission(MatchConfig(), {}))
     inbox.agent_stats["cyan1"].alive = True
     return inbox
 

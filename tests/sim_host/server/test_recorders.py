@@ -9,7 +9,7 @@ from schemas.messages.soccer.game import RefereeAction
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.soccer.game import ActionName
 from schemas.topics import ACTION, RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
-from sim_host.server.admission.recorder_admission import MOST_UNNAMED
+from sim_host.server.admission.admitted_recorders import MOST_UNNAMED
 from support.host_rig import TEAMS, HostRig
 
 PATIENCE_S = MatchConfig().patience.recorder

@@ -9,7 +9,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.messages.health import Health, RobotHealth
 from schemas.side import Side
 from schemas.topics import HEALTH
-from sim_host.server.admission.account_limits import OVER_LIMIT
+from sim_host.server.admission.door import OVER_LIMIT
 from touchline.matches.engine.outcome import FailureKind
 
 _SILENT_TICKS = 50

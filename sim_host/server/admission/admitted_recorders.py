@@ -9,7 +9,7 @@ MOST_UNNAMED = 4
 for its patience, and one account may declare any number of names."""
 
 
-class Admission:
+class AdmittedRecorders:
     """Recorders that a lockstep host waits for. Every other recorder is served, and may fall behind."""
 
     def __init__(self, recorders: Iterable[str], *, any_recorder: bool = False) -> None:
