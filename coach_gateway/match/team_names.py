@@ -4,6 +4,7 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+from schemas.config.free import score_text
 from schemas.config.match_config import MatchConfig
 from schemas.messages.setup import Setup
 from schemas.side import Side
@@ -25,28 +26,32 @@ class TeamNames:
     magenta: str = Side.MAGENTA.value
     playing: tuple[Side, ...] = tuple(Side)
     """The sides that have robots."""
+    unit: str = ""
+    """Unit of the score of a game without goals."""
 
     @classmethod
-    def of(cls, names: Mapping[Side, str], playing: Collection[Side] = tuple(Side)) -> "TeamNames":
+    def of(cls, names: Mapping[Side, str], playing: Collection[Side] = tuple(Side), unit: str = "") -> "TeamNames":
         """Two different names: a name that both teams have, or that is the other side's, gets its side."""
         shown = {side: printable(names[side]).strip() or side.value for side in Side}
         is_same = shown[Side.CYAN].casefold() == shown[Side.MAGENTA].casefold()
         for side in Side:
             if is_same or shown[side].casefold() == side.opponent.value:
                 shown[side] = f"{shown[side]} ({side.value})"
-        return cls(shown[Side.CYAN], shown[Side.MAGENTA], tuple(side for side in Side if side in playing))
+        return cls(shown[Side.CYAN], shown[Side.MAGENTA], tuple(side for side in Side if side in playing), unit)
 
     @classmethod
     def of_match(cls, config: MatchConfig) -> "TeamNames":
         """The names in a match file."""
         playing = [side for side in Side if config.robots(side)]
-        return cls.of({side: config.team(side).name for side in Side}, playing)
+        unit = config.free.unit if config.free is not None else ""
+        return cls.of({side: config.team(side).name for side in Side}, playing, unit)
 
     @classmethod
     def of_setup(cls, setup: Setup) -> "TeamNames":
         """The names that a host publishes."""
         playing = [side for side in Side if setup.teams[side].robots]
-        return cls.of({side: setup.teams[side].name for side in Side}, playing)
+        unit = setup.free.unit if setup.free is not None else ""
+        return cls.of({side: setup.teams[side].name for side in Side}, playing, printable(unit))
 
     def __getitem__(self, side: Side) -> str:
         return self.cyan if side is Side.CYAN else self.magenta
@@ -58,8 +63,10 @@ class TeamNames:
         return name if name == side.value else name + suffix
 
     def score(self, score: Score, value: float | None = None) -> str:
-        """`Lions 2 : 0 NuBot`; the `value` of a game without goals as `score 0.25`."""
-        return f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}" if value is None else f"score {value:.6g}"
+        """`Lions 2 : 0 NuBot`; the `value` of a game without goals as `score 0.25 m`."""
+        if value is not None:
+            return f"score {score_text(value, self.unit)}"
+        return f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}"
 
     def in_text(self, text: str) -> str:
         """The text of an event with the teams' names in place of the sides'; names of robots stay."""

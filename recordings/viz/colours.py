@@ -34,6 +34,8 @@ UNKNOWN_ROBOT, UNKNOWN_ROBOT_MARK = colour_of("#9a9a9a"), colour_of("#202020")
 BALL = colour_of("#ffb000")
 PITCH, SURROUND, LINE = colour_of("#4a9468"), colour_of("#35704e"), colour_of("#ffffff")
 GOAL, NET, BOUNDARY, OBSTACLE = colour_of("#ffffff"), colour_of("#e6ece8"), colour_of("#1d3529"), colour_of("#5d6470")
+MOVABLE = colour_of("#c9c2b4")
+"""Colour of an obstacle that can be pushed; lighter than that of one that stands fast."""
 INK = colour_of("#ffffff")
 TEAM_TEXT = {Side.CYAN: ROBOT[Side.CYAN], Side.MAGENTA: colour_of("#f59bd0")}
 """A team's name on a dark background."""

@@ -11,13 +11,13 @@ from recordings.container.applied_changes import changes_in
 from recordings.container.lineup import Lineup
 from recordings.viz.debug import debug_entity
 from recordings.viz.drawn_world import DrawnWorld, decode_world
-from recordings.viz.field import field_entities, obstacle_entity
+from recordings.viz.field import field_entities, floor_entities, obstacle_entity, zone_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LASER_SCAN, LOG, SCENE_UPDATE
 from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.scans import scans
 from recordings.viz.soccer import log_entry, scoreboard
-from recordings.viz.transforms import Transforms
+from recordings.viz.transforms import MAP, Transforms, pushed
 from runtime.bus.contract import ReceivedMessage
 from schemas.config.profile import STANDARD
 from schemas.config.sensors.table import Sensor
@@ -124,6 +124,8 @@ class Drawing:
         """
         out = []
         for topic, (appearance_of, entities_of) in _STATIC_LAYERS.items():
+            if topic == BALL and world.ball is None:
+                continue
             appearance, layer = appearance_of(world), self._layers.get(topic)
             if layer is None or layer.appearance != appearance:
                 entities = entities_of(self, appearance)
@@ -134,8 +136,12 @@ class Drawing:
             out.append(VizMessage(topic, encode_scene(layer.update, log_ns)))
         return out
 
-    def _field(self, obstacles: dict[str, Any]) -> list[SceneEntity]:
-        entities = [obstacle_entity(name, validated(ObstacleTruth, one)) for name, one in obstacles.items()]
+    def _field(self, obstacles: dict[str, tuple[str, Any]]) -> list[SceneEntity]:
+        entities = [
+            obstacle_entity(name, validated(ObstacleTruth, one), frame) for name, (frame, one) in obstacles.items()
+        ]
+        if (free := self._setup.free) is not None:
+            return [*floor_entities(self._setup.pitch), *map(zone_entity, free.zones), *entities]
         return [*field_entities(self._setup.pitch), *entities]
 
     def _robots(self, appearance: list[tuple[str, str | None]]) -> list[SceneEntity]:
@@ -178,8 +184,16 @@ def _named(update: SceneUpdate) -> set[str]:
     return {entity.id for entity in update.entities} | {deletion.id for deletion in update.deletions}
 
 
+def _obstacles(world: DrawnWorld) -> dict[str, tuple[str, Any]]:
+    """Obstacle → its frame, and what it is in that frame: one that can be pushed moves with a frame of its own."""
+    at_rest = {"x": 0.0, "y": 0.0, "heading": 0.0, "pushed": None}
+    return {
+        name: (pushed(name), one | at_rest) if "pushed" in one else (MAP, one) for name, one in world.obstacles.items()
+    }
+
+
 _STATIC_LAYERS: dict[str, tuple[Callable[[DrawnWorld], Any], Callable[[Drawing, Any], list[SceneEntity]]]] = {
-    FIELD: (lambda world: world.obstacles, Drawing._field),
+    FIELD: (_obstacles, Drawing._field),
     ROBOTS: (
         lambda world: [(name, robot.off_field) for name, robot in world.robots.items()],
         Drawing._robots,

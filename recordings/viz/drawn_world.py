@@ -30,7 +30,7 @@ class DrawnWorld(msgspec.Struct, frozen=True, gc=False):
     """The drawn fields of `schemas.messages.world.World`."""
 
     robots: dict[str, DrawnRobot]
-    ball: DrawnBall
+    ball: DrawnBall | None
     possession: str | None = None
     obstacles: dict[str, Any] = {}
     sensors: dict[str, dict[str, dict[str, Any]]] = {}

@@ -1,4 +1,4 @@
-"""The pitch as a scene: ground, lines as wide as they are painted, marks, goals, boundary, and obstacles."""
+"""The pitch as a scene: ground, lines as wide as they are painted, marks, goals, boundary, obstacles and zones."""
 
 import math
 from collections.abc import Iterator
@@ -9,9 +9,10 @@ from foxglove_schemas_protobuf.CylinderPrimitive_pb2 import CylinderPrimitive
 from foxglove_schemas_protobuf.LinePrimitive_pb2 import LinePrimitive
 from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
-from recordings.viz.colours import BOUNDARY, GOAL, LINE, NET, OBSTACLE, PITCH, SURROUND
-from recordings.viz.primitives import Triple, cube, cylinder, entity, line
+from recordings.viz.colours import BOUNDARY, GOAL, INK, LINE, MOVABLE, NET, OBSTACLE, PITCH, SURROUND
+from recordings.viz.primitives import Triple, cube, cylinder, entity, line, text
 from recordings.viz.transforms import MAP
+from schemas.config.free import Zone
 from schemas.config.obstacle import Shape
 from schemas.config.sections import Pitch
 from schemas.messages.world import ObstacleTruth
@@ -25,25 +26,42 @@ _ARC_STEP = math.radians(6.0)
 _BOARD_HEIGHT = 0.15
 """Height of the drawn boundary, in m; a net above it would hide the pitch."""
 _THICKNESS = 0.02
+_ZONE_OPACITY, _ZONE_TEXT = 0.3, 0.5
+"""Opacity of a zone's ground, and height of its name in m."""
 
 
 def field_entities(pitch: Pitch) -> list[SceneEntity]:
     """The pitch, in the field frame."""
     return [
-        entity("ground", MAP, cubes=_ground(pitch)),
+        *floor_entities(pitch),
         entity("lines", MAP, lines=_lines(pitch), cylinders=_marks(pitch)),
         *(entity(f"goal {end}", MAP, cubes=_goal(pitch, sign)) for end, sign in (("+x", 1), ("-x", -1))),
-        entity("boundary", MAP, cubes=_boundary(pitch)),
     ]
 
 
-def obstacle_entity(name: str, obstacle: ObstacleTruth) -> SceneEntity:
-    """An obstacle, in the field frame."""
+def floor_entities(pitch: Pitch) -> list[SceneEntity]:
+    """Ground and boundary alone, in the field frame."""
+    return [entity("ground", MAP, cubes=_ground(pitch)), entity("boundary", MAP, cubes=_boundary(pitch))]
+
+
+def zone_entity(zone: Zone) -> SceneEntity:
+    """A zone on the ground with its name, in the field frame."""
+    x, y = zone.place
+    place, colour = (x, y, LINE_Z / 2), INK.faded(_ZONE_OPACITY)
+    disc = [cylinder(place, zone.radius, LINE_Z, colour)] if zone.radius is not None else []
+    slab = [cube(place, (*zone.size, LINE_Z), colour, zone.heading)] if zone.size is not None else []
+    label = text((x, y, _ZONE_TEXT / 2), zone.name, _ZONE_TEXT, INK)
+    return entity(f"zone {zone.name}", MAP, cylinders=disc, cubes=slab, texts=[label])
+
+
+def obstacle_entity(name: str, obstacle: ObstacleTruth, frame: str = MAP) -> SceneEntity:
+    """An obstacle in `frame`: the field frame, or its own if it can be pushed, which it shows by its colour."""
+    colour = OBSTACLE if frame == MAP else MOVABLE
     position, label = (obstacle.x, obstacle.y, obstacle.height / 2), f"obstacle {name}"
     if obstacle.shape is Shape.CYLINDER:
-        return entity(label, MAP, cylinders=[cylinder(position, obstacle.radius, obstacle.height, OBSTACLE)])
+        return entity(label, frame, cylinders=[cylinder(position, obstacle.radius, obstacle.height, colour)])
     size = (obstacle.size_x, obstacle.size_y, obstacle.height)
-    return entity(label, MAP, cubes=[cube(position, size, OBSTACLE, obstacle.heading)])
+    return entity(label, frame, cubes=[cube(position, size, colour, obstacle.heading)])
 
 
 def _ground(pitch: Pitch) -> Iterator[CubePrimitive]:

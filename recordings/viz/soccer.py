@@ -6,6 +6,7 @@ from recordings.viz.colours import INK, TEAM_TEXT
 from recordings.viz.foxglove import set_time
 from recordings.viz.primitives import encode_scene, entity, scene_update, text
 from recordings.viz.transforms import MAP
+from schemas.config.free import score_text
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
@@ -34,9 +35,11 @@ def scoreboard(state: GameState, setup: Setup, log_ns: int) -> bytes:
     y, z = setup.pitch.touch_line + setup.pitch.border + _BOARD_GAP, _BOARD_Z
     texts = [
         text((0.0, y, z), _phase_text(state), _SMALL, INK),
-        text((0.0, y + _ROWS, z + _ROWS), _score_text(state), _LARGE, INK),
+        text((0.0, y + _ROWS, z + _ROWS), _score_text(state, setup), _LARGE, INK),
     ]
     for side in Side:
+        if not setup.teams[side].robots:
+            continue
         attacks = state.cyan_attacks if side is Side.CYAN else -state.cyan_attacks
         x = -attacks * setup.pitch.length / 4
         texts.append(text((x, y + _ROWS, z + _ROWS), setup.teams[side].name, _LARGE, TEAM_TEXT[side]))
@@ -56,8 +59,10 @@ def log_entry(event: GameEvent, log_ns: int) -> bytes:
     return entry.SerializeToString()
 
 
-def _score_text(state: GameState) -> str:
-    """The score, in the order of the teams' names on the board."""
+def _score_text(state: GameState, setup: Setup) -> str:
+    """The score, in the order of the teams' names on the board; that of a free game with its unit."""
+    if setup.free is not None:
+        return score_text(state.value, setup.free.unit) if state.value is not None else "–"
     sides = (Side.CYAN, Side.MAGENTA) if state.cyan_attacks > 0 else (Side.MAGENTA, Side.CYAN)
     return " : ".join(str(state.score.of(side)) for side in sides)
 

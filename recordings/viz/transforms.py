@@ -1,4 +1,4 @@
-"""Positions as `foxglove.FrameTransforms`: the frames of the robots and the ball in `map`, the field frame.
+"""Positions as `foxglove.FrameTransforms`: the frames of what moves in `map`, the field frame.
 
 They are written fifty times per simulated second, so one message is reused and filled in for each world.
 """
@@ -27,25 +27,33 @@ def base(robot: str) -> str:
     return f"{robot}/base_link"
 
 
+def pushed(obstacle: str) -> str:
+    """Name of the frame of an obstacle that can be pushed, on the ground below its centre."""
+    return f"obstacle/{obstacle}"
+
+
 class Transforms:
     """Encodes the transforms of one match."""
 
     def __init__(self) -> None:
-        self._robots: list[str] = []
-        self._frames(self._robots)
+        self._frames([])
 
     def encode(self, world: DrawnWorld, log_ns: int) -> bytes:
         """The transforms of a world."""
         robots, ball = world.robots, world.ball
-        names = list(robots)
-        if names != self._robots:
+        movables = {pushed(name): one for name, one in world.obstacles.items() if "pushed" in one}
+        names = [*map(base, robots), *movables] + [BALL, BALL_SHADOW] * (ball is not None)
+        if names != self._names:
             self._frames(names)
         numbers: list[float] = []
         for robot in robots.values():
             half = robot.heading / 2
             numbers += (robot.x, robot.y, robot.z, sin(half), cos(half))
-        numbers += (ball.x, ball.y, ball.z, 0.0, 1.0)
-        numbers += (ball.x, ball.y, 0.0, 0.0, 1.0)
+        for one in movables.values():
+            numbers += (one["x"], one["y"], 0.0, sin(one["heading"] / 2), cos(one["heading"] / 2))
+        if ball is not None:
+            numbers += (ball.x, ball.y, ball.z, 0.0, 1.0)
+            numbers += (ball.x, ball.y, 0.0, 0.0, 1.0)
         rounded = iter([(number * _PER_M + _TO_WHOLE - _TO_WHOLE) * STEP_M for number in numbers])
         for (timestamp, place, turn), x, y, z, sine, cosine in zip(self._parts, *[rounded] * 5, strict=True):
             set_time(timestamp, log_ns)
@@ -53,10 +61,10 @@ class Transforms:
             turn.z, turn.w = sine, cosine
         return self._message.SerializeToString()
 
-    def _frames(self, robots: list[str]) -> None:
-        """Build the message for these robots."""
-        self._robots = robots
+    def _frames(self, names: list[str]) -> None:
+        """Build the message for these frames."""
+        self._names = names
         self._message = FrameTransforms()
-        for frame in (*map(base, robots), BALL, BALL_SHADOW):
+        for frame in names:
             self._message.transforms.add(parent_frame_id=MAP, child_frame_id=frame)
         self._parts = [(one.timestamp, one.translation, one.rotation) for one in self._message.transforms]

@@ -88,6 +88,11 @@ class FreeConfig(ConfigModel):
         return self
 
 
+def score_text(value: float, unit: str) -> str:
+    """A score with its unit, for people: `0.25 m`."""
+    return f"{value:.6g} {unit}".rstrip()
+
+
 def with_program(content: dict[str, Any], where: str, folders: Iterable[Path]) -> dict[str, Any]:
     """The content of a match file with the text of its score's module.
 

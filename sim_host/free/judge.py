@@ -4,7 +4,7 @@ import json
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from schemas.config.free import FreeConfig
+from schemas.config.free import FreeConfig, score_text
 from schemas.config.scene import SceneGame
 from schemas.config.sections import Pitch
 from schemas.messages.soccer.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
@@ -108,8 +108,8 @@ class FreeJudge:
         after = FreeState(self._duration, clock, float(score.value), over, memory)
         happened = [(EventKind.NOTE, " ".join(str(text).split())) for text in score.events]
         if over:
-            unit = f" {self._free.unit}".rstrip()
-            happened.append((EventKind.FULL_TIME, f"ends after {clock:.2f} s with the score {score.value:.6g}{unit}"))
+            text = score_text(score.value, self._free.unit)
+            happened.append((EventKind.FULL_TIME, f"ends after {clock:.2f} s with the score {text}"))
         tick, time = snapshot.tick, snapshot.time
         events = [
             GameEvent(tick=tick, time=time, clock=clock, kind=kind, rule="score", text=text) for kind, text in happened

@@ -21,11 +21,12 @@ from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.applied import Applied
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent, GameState
-from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
+from schemas.messages.world import BallTruth, ObstacleTruth, PushedTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.soccer.game import EventKind, OffField, Phase, Score
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
 from schemas.wire.part import encode
+from support.free_match import free_match
 
 CLASSES = {TF: FrameTransforms_pb2.FrameTransforms, EVENTS: Log_pb2.Log}
 TICK_NS = 20_000_000
@@ -344,3 +345,33 @@ def test_a_range_finder_is_a_laser_scan_in_the_frame_of_its_robot(tmp_path: Path
     assert (scan.start_angle, scan.end_angle, list(scan.ranges)) == (-0.5, 0.5, [1.5, math.inf, 2.25])
     at = scan.pose.position
     assert (at.x, at.y, at.z) == pytest.approx((0.2, 0.0, 0.3 - 0.4)) and scan.pose.orientation.w == 1.0
+
+
+def test_of_a_free_game_floor_zones_and_score_are_drawn_and_the_box_moves_with_its_frame(tmp_path: Path) -> None:
+    zones = [
+        {"name": "dock", "place": [3.0, 0.0], "radius": 1.5},
+        {"name": "lane", "place": [-2.0, 1.0], "size": [2.0, 1.0], "heading": 0.5},
+    ]
+    match = free_match(tmp_path, **{"free.unit": "m", "free.zones": zones})
+    board = Board(Setup.of(match, load_profile("msl"), load_rule_book("msl")))
+    size = {"radius": 0.3, "height": 0.4, "shape": Shape.BOX, "size_x": 0.6, "size_y": 0.5}
+    box = ObstacleTruth(x=1.0, y=2.0, heading=1.0, pushed=PushedTruth(vx=1, vy=0, omega=0, mass=5, friction=0.3), **size)
+    shelf = ObstacleTruth(x=-4.0, y=2.0, heading=0.0, **size)
+    begun = World(tick=0, time=0.0, robots={"one": robot()}, ball=None, obstacles={"box": box, "shelf": shelf})
+    drawn = board.take(begun)
+    scene = {entity.id: entity for entity in drawn[FIELD][0].entities}
+    assert set(scene) == {"ground", "boundary", "zone dock", "zone lane", "obstacle box", "obstacle shelf"}
+    assert scene["zone dock"].cylinders[0].size.x == 3.0 and scene["zone dock"].texts[0].text == "dock"
+    assert scene["zone lane"].cubes[0].pose.orientation.z == pytest.approx(math.sin(0.25))
+    assert (scene["obstacle box"].frame_id, scene["obstacle shelf"].frame_id) == ("obstacle/box", "map")
+    assert scene["obstacle box"].cubes[0].pose.position.x == 0.0
+    assert luminance(colour_of(scene["obstacle box"].cubes[0])) > luminance(colour_of(scene["obstacle shelf"].cubes[0]))
+    later = board.take(begun.replace(tick=1, time=0.02, obstacles={"box": box.replace(x=1.02), "shelf": shelf}))
+    assert set(drawn) == {TF, FIELD, ROBOTS} and set(later) == {TF}
+    frames = {one.child_frame_id: one for one in later[TF][0].transforms}
+    assert set(frames) == {"one/base_link", "obstacle/box"}
+    assert frames["obstacle/box"].translation.x == pytest.approx(1.02, abs=1e-4)
+    assert frames["obstacle/box"].rotation.z == pytest.approx(math.sin(0.5), abs=1e-4)
+    state = GameState(tick=0, time=0.0, phase=Phase.PLAY, clock=5.0, value=0.25)
+    texts = board.scene(GAME, state, topic=STATE)["board"].texts
+    assert [text.text for text in texts] == ["0:05  play", "0.25 m", match.team(Side.CYAN).name or "cyan"]
