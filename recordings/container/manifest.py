@@ -96,6 +96,8 @@ class Result(Part):
     """Wall time at which the recording ended, ISO 8601, UTC."""
     phase: Phase | None = None
     score: Score | None = None
+    value: float | None = None
+    """Score of a game without goals."""
     clock: float = 0.0
     """Game clock in s."""
     tick: int = -1

@@ -99,7 +99,16 @@ def _states(_: RecordedMessage, state: GameState, __: Sides) -> Iterable[Row]:
     spot = (state.spot.x, state.spot.y) if state.spot is not None else (None, None)
     phase = (state.phase, state.side, state.running, state.half, state.stage)
     times = (state.clock, state.effective)
-    yield state.tick, state.time, *phase, *times, state.score.cyan, state.score.magenta, state.cyan_attacks, *spot
+    yield (
+        state.tick,
+        state.time,
+        *phase,
+        *times,
+        *(state.score.cyan, state.score.magenta),
+        state.cyan_attacks,
+        *spot,
+        state.value,
+    )
 
 
 def _commands(recorded: RecordedMessage, command: Command, __: Sides) -> Iterable[Row]:
@@ -145,7 +154,7 @@ TABLES: dict[str, Table] = {
         STATE.key,
         (
             *("tick", "time [s]", "phase", "side", "running", "half", "stage", "clock [s]", "effective [s]"),
-            *("score_cyan", "score_magenta", "cyan_attacks", "spot_x [m]", "spot_y [m]"),
+            *("score_cyan", "score_magenta", "cyan_attacks", "spot_x [m]", "spot_y [m]", "value"),
         ),
         _states,
     ),

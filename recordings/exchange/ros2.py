@@ -6,7 +6,7 @@ export requires rosbags, which is imported only here, and only for an export.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from recordings.editing.atomic_output import ExportSummary, atomic_output
 from recordings.reading.recording import Recording
-from recordings.viz.transforms import BALL, MAP, base
+from recordings.viz.transforms import BALL, MAP, base, pushed
 from schemas.errors import TouchlineError
 from schemas.frames import Pose, to_body
 from schemas.messages.command import Command
@@ -44,6 +44,7 @@ TWIST = TopicType("geometry_msgs/msg/Twist", True, 10)
 POSE = TopicType("geometry_msgs/msg/PoseStamped", True, 10)
 POINT = TopicType("geometry_msgs/msg/PointStamped", True, 10)
 NUMBER = TopicType("std_msgs/msg/Int32", True, 10)
+VALUE = TopicType("std_msgs/msg/Float64", True, 10)
 TEXT = TopicType("std_msgs/msg/String", True, 100)
 """As offered by the usual publishers of these topics: the clock best effort with depth 1, the others reliable."""
 
@@ -68,7 +69,9 @@ def export(recording: Recording, out: Path) -> ExportSummary:
         writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
         writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         with writer:
-            bag = _Bag(writer, recording.lineup().sides)
+            setup = recording.manifest.setup
+            goals = setup is None or setup.free is None
+            bag = _Bag(writer, recording.lineup().sides, list(Side) if goals else [])
             for recorded, message in recording.decoded(*(topic.fill() for topic in _TOPICS)):
                 match message:
                     case World():
@@ -87,10 +90,11 @@ def export(recording: Recording, out: Path) -> ExportSummary:
 class _Bag:
     """Writes the messages of a recording to a bag."""
 
-    def __init__(self, writer: Any, sides: dict[str, Side]) -> None:
+    def __init__(self, writer: Any, sides: dict[str, Side], scoring: Sequence[Side]) -> None:
+        """`scoring` are the sides that score goals."""
         from rosbags.typesys import Stores, get_typestore
 
-        self._sides = sides
+        self._sides, self._scoring = sides, scoring
         self._cyan_attacks = 1
         self._writer = writer
         self._store = get_typestore(Stores.ROS2_JAZZY)
@@ -135,7 +139,9 @@ class _Bag:
         """Write the state of the game, and the score as numbers."""
         self._cyan_attacks = state.cyan_attacks
         self.text("/game/state", log_ns, payload)
-        for side in Side:
+        if state.value is not None:
+            self._write("/game/score", VALUE, log_ns, self._make(VALUE.message, state.value))
+        for side in self._scoring:
             goals = self._make(NUMBER.message, getattr(state.score, side.value))
             self._write(f"/game/score/{side.value}", NUMBER, log_ns, goals)
 
@@ -151,6 +157,11 @@ class _Bag:
             yield self._transform(
                 stamp, base(name), self._vector(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
             )
+        for name, one in world.obstacles.items():
+            if one.pushed is not None:
+                yield self._transform(
+                    stamp, pushed(name), self._vector(one.x, one.y, 0.0), self._quaternion(one.heading)
+                )
         if (ball := world.ball) is not None:
             yield self._transform(stamp, BALL, self._vector(ball.x, ball.y, ball.z), self._quaternion(0.0))
 

@@ -142,7 +142,7 @@ def _of_ending(result: Result, recording: Recording) -> Iterator[str]:
         return
     state: GameState | None = _last(recording, STATE.key)
     if state is not None:
-        for name in ("score", "phase"):
+        for name in ("score", "value", "phase"):
             sealed, recorded = getattr(result, name), getattr(state, name)
             if sealed != recorded:
                 yield f"the {name} is {_text(sealed)} in the result, {_text(recorded)} in the last {STATE.key}"

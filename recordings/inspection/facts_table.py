@@ -1,6 +1,7 @@
 """Formats the facts of a recording for a terminal."""
 
 from recordings.inspection.recording_facts import RecordingFacts
+from schemas.config.free import score_text
 from schemas.config.number_files import versioned_name
 
 HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
@@ -18,6 +19,8 @@ def key_rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
 def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
     """Name and value of each fact, without unknown ones."""
     score = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
+    if facts.value is not None:
+        score = score_text(facts.value, facts.unit)
     values: dict[str, str | None] = {
         "match": facts.match,
         "teams": " – ".join(facts.teams.values()) or None,

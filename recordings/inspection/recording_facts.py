@@ -63,6 +63,10 @@ class RecordingFacts:
     """Simulated time of that tick, in s."""
     phase: str | None
     score: dict[str, int] | None
+    value: float | None
+    """Score of a game without goals."""
+    unit: str
+    """Unit of that score; empty without one."""
     ended: str
     events: int
     messages: int
@@ -97,7 +101,12 @@ def facts_of(recording: Recording) -> RecordingFacts:
     ended, ending = _ending(recording)
     start, end = _extent(recording)
     described = setup or config
-    teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
+    teams = {
+        side.value: team.name
+        for side, team in (setup.teams if setup is not None else {}).items()
+        if team.robots or setup is None or setup.free is None
+    }
+    free = described.free if described is not None else None
     return RecordingFacts(
         path=str(recording.path),
         complete=recording.complete,
@@ -105,7 +114,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         pace=described.pace if described is not None else None,
         profile=described.profile if described is not None else None,
         profile_version=setup.profile_version if setup is not None else UNVERSIONED,
-        rules=described.rules if described is not None else None,
+        rules=described.rules if described is not None and free is None else None,
         rules_version=setup.rules_version if setup is not None else UNVERSIONED,
         seed=config.seed if config is not None else None,
         teams=teams,
@@ -117,6 +126,8 @@ def facts_of(recording: Recording) -> RecordingFacts:
         time=ending.time,
         phase=ending.phase.value if ending.phase is not None else None,
         score=ending.score.plain() if ending.score is not None else None,
+        value=ending.value,
+        unit=free.unit if free is not None else "",
         ended=ended,
         events=ending.events,
         messages=ending.messages,

@@ -59,6 +59,7 @@ class MatchProgress:
             finished=finished,
             phase=state.phase if state is not None else None,
             score=state.score if state is not None else None,
+            value=state.value if state is not None else None,
             clock=state.clock if state is not None else 0.0,
             tick=applied.tick if applied is not None else -1,
             time=applied.time if applied is not None else 0.0,

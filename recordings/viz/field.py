@@ -49,7 +49,7 @@ def zone_entity(zone: Zone) -> SceneEntity:
     x, y = zone.place
     place, colour = (x, y, LINE_Z / 2), INK.faded(_ZONE_OPACITY)
     disc = [cylinder(place, zone.radius, LINE_Z, colour)] if zone.radius is not None else []
-    slab = [cube(place, (*zone.size, LINE_Z), colour, zone.heading)] if zone.size is not None else []
+    slab = [cube(place, (zone.size[0], zone.size[1], LINE_Z), colour, zone.heading)] if zone.size is not None else []
     label = text((x, y, _ZONE_TEXT / 2), zone.name, _ZONE_TEXT, INK)
     return entity(f"zone {zone.name}", MAP, cylinders=disc, cubes=slab, texts=[label])
 

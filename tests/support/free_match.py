@@ -1,9 +1,14 @@
-"""A small match of the game free: one robot before a box that can be pushed, one in a dock, and a score."""
+"""A small match of the game free: a robot before a box that can be pushed, one in a dock, a score; its recording."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from schemas.config.match_config import MatchConfig, load_match
+from schemas.messages.command import Command, Drive
+from schemas.messages.sight import Sight
+from touchline.play.match_recording import MatchRecording
+from touchline.play.play_match import InProcessMatch
 
 SCORE = """
 from touchline import Moment, Score
@@ -39,3 +44,27 @@ def free_match(folder: Path, program: str = SCORE, **overrides: Any) -> MatchCon
     }
     merged = {key: value for key, value in (settings | overrides).items() if value is not None}
     return load_match(folder / "task.toml", merged)
+
+
+class Pusher:
+    """Drives ahead."""
+
+    def __init__(self, *_briefing: Any) -> None:
+        """Every robot does."""
+
+    def act(self, sight: Sight) -> Command:
+        return Command(answers_tick=sight.tick, drive=Drive(vx=1.5, omega=0.1))
+
+
+def record_free_match(
+    folder: Path, config: MatchConfig, between: Callable[[InProcessMatch], None] = lambda _: None
+) -> Path:
+    """A recording in which all robots are pushers; `between` is called before each tick."""
+    match = InProcessMatch(config, {"one": Pusher(), "two": Pusher()})
+    recording = MatchRecording(folder / "free.mcap", config, match.simulation)
+    while not match.simulation.over:
+        between(match)
+        recording.add(match.step(), match.commands)
+    recording.close()
+    match.close()
+    return folder / "free.mcap"

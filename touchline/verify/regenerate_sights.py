@@ -1,10 +1,12 @@
 """Regenerates the sights of a match that were not recorded: plays it again, with sensors and referee."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
+from schemas.config.free import with_program
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
@@ -41,15 +43,23 @@ class RegeneratedSights:
             self.until = match.until
 
 
-def playable_config(recording: Recording) -> MatchConfig:
+def playable_config(recording: Recording, score_folders: Sequence[Path] = ()) -> MatchConfig:
     """The match file of a recording, from which the match can be played again.
 
+    The program that a recording of a free game brings is not run: its score is that of the module in `score_folders`;
+    without any it is 0, on which no sight depends.
+
     Raises:
-        TouchlineError: the recording lacks its match file or its scene.
+        TouchlineError: the recording lacks its match file or its scene, or `score_folders` lack the module.
     """
     config = config_of(recording)
     if config is None:
         raise TouchlineError(
             f"{recording.path}: it has neither sights nor its match file; record with touchline match --sights"
         )
-    return config
+    if (free := config.free) is None:
+        return config
+    program = f"def {free.score.partition(':')[2]}(now): return 0.0"
+    if score_folders:
+        program = with_program({"free": {"score": free.score}}, str(recording.path), score_folders)["free"]["program"]
+    return config.model_copy(update={"free": free.model_copy(update={"program": program})})

@@ -12,6 +12,8 @@ from recordings.editing.atomic_output import ExportSummary, atomic_output
 from recordings.reading.recording import Recording
 from recordings.soccer.league import LOG_PERIOD
 from recordings.soccer.league.game_log import GameLog
+from schemas.config.free import GameName
+from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState
 from schemas.messages.soccer.league.robot_numbers import numbers_of
@@ -30,9 +32,12 @@ def export(recording: Recording, out: Path) -> ExportSummary:
     """Write the log of a match.
 
     Raises:
-        TouchlineError: `out` already exists or cannot be written, or the recording has no setup or is damaged inside.
+        TouchlineError: `out` already exists or cannot be written, the recording has no setup or is damaged inside, or
+            another game than soccer was played.
     """
     setup = recording.setup
+    if setup.game is not GameName.SOCCER:
+        raise TouchlineError(f'the match is of the game "{setup.game}", and this log is of soccer')
     with atomic_output(out) as file:
         # a zip is written one file after the other, and both teams' files grow at the same time
         unzipped = {side: file.with_name(f"{letter}.msl") for side, letter in FILES.items()}

@@ -355,7 +355,9 @@ def test_of_a_free_game_floor_zones_and_score_are_drawn_and_the_box_moves_with_i
     match = free_match(tmp_path, **{"free.unit": "m", "free.zones": zones})
     board = Board(Setup.of(match, load_profile("msl"), load_rule_book("msl")))
     size = {"radius": 0.3, "height": 0.4, "shape": Shape.BOX, "size_x": 0.6, "size_y": 0.5}
-    box = ObstacleTruth(x=1.0, y=2.0, heading=1.0, pushed=PushedTruth(vx=1, vy=0, omega=0, mass=5, friction=0.3), **size)
+    box = ObstacleTruth(
+        x=1.0, y=2.0, heading=1.0, pushed=PushedTruth(vx=1, vy=0, omega=0, mass=5, friction=0.3), **size
+    )
     shelf = ObstacleTruth(x=-4.0, y=2.0, heading=0.0, **size)
     begun = World(tick=0, time=0.0, robots={"one": robot()}, ball=None, obstacles={"box": box, "shelf": shelf})
     drawn = board.take(begun)

@@ -8,38 +8,27 @@ from pytest import approx
 
 from recordings.reading.recording import open_recording
 from schemas.config.roster import Placement
-from schemas.messages.command import Command, Drive
+from schemas.errors import TouchlineError
 from schemas.messages.scene import SceneOperation, SceneRequest
-from schemas.messages.sight import Sight
-from support.free_match import SCORE, free_match
+from support.free_match import SCORE, free_match, record_free_match
 from touchline.matches.engine.measurement import measured
-from touchline.play.match_recording import MatchRecording
 from touchline.play.play_match import InProcessMatch
+from touchline.team.debugger.live_match import LiveMatch
+from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
-
-
-class Pusher:
-    """Drives ahead."""
-
-    def act(self, sight: Sight) -> Command:
-        return Command(answers_tick=sight.tick, drive=Drive(vx=1.5, omega=0.1))
 
 
 @pytest.fixture(scope="module")
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A recording in which the box is pushed, and in which an operator makes checkpoints on the way."""
     folder = tmp_path_factory.mktemp("free")
-    text = SCORE.replace("now.tick >= 60", "now.tick >= 150")
-    match = InProcessMatch(free_match(folder, text), {"one": Pusher(), "two": Pusher()})
-    recording = MatchRecording(folder / "free.mcap", match.simulation.config, match.simulation)
-    while not match.simulation.over:
+
+    def place(match: InProcessMatch) -> None:
         if match.simulation.now.tick in (70, 110):
             place = [Placement(body="two", x=5.0, y=-4.0)]
             match.simulation.handle_scene(SceneRequest(operation=SceneOperation.PLACE, place=place))
-        recording.add(match.step(), match.commands)
-    recording.close()
-    match.close()
-    return folder / "free.mcap"
+
+    return record_free_match(folder, free_match(folder, SCORE.replace("now.tick >= 60", "now.tick >= 150")), place)
 
 
 def test_a_recording_is_verified_with_its_score_once_somebody_trusts_its_program(recorded: Path) -> None:
@@ -49,19 +38,19 @@ def test_a_recording_is_verified_with_its_score_once_somebody_trusts_its_program
     assert trusting.referee and not careful.referee
 
 
-def test_a_careful_verification_runs_nothing_of_the_recording(recorded: Path, tmp_path: Path) -> None:
+def test_what_is_not_told_to_runs_nothing_of_the_recording(tmp_path: Path, monkeypatch) -> None:
     proof = tmp_path / "ran"
     config = free_match(tmp_path, f"import pathlib\npathlib.Path({str(proof)!r}).touch()\n{SCORE}", duration=0.1)
-    match = InProcessMatch(config, {"one": Pusher(), "two": Pusher()})
-    recording = MatchRecording(tmp_path / "evil.mcap", config, match.simulation)
-    while not match.simulation.over:
-        recording.add(match.step(), match.commands)
-    recording.close()
-    match.close()
+    path = record_free_match(tmp_path, config)
     proof.unlink()
-    verify(tmp_path / "evil.mcap")
+    verify(path)
+    assert compare_brain(open_recording(path), "one", "support.free_match:Pusher").first is None
+    (tmp_path / "tally.py").unlink()
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(TouchlineError, match=r'free.score is "tally:count"; there is no tally.py in .*; put its file'):
+        LiveMatch(open_recording(path), "one", "support.free_match:Pusher")
     assert not proof.exists()
-    verify(tmp_path / "evil.mcap", referee=True)
+    verify(path, referee=True)
     assert proof.exists()
 
 

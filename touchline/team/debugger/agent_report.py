@@ -11,8 +11,8 @@ from coach_gateway.match.lines import event_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from recordings.reading.recording import Recording
 from schemas.messages.sight import Sight
-from schemas.messages.soccer.game import GameEvent
-from schemas.soccer.game import Score
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.soccer.game import Phase
 from schemas.topics import EVENT, STATE
 from touchline.verify.command_difference import FieldDifference
 from touchline.verify.compare_brain import BrainComparison
@@ -63,16 +63,18 @@ class AgentReport:
 
     def print_result(self, result: "LiveResult", notes: list[str], out: Path | None) -> None:
         """Print what came of a live match, recorded in `out`, and what was recorded in the same time."""
-        recorded = self._recorded_score(result.end)
+        recorded = self._recorded_state(result.end)
         if self._is_json:
             fields = {
                 "start": result.start,
                 "end": result.end,
-                "score": result.score.plain(),
-                "recorded_score": recorded.plain(),
+                "score": result.state.score.plain(),
+                "recorded_score": recorded.score.plain(),
                 "events": [event.plain() for event in result.events],
                 "notes": notes,
             }
+            if result.state.value is not None:
+                fields |= {"value": result.state.value, "recorded_value": recorded.value}
             typer.echo(json.dumps(fields))
             return
         events = [event for _, event in self._recording.decoded(EVENT.key)]
@@ -82,8 +84,9 @@ class AgentReport:
         for note in notes:
             typer.echo(f"note: {note}")
         typer.echo(
-            f"live from {result.start:.2f} s to {result.end:.2f} s: {self._names.score(result.score)}; "
-            f"recorded: {self._names.score(recorded)}"
+            f"live from {result.start:.2f} s to {result.end:.2f} s: "
+            f"{self._names.score(result.state.score, result.state.value)}; "
+            f"recorded: {self._names.score(recorded.score, recorded.value)}"
         )
         if out is not None:
             typer.echo(f"recording {out}")
@@ -92,10 +95,10 @@ class AgentReport:
         for event in events:
             typer.echo(event_line(event, self._names))
 
-    def _recorded_score(self, end: float) -> Score:
-        """The recorded score at a simulated time in s."""
-        score = Score()
+    def _recorded_state(self, end: float) -> GameState:
+        """The recorded game at a simulated time in s."""
+        newest = GameState(tick=0, time=0.0, phase=Phase.STOPPED)
         for _, state in self._recording.decoded(STATE.key):
             if state.time <= end:
-                score = state.score
-        return score
+                newest = state
+        return newest

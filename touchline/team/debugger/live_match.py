@@ -14,9 +14,8 @@ from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
-from schemas.messages.soccer.game import GameEvent
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
-from schemas.soccer.game import Score
 from sim_host.match.simulation import TickResult
 from touchline.play.match_recording import MatchRecording
 from touchline.play.play_match import InProcessMatch
@@ -68,7 +67,8 @@ class LiveResult:
     start: float
     """Simulated time in s from which it was live."""
     end: float
-    score: Score
+    state: GameState
+    """The game at the end."""
     events: list[GameEvent] = field(default_factory=list)
 
 
@@ -93,7 +93,8 @@ class LiveMatch:
         Raises:
             TouchlineError: the recording lacks its match file, or robot or brain do not exist.
         """
-        config, setup = playable_config(recording), recording.setup
+        folders = [*([brain_folder] if brain_folder is not None else []), Path.cwd()]
+        config, setup = playable_config(recording, folders), recording.setup
         self.notes: list[str] = []
         """What does not go on as in the recorded match, for the user."""
         self._robot = robot
@@ -132,14 +133,15 @@ class LiveMatch:
         simulation = self._match.simulation
         self._repeat(start)
         began = simulation.now.time
-        result = LiveResult(began, began, simulation.state.score)
+        result = LiveResult(began, began, simulation.state.game_state(simulation.now.tick, began))
         while not simulation.over and simulation.now.time < end - EPSILON_S:
             commands = self._match.answers()
             tick = simulation.step(commands)
             self._observe(tick, commands)
             result.events.extend(tick.events)
             watch(tick)
-        result.end, result.score = simulation.now.time, simulation.state.score
+        result.end = simulation.now.time
+        result.state = simulation.state.game_state(simulation.now.tick, result.end)
         return result
 
     def _others(self, config: MatchConfig, side: Side, names: list[str], setup: Setup) -> dict[str, Brain]:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -11,7 +12,9 @@ from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.errors import MatchFailedError
 from schemas.topics import APPLIED
+from support.free_match import SCORE, free_match, record_free_match
 from support.process_story import descendants, is_running
+from touchline.team.debugger.agent_replay import AgentReplay
 from touchline.team.debugger.live_match import LiveMatch
 from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
@@ -158,3 +161,12 @@ def test_the_debugger_stops_in_a_live_match_too(brain, replay, typed, capsys):
     typed("p 'at', sight.tick", "c")
     assert replay(brain("pass"), live=True, pdb=True, start="tick:60", end="tick:65") == 0
     assert "('at', 60)" in capsys.readouterr().out
+
+
+def test_a_free_game_goes_on_live_with_the_score_of_ones_own_folder(tmp_path, monkeypatch, capsys):
+    path = record_free_match(tmp_path, free_match(tmp_path, duration=1.0))
+    (tmp_path / "tally.py").write_text(SCORE.replace("len(inside)", "7"))
+    monkeypatch.chdir(tmp_path)
+    assert AgentReplay(path, "one", "support.free_match:Pusher", live=True, start="0.5").run() == 0
+    says = capsys.readouterr().out.splitlines()[-1]
+    assert re.fullmatch(r"live from 0.50 s to 1.00 s: score 7\.02\d+; recorded: score 0\.02\d+", says)
