@@ -31,7 +31,7 @@ def test_robots_are_drawn_where_they_are(resting, visit) -> None:
         match.until(lambda robot=robot: math.hypot(*speed(match, robot)) < 0.02)
         x, y = match.where(robot)
         tab.until(f"Math.abs(window.touchline.pitchCanvas.world.robots.{robot}.x - {x}) < 0.1")
-        assert shows(tab, robot, x, y)
+        match.until(lambda robot=robot, x=x, y=y: shows(tab, robot, x, y))  # with the picture after the message
         assert not shows(tab, robot, x, -y + 3.0)
 
 
