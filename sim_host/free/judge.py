@@ -9,7 +9,7 @@ from schemas.config.scene import SceneGame
 from schemas.config.sections import Pitch
 from schemas.messages.soccer.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
 from schemas.side import Side
-from schemas.soccer.game import EventKind, Phase, Score, TeamPhase
+from schemas.soccer.game import ActionName, EventKind, Phase, Score, TeamPhase
 from sim_host.free.score import Moment, ScoreFunction, call_score, load_score, memory_text
 from sim_host.game.judging import Absence, Ruling
 from sim_host.snapshot import Roster, Snapshot
@@ -55,18 +55,8 @@ class FreeState(NamedTuple):
     def game_state(self, tick: int, time: float, episode: int = 1) -> GameState:
         """The published state."""
         phase = Phase.FULL_TIME if self.over else Phase.PLAY
-        left = max(0.0, self.duration - self.clock)
-        clock, running = self.clock, not self.over
-        return GameState(
-            tick=tick,
-            time=time,
-            phase=phase,
-            running=running,
-            clock=clock,
-            left=left,
-            episode=episode,
-            value=self.value,
-        )
+        state = GameState(tick=tick, time=time, phase=phase, running=not self.over, episode=episode)
+        return state.replace(clock=self.clock, left=max(0.0, self.duration - self.clock), value=self.value)
 
     def after_layout_change(self, _names: Collection[str]) -> "FreeState":
         """An operator who moves bodies changes nothing that the game remembers."""
@@ -95,15 +85,15 @@ class FreeJudge:
         Raises:
             TouchlineError: the score function raises, or returns what is no score.
         """
-        refusal = ActionReply(accepted=False, reason="a free game has no referee", tick=snapshot.tick)
-        replies = tuple(refusal for _ in actions)
+        replies = tuple(_reply(action, snapshot.tick) for action in actions)
         if state.over:
             return Ruling(state, replies=replies)
         if self._function is None:
             self._function = load_score(self._free)
         score = call_score(self._free, self._function, self._moment(state, snapshot))
         clock = state.clock + dt
-        over = bool(score.over) or clock >= self._duration - dt / 2
+        is_ended = any(reply.accepted for reply in replies)
+        over = bool(score.over) or is_ended or clock >= self._duration - dt / 2
         memory = memory_text(self._free, score.memory)
         after = FreeState(self._duration, clock, float(score.value), over, memory)
         happened = [(EventKind.NOTE, " ".join(str(text).split())) for text in score.events]
@@ -138,3 +128,9 @@ class FreeJudge:
             memory=json.loads(state.memory),
             seed=self._seed,
         )
+
+
+def _reply(action: RefereeAction, tick: int) -> ActionReply:
+    """A free game can be ended, by people and for a team over the limit of its account; it has no other action."""
+    accepted = action.action is ActionName.END_GAME
+    return ActionReply(accepted=accepted, reason="" if accepted else "a free game has no referee", tick=tick)

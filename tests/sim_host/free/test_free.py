@@ -176,6 +176,13 @@ def test_a_referee_s_action_is_refused(play) -> None:
     simulation = play()
     reply = simulation.step({}, [RefereeAction(action=ActionName.STOP)]).replies[0]
     assert (reply.accepted, reply.reason) == (False, "a free game has no referee")
+    assert not simulation.over
+
+
+def test_people_may_end_it(play) -> None:
+    simulation = play()
+    assert simulation.step({}, [RefereeAction(action=ActionName.END_GAME)]).replies[0].accepted
+    assert simulation.over
 
 
 def test_viewers_know_the_game_its_unit_and_its_zones(play) -> None:
