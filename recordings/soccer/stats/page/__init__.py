@@ -36,7 +36,6 @@ SCRIPTS = (
     "event_list.js",
     "heat_maps.js",
     "shots.js",
-    "figures.js",
     "main.js",
 )
 """Each imports only from those before it; those in `shared` are of `schemas/page`, which the match's page uses too."""

@@ -62,7 +62,7 @@ export class EventList {
 }
 
 /** An element with a text in it. */
-export function element(name, text) {
+function element(name, text) {
   const made = document.createElement(name);
   made.textContent = text;
   return made;

@@ -1,36 +1,18 @@
 // Heat maps: where each body was while the ball was in play.
 
 import { fitted } from "./canvas.js";
-import { element } from "./event_list.js";
 import { drawGrass, drawLines } from "./shared/pitch.js";
 
 const CELL = 0.5; // m
 const SPREAD = 2; // cells; smooths the short tracks of a match
 const STOPS = [[0, 18, 36, 27], [0.18, 40, 56, 110], [0.42, 122, 44, 120], [0.68, 224, 83, 71], [0.86, 251, 170, 50], [1, 252, 250, 190]];
 
-/** Draws a small map for each robot and for the ball. */
+/** Draws the map of each robot and of the ball in its current width. */
 export function drawHeatMaps(place, match) {
-  const bodies = [...match.robots, { ...match.ball, name: "ball", side: "ball" }];
-  place.replaceChildren(...bodies.map((body) => {
-    const figure = document.createElement("figure"), canvas = document.createElement("canvas");
-    const caption = document.createElement("figcaption"), mark = element("span", "");
-    mark.className = "mark";
-    caption.className = body.side ?? "";
-    if (body.side === "ball") mark.style.background = "#ffb000";
-    caption.append(mark, body.name);
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", `Where ${body.name} was`);
-    figure.append(canvas, caption);
-    figure.dataset.body = body.name;
-    figure.draw = () => drawMap(canvas, match, body);
-    return figure;
-  }));
-  redrawHeatMaps(place);
-}
-
-/** Draws the maps again in their current width. */
-export function redrawHeatMaps(place) {
-  for (const figure of place.children) figure.draw();
+  for (const figure of place.children) {
+    const body = match.robots.find(({ name }) => name === figure.dataset.body) ?? match.ball;
+    drawMap(figure.querySelector("canvas"), match, body);
+  }
 }
 
 function drawMap(canvas, match, body) {

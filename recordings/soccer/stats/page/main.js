@@ -2,8 +2,7 @@
 
 import { fitted } from "./canvas.js";
 import { EventList } from "./event_list.js";
-import { showRobots, showSides } from "./figures.js";
-import { drawHeatMaps, redrawHeatMaps } from "./heat_maps.js";
+import { drawHeatMaps } from "./heat_maps.js";
 import { listenForKeys } from "./keys.js";
 import { formatClock, readMatch } from "./match.js";
 import { drawMovingBodies } from "./moving_bodies.js";
@@ -30,7 +29,7 @@ function fit() {
   pitchLayer.height = context.canvas.height;
   pitchLayer.getContext("2d").drawImage(context.canvas, 0, 0);
   timeline.fit();
-  redrawHeatMaps(byId("heat"));
+  drawHeatMaps(byId("heat"), match);
   drawShots(byId("shots"), match);
   show(player);
 }
@@ -60,18 +59,9 @@ function phaseText(interval) {
   return interval.side ? `${phase}, ${match.teams[interval.side]}` : phase;
 }
 
-for (const [side, ids] of [["cyan", ["cyan-name", "cyan-up", "cyan-right"]], ["magenta", ["magenta-name", "magenta-down", "magenta-left"]]]) {
-  for (const id of ids) byId(id).textContent = match.teams[side];
-}
-byId("about").textContent = [match.match, match.started.slice(0, 16).replace("T", " ") + " UTC", ...match.about].join(" · ");
-byId("score").textContent = match.finalScore?.join(" : ") ?? "– : –";
 byId("in-play").textContent = match.in_play.seconds === null
   ? ""
   : `${formatClock(match.end - match.start)} recorded, ball in play ${formatClock(match.in_play.seconds)} (${Math.round(100 * match.in_play.share)} %)`;
-byId("remarks").replaceChildren(...match.remarks.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
-showSides(byId("sides"), match.sides);
-showRobots(byId("robots"), match.table, match.robots);
-drawHeatMaps(byId("heat"), match);
 
 const scrub = byId("scrub");
 scrub.min = String(match.start);

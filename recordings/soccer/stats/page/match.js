@@ -71,11 +71,6 @@ class Match {
     return this.clock[second] + (this.clock[next] - this.clock[second]) * (at - second);
   }
 
-  /** The score at the end; null where none was recorded. */
-  get finalScore() {
-    return this.intervals.findLast(({ score }) => score !== null)?.score ?? null;
-  }
-
   /** Intervals in which the ball was in play: begin, end, and game state. */
   inPlay() {
     return this.intervals
