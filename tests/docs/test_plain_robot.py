@@ -9,6 +9,7 @@ import pytest
 
 from recordings.reading.recording import open_recording
 from schemas.topics import COMMAND, HEALTH
+from support.brisk import BRISK
 
 
 @pytest.mark.processes
@@ -16,7 +17,8 @@ def test_a_robot_of_zenoh_and_json_alone_answers_every_sight(root: Path, tmp_pat
     team = tomllib.loads((root / "examples" / "plain_robot.toml").read_text("utf-8"))["teams"]["cyan"]
     program = [sys.executable, str(root / team["command"][-1])]
     teams = f"[teams.cyan]\nsize = 1\ncommand = {program}\n[teams.magenta]\nsize = 1\n"
-    (tmp_path / "plain.toml").write_text(f"patience.answer = 60\n{teams}")  # also on a machine that is busy otherwise
+    rules = f'rules = "{BRISK}"\npatience.answer = 60\n'  # also on a machine that is busy otherwise
+    (tmp_path / "plain.toml").write_text(rules + teams)
     words = ["match", "plain.toml", "--duration=2", "--listen=tcp/127.0.0.1:0", "--record=plain.mcap", "--json"]
     subprocess.run(
         [sys.executable, "-m", "touchline", *words], cwd=tmp_path, check=True, capture_output=True, timeout=100

@@ -12,6 +12,7 @@ import pytest
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.topics import APPLIED
+from support.brisk import BRISK
 from touchline.play.play_match import play_match
 
 TOOLS = {"javascript": "node", "c_robot": "cc"}
@@ -41,12 +42,12 @@ def test_it_takes_the_kick_off_carries_the_ball_and_shoots(
 
 @pytest.mark.processes
 def test_its_match_with_real_processes_is_the_same_tick_for_tick(example: Path, tmp_path: Path) -> None:
-    config = load_match(example, {"duration": 2.0, "patience.answer": 60.0})
+    config = load_match(example, {"duration": 2.0, "patience.answer": 60.0, "rules": str(BRISK)})
     chains: dict[int, str] = {}
     play_match(
         config, watch=lambda tick: chains.update({tick.tick: tick.applied["chain"]}), brain_folder=example.parent
     )
-    text = example.read_text().replace("duration = 60.0", "duration = 2.0\npatience.answer = 60.0")
+    text = example.read_text().replace("duration = 60.0", f'duration = 2.0\npatience.answer = 60.0\nrules = "{BRISK}"')
     example.write_text(text)
     words = ["match", str(example), "--listen=tcp/127.0.0.1:0", "--record=match.mcap", "--json"]
     command = [sys.executable, "-m", "touchline", *words]

@@ -6,12 +6,14 @@ import sys
 
 import pytest
 
+from support.brisk import BRISK
 from support.process_story import wait_for
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-MATCH = """
+MATCH = f"""
 seed = 7
+rules = "{BRISK}"
 duration = 3
 
 [teams.cyan]

@@ -9,13 +9,15 @@ from typer.testing import CliRunner
 from recordings.reading.recording import open_recording
 from schemas.messages.command import Command
 from schemas.side import Side
+from support.brisk import BRISK
 from touchline.commands.cli.command_line import app
 
 pytestmark = [pytest.mark.processes, pytest.mark.long, pytest.mark.timeout(400)]
 
 NAMES = [f"{side.value}{number}" for side in Side for number in range(1, 12)]
-MATCH = """
+MATCH = f"""
 seed = 3
+rules = "{BRISK}"
 duration = 3
 
 [teams.cyan]

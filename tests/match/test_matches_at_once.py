@@ -12,12 +12,13 @@ from recordings.reading.recording import open_recording
 from runtime.bus.announcement import announcement_in
 from schemas.config.match_config import load_match
 from schemas.topics import APPLIED
+from support.brisk import BRISK
 from support.process_story import wait_for
 from touchline.play.play_match import play_match
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-MATCH = "[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n[patience]\nanswer = 60\n"
+MATCH = f'rules = "{BRISK}"\n[teams.cyan]\nsize = 2\n[teams.magenta]\nsize = 2\n[patience]\nanswer = 60\n'
 """A machine that is busy with other things must not make a robot miss a tick."""
 SEEDS = (1, 2)
 ROOT = Path(__file__).parents[2]

@@ -4,11 +4,13 @@ import pytest
 
 from recordings.reading.recording import open_recording
 from schemas.topics import APPLIED
+from support.brisk import BRISK
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-MATCH = """
+MATCH = f"""
 seed = 7
+rules = "{BRISK}"
 duration = 3
 
 [teams.cyan]

@@ -8,12 +8,14 @@ from mcap.reader import make_reader
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from schemas.messages.applied import Applied
+from support.brisk import BRISK
 from touchline.play.play_match import play_match
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-MATCH = """
+MATCH = f"""
 seed = 7
+rules = "{BRISK}"
 duration = 8
 
 [patience]

@@ -7,16 +7,18 @@ from pathlib import Path
 
 import pytest
 
+from support.brisk import BRISK
 from support.process_story import Program, wait_for
 
 pytestmark = pytest.mark.processes
 
-CUP = """
+CUP = f"""
 name = "cup"
+rules = "{BRISK}"
 pace = "x8"
 duration = 4
 [teams]
-magenta = { remote = true, size = 1, name = "Guests" }
+magenta = {{ remote = true, size = 1, name = "Guests" }}
 [teams.cyan]
 size = 1
 """

@@ -8,16 +8,18 @@ from pathlib import Path
 
 import pytest
 
+from support.brisk import BRISK
 from support.isolated_match import HEAD, needs_bubblewrap
 from support.process_story import SHORT_LIMIT, Program, wait_for
 
 pytestmark = pytest.mark.processes
 
-CUP = """
+CUP = f"""
 name = "cup"
-duration = 4
+duration = 1
+rules = "{BRISK}"
 [teams]
-magenta = { remote = true, size = 1 }
+magenta = {{ remote = true, size = 1 }}
 [teams.cyan]
 size = 1
 """

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from support.brisk import BRISK
+
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
 NAMES = ("schemas", "robot_agent", "random", "socket", "numpy", "zenoh", "mcap", "starlette")
@@ -19,8 +21,9 @@ class Still:
     def act(self, sight):
         return Command(answers_tick=sight.tick + ANSWER)
 """
-MATCH = """
+MATCH = f"""
 duration = 0.2
+rules = "{BRISK}"
 [teams.cyan]
 brain = "still:Still"
 size = 1

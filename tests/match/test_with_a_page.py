@@ -15,6 +15,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from runtime.bus.endpoint import with_free_port
+from support.brisk import BRISK
 from support.process_story import LIMIT, Program, wait_for
 from support.visitor import Visitor
 
@@ -150,8 +151,9 @@ def test_a_replay_with_a_page_is_sought_and_paused_from_it_and_leaves_nothing(
     start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
 ) -> None:
     recording = tmp_path / "small.mcap"
-    words = ("--duration", "4", "--listen", with_free_port("tcp/127.0.0.1:0"), "--record", str(recording))
-    assert start("touchline", "match", str(config), *words, folder=tmp_path).status() == 0
+    words = ("--duration", "4", "--rules", str(BRISK), "--record", str(recording))
+    free = ("--listen", with_free_port("tcp/127.0.0.1:0"))
+    assert start("touchline", "match", str(config), *words, *free, folder=tmp_path).status() == 0
     replay = start(
         *(
             "touchline",

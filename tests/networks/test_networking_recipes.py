@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from recordings.reading.recording import open_recording
+from support.brisk import BRISK
 from support.namespaces import Network, network
 from support.process_story import SHORT_LIMIT, wait_for
 
@@ -25,7 +26,7 @@ ROOT = Path(__file__).parents[2]
 RECIPES = (ROOT / "docs" / "networking.md").read_text("utf-8").partition("\n## What a firewall must let through")[0]
 MACHINES = ("host", "cyan", "magenta", "coach", "recorder")
 ROBOTS = ["cyan1", "magenta1", "magenta2"]
-SMALL = "[teams.cyan]\nsize = 1\n[teams.magenta]\nsize = 2\n"
+SMALL = f'rules = "{BRISK}"\n[teams.cyan]\nsize = 1\n[teams.magenta]\nsize = 2\n'
 LASTING = ("match", "host", "team", "agent", "record")
 """Commands that run until the match is over."""
 EXTRAS = ("pybullet", "starlette", "uvicorn", "trustme", "foxglove")

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from support.brisk import BRISK
+
 _PATIENCE_S = 240.0
 HEAD = """
 import os, signal, sys, threading, time
@@ -30,6 +32,7 @@ class Quiet:
 """The beginning of a module of brains; a brain's `begin` is called once, in the match."""
 MATCH = """
 duration = 4.0
+rules = "{rules}"
 {top}
 [teams.cyan]
 name = "Cyan"
@@ -56,7 +59,7 @@ class IsolatedMatch:
         self.folder = folder
         (folder / "cyan_team.py").write_text(f"{HEAD}\nclass Brain(Quiet):\n{brain}\n")
         (folder / "magenta_team.py").write_text(HEAD)
-        (folder / "match.toml").write_text(MATCH.format(top=top, cyan=cyan, limits=limits, size=size))
+        (folder / "match.toml").write_text(MATCH.format(rules=BRISK, top=top, cyan=cyan, limits=limits, size=size))
 
     def play(self, *options: str, **environment: str) -> "PlayedMatch":
         """Play it to its end."""

@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 
 from schemas.config.match_config import load_match
 from schemas.side import Side
+from support.brisk import BRISK
 from touchline.commands.cli.command_line import app
 from touchline.play.play_match import play_match
 
@@ -20,7 +21,7 @@ def test_a_new_team_plays_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert made.exit_code == 0, made.output
     assert "cd my_team; touchline match match.toml" in made.output
     folder = tmp_path / "my_team"
-    config = load_match(folder / "match.toml", {"duration": 6.0})
+    config = load_match(folder / "match.toml", {"duration": 6.0, "rules": str(BRISK)})
     assert config.team(Side.CYAN).brain == "my_team:MyTeam"
     touched: set[str] = set()
     outcome = play_match(config, watch=lambda tick: touched.update(tick.world.get("touches", ())), brain_folder=folder)
