@@ -74,6 +74,8 @@ def become(request: ForkRequest) -> None:
     Raises:
         OSError: the kernel refuses the limits.
     """
+    if not Path(request["log"]).parent.exists():
+        sys.exit(1)  # the launcher was interrupted, and has removed what it prepared
     with Path(os.devnull).open("rb") as nothing, Path(request["log"]).open("ab") as log:
         for stream, file in enumerate((nothing, log, log)):
             os.dup2(file.fileno(), stream)

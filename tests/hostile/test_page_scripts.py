@@ -85,6 +85,8 @@ def test_no_script_in_a_text_of_the_match_runs_in_the_page(
     say_everything(hostile_host)
     context = browser.new_context(viewport={"width": 1360, "height": 900})
     context.add_init_script("window.stolen = 0; window.steal = () => { window.stolen += 1; };")
+    requests: list[str] = []
+    context.on("request", lambda request: requests.append(request.url))
     tab = Tab(context, gateway.origin, "referee")
     (folder / FILE).write_text(json.dumps(result))
     say_everything(hostile_host)
@@ -97,7 +99,7 @@ def test_no_script_in_a_text_of_the_match_runs_in_the_page(
     assert all(script in texts for script in SCRIPTS[:3])  # shown as what it is
     assert tab.ask("window.stolen") == 0
     assert tab.faults == []
-    assert all(url.startswith((gateway.origin, "data:")) for url in tab.requests)
+    assert all(url.startswith((gateway.origin, "data:")) for url in requests)
     context.close()
 
 

@@ -11,8 +11,8 @@ from support.page_gateway import SOON, TOKENS
 _APART_S = 0.5
 """Above `APART_MS` of `coach_gateway/web/page/deeds/presses.js`, s."""
 
-_SLOW_SCREEN = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 50)"
-"""A screen of 20 pictures a second: at 60, half the CPU time of a test is that of drawing the field."""
+_SLOW_SCREEN = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 100)"
+"""A screen of 10 pictures a second: at 60, half the CPU time of a test is that of drawing the field."""
 
 
 class Tab:
@@ -23,7 +23,6 @@ class Tab:
         context.add_init_script(_SLOW_SCREEN)
         self.page: Page = context.new_page()
         self.faults: list[str] = []
-        self.requests: list[str] = []
         self._pressed: dict[tuple[str, str], float] = {}
         self.loses_its_server = False
         """Whether errors about a missing server are expected."""
@@ -31,7 +30,6 @@ class Tab:
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
         self.page.on("console", lambda line: self._note(line.text) if line.type == "error" else None)
         self.page.on("dialog", lambda dialog: self.faults.append(dialog.message))
-        self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.goto(f"{origin}/#token={TOKENS[role]}" if role in TOKENS else f"{origin}/")
         self.until(f"window.touchline?.match.role === '{role}' && window.touchline.pitchCanvas.world !== null")
 
@@ -44,7 +42,7 @@ class Tab:
         deadline = time.monotonic() + SOON
         while not self.page.evaluate(holds):
             assert time.monotonic() < deadline, f"never came true: {holds}"
-            self.page.wait_for_timeout(20)
+            self.page.wait_for_timeout(40)
 
     def until_seen(self, body: str, x: float, y: float) -> None:
         """Until the page draws a body, `ball` or `robots.cyan1`, at a place."""

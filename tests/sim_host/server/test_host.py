@@ -8,10 +8,12 @@ from schemas.config.match_config import MatchConfig
 from schemas.messages.world import World
 from schemas.soccer.game import Phase
 from schemas.topics import APPLIED, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
+from support.brisk import BRISK
 from touchline.play.play_match import play_match
 
 SHIPPED = {
-    "duration": 1,
+    "duration": 2,
+    "rules": str(BRISK),
     "teams": {
         "cyan": {"brain": "robot_agent.teams.simple:Simple", "size": 3},
         "magenta": {"brain": "robot_agent.teams.nubot:NuBot", "size": 2},
@@ -55,7 +57,7 @@ def test_the_same_seed_gives_the_same_match_tick_for_tick_on_the_bus_and_without
 
 
 def test_a_match_is_played_to_full_time_and_every_tick_is_published_once(rig_of):
-    rig = rig_of(duration=1)
+    rig = rig_of(duration=1, rules=str(BRISK))
     worlds, states = rig.listen(WORLD), rig.listen(STATE)
     rig.join_all()
     rig.host.run()
@@ -65,7 +67,7 @@ def test_a_match_is_played_to_full_time_and_every_tick_is_published_once(rig_of)
 
 def test_single_bodies_are_published_as_in_the_world_of_the_same_tick(rig_of):
     """A key for each body, one message for all, one number of the tick for both."""
-    rig = rig_of(duration=2)
+    rig = rig_of(duration=2, rules=str(BRISK))
     worlds, robots, balls = rig.listen(WORLD), rig.listen(WORLD_ROBOT), rig.listen(WORLD_BALL)
     rig.join_all()
     rig.host.run()
