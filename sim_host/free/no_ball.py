@@ -6,7 +6,6 @@ from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
 from schemas.messages.applied import AppliedInput
 from sim_host.game.ball_control import BallReport
-from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState
 
@@ -16,7 +15,7 @@ class NoBall:
 
     holder: int | None = None
 
-    def __init__(self, _profile: Profile, models: Sequence[RobotModel], _engine: Engine) -> None:
+    def __init__(self, _profile: Profile, models: Sequence[RobotModel], _engine: object) -> None:
         self._none_ready = (False,) * len(models)
 
     def set_holder(self, index: int | None) -> None:

@@ -16,6 +16,7 @@ from support.brisk import BRISK
 from touchline.play.play_match import play_match
 
 TOOLS = {"javascript": "node", "c_robot": "cc"}
+ONE_AND_THE_OTHER = ["javascript", pytest.param("c_robot", marks=pytest.mark.long)]
 
 
 @pytest.fixture(params=list(TOOLS))
@@ -41,6 +42,7 @@ def test_it_takes_the_kick_off_carries_the_ball_and_shoots(
 
 
 @pytest.mark.processes
+@pytest.mark.parametrize("example", ONE_AND_THE_OTHER, indirect=True)
 def test_its_match_with_real_processes_is_the_same_tick_for_tick(example: Path, tmp_path: Path) -> None:
     config = load_match(example, {"duration": 2.0, "patience.answer": 60.0, "rules": str(BRISK)})
     chains: dict[int, str] = {}

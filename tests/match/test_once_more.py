@@ -11,7 +11,7 @@ pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 MATCH = f"""
 seed = 7
 rules = "{BRISK}"
-duration = 3
+duration = 2
 
 [teams.cyan]
 size = 2
@@ -48,5 +48,5 @@ def test_a_side_that_its_ghosts_play_makes_the_recorded_match_again(played, star
     """Equal seed, equal live brains: what the live side sees is what it saw, and the world is the same bit for bit."""
     again = recorded(start, folder, "again", "--ghost", "magenta=first.mcap")
     assert chains(again) == chains(played)
-    assert len(chains(again)) > 150
+    assert len(chains(again)) > 100
     assert again.manifest.setup.teams["magenta"].name.endswith(", recorded")

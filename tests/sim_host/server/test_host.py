@@ -6,8 +6,7 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.messages.world import World
-from schemas.soccer.game import Phase
-from schemas.topics import APPLIED, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
+from schemas.topics import APPLIED, WORLD, WORLD_BALL, WORLD_ROBOT
 from support.brisk import BRISK
 from touchline.play.play_match import play_match
 
@@ -54,15 +53,6 @@ def test_the_same_seed_gives_the_same_match_tick_for_tick_on_the_bus_and_without
     )
     assert alone == first.chains[1:]
     assert (played.chain, played.ticks) == (first.chains[-1], len(first.worlds) - 1)
-
-
-def test_a_match_is_played_to_full_time_and_every_tick_is_published_once(rig_of):
-    rig = rig_of(duration=1, rules=str(BRISK))
-    worlds, states = rig.listen(WORLD), rig.listen(STATE)
-    rig.join_all()
-    rig.host.run()
-    assert [world.tick for world in worlds.all()] == list(range(rig.host.simulation.now.tick + 1))
-    assert states.all()[-1].phase is Phase.FULL_TIME
 
 
 def test_single_bodies_are_published_as_in_the_world_of_the_same_tick(rig_of):

@@ -10,7 +10,7 @@ from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
 from runtime.bus.settings import ClientSettings
 from schemas.topics import ADMISSION
-from sim_host.server.admission.recorder_admission import Admission
+from sim_host.server.admission.admitted_recorders import AdmittedRecorders
 from support.fake_host import FakeHost
 from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
@@ -20,7 +20,7 @@ from touchline.commands.cli.command_line import app
 
 @pytest.fixture
 def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeHost]:
-    admission = Admission([])
+    admission = AdmittedRecorders([])
     there = FakeHost(SharedState(), answers={ADMISSION: admission.handle}, clock=SteppedClock(), in_threads=True)
 
     @contextmanager

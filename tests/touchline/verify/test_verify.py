@@ -47,9 +47,9 @@ def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_
     assert verified.identical and verified.ticks == len(index.times)
 
 
-def test_several_processes_give_the_verdict_of_one(operated: Path, edited, at_tick, monkeypatch) -> None:
+def test_several_processes_give_the_verdict_of_one(operated: Path, verified, edited, at_tick, monkeypatch) -> None:
     monkeypatch.setattr(resimulate, "_WORTH_A_PROCESS", 50)
-    one, two = verify(operated, processes=1), verify(operated, processes=2)
+    one, two = verified, verify(operated, processes=2)
     assert two.processes == 2
     assert (one.identical, one.ticks, one.left_out) == (two.identical, two.ticks, two.left_out)
     assert one.seconds == pytest.approx(two.seconds, abs=0.2)
