@@ -1,7 +1,7 @@
 """The bridges of one gateway process, besides the page: which ones its settings ask for, and their services."""
 
 import socket
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 
@@ -45,8 +45,9 @@ class Bridges:
         """Whether there is any bridge."""
         return self.udp is not None or bool(self.boxes or self.server_addresses or self.audience)
 
-    def open_ports(self, inherited: InheritedSockets | None = None) -> "OpenPorts":
-        """Bind all ports, or take the sockets of a launcher that has bound them.
+    def open_ports(self, inherited: InheritedSockets | None = None) -> list[socket.socket]:
+        """Bind all ports, or take the sockets of a launcher that has bound them: that for coach programs, if they are
+        wanted, then those for team software, in the order of the server addresses.
 
         Raises:
             TouchlineError: a port is in use.
@@ -57,28 +58,13 @@ class Bridges:
                 opened = inherited.next() if inherited is not None else None
                 return stack.enter_context(opened or bound_socket(option, address, port, kind))
 
-            udp = bound("--udp", self.listen, self.udp, socket.SOCK_DGRAM) if self.udp is not None else None
-            servers = [
+            ports = [bound("--udp", self.listen, self.udp, socket.SOCK_DGRAM)] if self.udp is not None else []
+            ports += [
                 bound("--refbox-server", address.host, address.port, socket.SOCK_STREAM)
                 for address in self.server_addresses
             ]
             stack.pop_all()
-        return OpenPorts(udp, tuple(servers))
-
-
-@dataclass(frozen=True, slots=True)
-class OpenPorts:
-    """The bound sockets of bridges."""
-
-    udp: socket.socket | None
-    """For coach programs."""
-    servers: tuple[socket.socket, ...]
-    """For team software, in the order of the server addresses."""
-
-    @property
-    def all(self) -> list[socket.socket]:
-        """All sockets, in the order in which `Bridges.open_ports` inherits them."""
-        return [*([self.udp] if self.udp is not None else []), *self.servers]
+        return ports
 
 
 _LAST_PORT = 65_535
@@ -109,22 +95,22 @@ def bridges_of(options: BridgeOptions) -> Bridges:
 
 
 def services_of(
-    bus: Bus, wanted: Bridges, ports: OpenPorts, tokens: Tokens, log: Callable[[str], None]
+    bus: Bus, wanted: Bridges, ports: Sequence[socket.socket], tokens: Tokens, log: Callable[[str], None]
 ) -> list[Service]:
     """The services of these bridges, on their open ports; the first follows the match for all of them."""
     if not wanted.wanted:
         return []
     live = LiveMatch(bus)
-    services: list[Service] = [live]
-    if ports.udp is not None:
-        services.append(UdpServer(live, tokens.role_of, log, ports.udp))
+    services, bound = list[Service]([live]), iter(ports)
+    if wanted.udp is not None:
+        services.append(UdpServer(live, tokens.role_of, log, next(bound)))
     services += [RefBoxClient(live, box, log) for box in wanted.boxes]
     team_states = None
     if wanted.server_addresses:
         box = RefBoxServer(
             live,
             wanted.server_addresses,
-            ports.servers,
+            tuple(bound),
             log,
             lambda token: _side_of(tokens, token),
             addresses=wanted.addresses,

@@ -112,24 +112,24 @@ def test_a_port_that_is_given_twice_is_reported() -> None:
     port = with_free_port("tcp/127.0.0.1:0").rpartition(":")[2]
     with pytest.raises(TouchlineError, match=rf"--refbox-server {port} cannot be listened on"):
         asked(refbox_server=[port, f"cyan:{port}"]).open_ports()
-    with asked(refbox_server=[port]).open_ports().servers[0] as bound:  # the first attempt has left nothing open
+    with asked(refbox_server=[port]).open_ports()[0] as bound:  # the first attempt has left nothing open
         assert bound.getsockname()[1] == int(port)
 
 
 def test_open_ports_are_taken_over_by_the_program_that_inherits_them(monkeypatch: pytest.MonkeyPatch) -> None:
     bridges = asked(udp=0, refbox_server=["0", "cyan:0"])
     launcher = bridges.open_ports()
-    copies = [one.dup() for one in launcher.all]
+    copies = [one.dup() for one in launcher]
     monkeypatch.setenv(INHERITED, inheritance_of(copies)[INHERITED])
     for copy in copies:
         copy.detach()
     inherited = InheritedSockets()
     program = bridges.open_ports(inherited)
-    assert [one.getsockname() for one in program.all] == [one.getsockname() for one in launcher.all]
-    assert program.udp is not None and program.udp.type is socket.SOCK_DGRAM
+    assert [one.getsockname() for one in program] == [one.getsockname() for one in launcher]
+    assert program[0].type is socket.SOCK_DGRAM
     assert inherited.next() is None
     assert INHERITED not in os.environ  # of the programs that this one starts
-    for one in (*launcher.all, *program.all):
+    for one in (*launcher, *program):
         one.close()
 
 

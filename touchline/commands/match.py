@@ -78,7 +78,7 @@ def match(
     if bridges.wanted:
         from coach_gateway.bridges import bridges_of
 
-        sockets = tuple(bridges_of(bridges).open_ports().all)
+        sockets = tuple(bridges_of(bridges).open_ports())
     if web or bridges.wanted:
         played.changes.setdefault("pace", "realtime")
     if bridges.refbox is not None:
