@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from schemas.messages.radio import Belief
+from schemas.wire.message import Name
+from schemas.wire.part import Part
 
 OLD = 1.0
 """Simulated time in s after which a belief no longer counts. Chosen here: robots send one each tick, or each tenth."""
@@ -12,15 +13,16 @@ _SAME = 0.5
 """m; two robots that believe a body within this distance mean the same one (ours: about a robot's width)."""
 
 
-class TeamObstacle(NamedTuple):
-    """A body that is no robot of the team, in the team's frame."""
+class TeamObstacle(Part):
+    """An opponent or another body that is no robot of the team, as the team believes it, in its team frame."""
 
     x: float
-    """m; as the nearest of the robots believes it."""
+    """x in the team frame, in m, as the nearest of the robots believes it."""
     y: float
+    """y in the team frame, in m."""
     age: float
-    """Simulated time in s since that robot has sent it."""
-    seen_by: tuple[str, ...]
+    """Simulated time since that robot has sent it, in s."""
+    seen_by: list[Name]
     """The robots that believe it, the nearest first."""
 
 
@@ -43,8 +45,9 @@ def team_obstacles(beliefs: Mapping[str, Belief], time: float) -> list[TeamObsta
     for _, name, x, y in sorted(seen):
         for index, known in enumerate(found):
             if name not in known.seen_by and math.hypot(known.x - x, known.y - y) <= _SAME:
-                found[index] = known._replace(seen_by=(*known.seen_by, name))
+                found[index] = known.replace(seen_by=[*known.seen_by, name])
                 break
         else:
-            found.append(TeamObstacle(x, y, round(max(0.0, time - recent[name].time), 3), (name,)))
+            age = round(max(0.0, time - recent[name].time), 3)
+            found.append(TeamObstacle(x=x, y=y, age=age, seen_by=[name]))
     return found

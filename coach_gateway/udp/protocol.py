@@ -10,6 +10,7 @@ from msgspec import Meta
 
 from coach_gateway.access.roles import TokenRole
 from coach_gateway.match.orders import OrderContent
+from coach_gateway.match.team_obstacles import TeamObstacle
 from coach_gateway.udp.coach_record import MatchMode
 from schemas.messages.radio import Belief
 from schemas.messages.soccer.game import GameEvent, GameState, RefereeAction
@@ -131,19 +132,6 @@ class SideOrder(Part):
     """Robot that does not carry it out → the reason."""
 
 
-class BelievedObstacle(Part):
-    """An opponent or another body that is no robot of the team, as the team believes it, in its team frame."""
-
-    x: float
-    """x in the team frame, in m."""
-    y: float
-    """y in the team frame, in m."""
-    age: float
-    """Simulated time since it was sent, in s."""
-    seen_by: list[Name]
-    """The robots that believe it, the nearest first."""
-
-
 class Frame(Part, tag_field="kind", tag="frame"):
     """The state of the match, at the rate of the hello."""
 
@@ -158,7 +146,7 @@ class Frame(Part, tag_field="kind", tag="frame"):
     """Number of events so far."""
     orders: dict[Side, SideOrder] = {}
     """The order of the coach's own side; of both sides for the referee."""
-    obstacles: dict[Side, list[BelievedObstacle]] = {}
+    obstacles: dict[Side, list[TeamObstacle]] = {}
     """Opponents and other bodies as the coach's own side believes them; as both sides do for the referee."""
 
 

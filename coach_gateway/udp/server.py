@@ -12,7 +12,7 @@ from coach_gateway.service import pause
 from coach_gateway.timing import POLL_S, SILENCE_S
 from coach_gateway.udp.coach_programs import CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
-from coach_gateway.udp.protocol import Ack, BeliefUpdate, BelievedObstacle, EventUpdate, Frame, SessionEnd, SideOrder
+from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import Address, Session
 from schemas.errors import TouchlineError
 from schemas.side import Side
@@ -160,7 +160,6 @@ class UdpServer(asyncio.DatagramProtocol):
                 orders[side] = SideOrder(
                     order=active.order.sequence, acknowledged=active.acknowledged, refused=active.refused
                 )
-        obstacles = {side: [BelievedObstacle(**one._asdict()) for one in live.obstacles(side)] for side in own}
         return Frame(
             number=session.frames,
             host=live.follower.host_present,
@@ -168,7 +167,7 @@ class UdpServer(asyncio.DatagramProtocol):
             state=state,
             events=len(live.follower.events),
             orders=orders,
-            obstacles=obstacles,
+            obstacles={side: live.obstacles(side) for side in own},
         )
 
     def _send_event(self, number: int, address: Address) -> None:
