@@ -5,12 +5,13 @@ import json
 import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from coach_gateway.access import rights
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import COACHES, TokenRole
-from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
+from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, for_coach, for_referee
 from coach_gateway.udp.protocol import (
     MAX_BYTES,
     Ack,
@@ -66,6 +67,8 @@ class DatagramResult:
 
 
 _NOTHING = DatagramResult()
+_Pending = Callable[..., PendingRequest]
+"""Makes the request of a datagram, which names its program and its number."""
 
 
 class CoachPrograms:
@@ -157,13 +160,14 @@ class CoachPrograms:
         self, session: Session, ask: ProgramRequest, address: Address, robots: Mapping[str, Side]
     ) -> PendingRequest | str:
         """The request to carry out; otherwise the reason of a refusal, empty where nothing is left to do."""
+        pending = partial(PendingRequest, session, address, ask.sequence, ask.kind)
         match ask:
             case ProgramAction():
-                return _act(session, ask.sequence, ask.kind, address, ask.action, robots)
+                return _act(pending, session, ask.action, robots)
             case ProgramOrder():
-                return _order(session, ask, address, robots)
+                return _order(pending, session, ask, robots)
             case ProgramMatchMode():
-                return _match_mode(session, ask, address, robots)
+                return _match_mode(pending, session, ask, robots)
         return ""
 
 
@@ -197,17 +201,15 @@ def _refused(ask: Any, reason: str) -> Ack:
 
 
 def _act(
-    session: Session, sequence: int, kind: str, address: Address, action: RefereeAction, robots: Mapping[str, Side]
+    pending: _Pending, session: Session, action: RefereeAction, robots: Mapping[str, Side]
 ) -> PendingRequest | str:
     why = rights.refusal(session.role, action.action.value, robots, robot=action.robot)
     if why is not None:
         return why
-    return PendingRequest(
-        session, address, sequence, kind, action=action.replace(source=f"coach program {session.name}")
-    )
+    return pending(action=action.replace(source=f"coach program {session.name}"))
 
 
-def _order(session: Session, ask: ProgramOrder, address: Address, robots: Mapping[str, Side]) -> PendingRequest | str:
+def _order(pending: _Pending, session: Session, ask: ProgramOrder, robots: Mapping[str, Side]) -> PendingRequest | str:
     side = ask.side or COACHES.get(session.role)
     if side is None:
         return "the referee's order has to name its side"
@@ -220,11 +222,11 @@ def _order(session: Session, ask: ProgramOrder, address: Address, robots: Mappin
         if tested is None:
             return f"test_mode is {ask.test_mode}; known: {', '.join(map(str, TEST_MODES))}"
         content |= {"mode": CoachMode.TEST, **tested._asdict()}
-    return PendingRequest(session, address, ask.sequence, ask.kind, sides=(side,), order=content)
+    return pending(sides=(side,), order=content)
 
 
 def _match_mode(
-    session: Session, ask: ProgramMatchMode, address: Address, robots: Mapping[str, Side]
+    pending: _Pending, session: Session, ask: ProgramMatchMode, robots: Mapping[str, Side]
 ) -> PendingRequest | str:
     try:
         mode = ask.mode if isinstance(ask.mode, MatchMode) else MatchMode.of_number(ask.mode)
@@ -238,15 +240,7 @@ def _match_mode(
     meaning = for_coach(mode) if own is not None else for_referee(mode, ask.side or Side.CYAN)
     if meaning is None:
         return f"{mode.value} is for the referee alone: it needs the referee's token"
-    return _request_for(session, ask, address, meaning, robots)
-
-
-def _request_for(
-    session: Session, ask: ProgramMatchMode, address: Address, meaning: Meaning, robots: Mapping[str, Side]
-) -> PendingRequest | str:
     if meaning.action is not None:
-        action = RefereeAction(action=meaning.action, side=meaning.side)
-        return _act(session, ask.sequence, ask.kind, address, action, robots)
-    own = COACHES.get(session.role)
+        return _act(pending, session, RefereeAction(action=meaning.action, side=meaning.side), robots)
     sides = (own,) if own is not None else tuple(Side) if ask.side is None else (ask.side,)
-    return PendingRequest(session, address, ask.sequence, ask.kind, sides=sides, order={"mode": meaning.order})
+    return pending(sides=sides, order={"mode": meaning.order})
