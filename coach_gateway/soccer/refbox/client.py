@@ -14,7 +14,7 @@ from typing import Any
 from coach_gateway.access.referee_name import box_name
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.service import pause, until_first
-from coach_gateway.soccer.refbox import DEFAULT_PORT, characters, commands
+from coach_gateway.soccer.refbox import DEFAULT_PORT, commands
 from coach_gateway.soccer.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_ours, response_to, speaks_for
 from coach_gateway.soccer.refbox.framing import Framer
 from coach_gateway.soccer.refbox.own_world_state import own_world_state
@@ -32,7 +32,7 @@ from schemas.messages.coach import CoachMode
 from schemas.messages.soccer.game import RefereeAction
 from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.messages.soccer.league.robot_numbers import numbers_of
-from schemas.messages.soccer.league.signals import Signal
+from schemas.messages.soccer.league.signals import BY_CHARACTER, Signal
 from schemas.side import Side
 from schemas.soccer.game import OfficiatingMode
 
@@ -151,7 +151,7 @@ class RefBoxClient:
     def _read_message(self, message: dict[str, Any] | str) -> None:
         """Queue the signal of a message. Its team is resolved here, in the order the box sent the messages."""
         if isinstance(message, str):
-            signal, side = characters.read(message)
+            signal, side = BY_CHARACTER[message]
             self._note(signal, side, None)
             return
         try:

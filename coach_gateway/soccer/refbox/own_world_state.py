@@ -13,7 +13,7 @@ from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState
 from schemas.messages.soccer.league.robot_numbers import numbers_of
-from schemas.messages.soccer.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
+from schemas.messages.soccer.league.world_state import BallSeen, ObstacleSeen, RobotSeen, true_obstacles, world_state
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 
@@ -41,7 +41,8 @@ def own_world_state(
         attack,
         [_robot(numbers[name], playing[name], recent.get(name), attack) for name in mine],
         _balls(setup, world, recent, attack),
-        _believed_obstacles(setup, recent, world.time, attack) or _true_obstacles(side, setup, sides, world),
+        _believed_obstacles(setup, recent, world.time, attack)
+        or true_obstacles(side, setup.robot.radius, sides, world),
         age_ms=max(0, round(max(ages, default=0.0) * 1e3)),
     )
 
@@ -52,15 +53,6 @@ def _believed_obstacles(setup: Setup, beliefs: Mapping[str, Belief], time: float
         ObstacleSeen(attack * one.x, attack * one.y, 0.0, 0.0, setup.robot.radius)
         for one in team_obstacles(beliefs, time)
     ]
-
-
-def _true_obstacles(side: Side, setup: Setup, sides: Mapping[str, Side], world: World) -> list[ObstacleSeen]:
-    opponents = [
-        ObstacleSeen(robot.x, robot.y, robot.vx, robot.vy, setup.robot.radius)
-        for name, robot in world.robots.items()
-        if robot.off_field is None and sides.get(name) is side.opponent
-    ]
-    return opponents + [ObstacleSeen(body.x, body.y, 0.0, 0.0, body.radius) for body in world.obstacles.values()]
 
 
 def _robot(number: int, truth: RobotTruth, belief: Belief | None, attack: int) -> RobotSeen:

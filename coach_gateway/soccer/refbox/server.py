@@ -16,7 +16,7 @@ from typing import Any
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK
-from coach_gateway.soccer.refbox import DEFAULT_PORT, characters, commands
+from coach_gateway.soccer.refbox import DEFAULT_PORT, commands
 from coach_gateway.soccer.refbox.call_generator import CallGenerator
 from coach_gateway.soccer.refbox.commands import BoxCommand
 from coach_gateway.soccer.refbox.identity import HELLO, Identity, UnknownTeamError, identify, targets
@@ -114,7 +114,7 @@ class RefBoxServer:
             )
             text = {
                 BoxProtocol.JSON: json_text,
-                BoxProtocol.CHARACTERS: b"".join(characters.write(call.signal, call.side) for call in calls),
+                BoxProtocol.CHARACTERS: "".join(call.signal.character_for(call.side) for call in calls).encode("ascii"),
             }
             for peer in self._peers:
                 self._send(peer, text[peer.protocol])
@@ -222,7 +222,7 @@ class RefBoxServer:
         state = self._live.state
         running = START if state is not None and state.running else STOP
         if peer.protocol is BoxProtocol.CHARACTERS:
-            self._send(peer, characters.write(_WELCOME) + characters.write(running))
+            self._send(peer, (_WELCOME.character + running.character).encode("ascii"))
             return
         address = self._targets()[peer.side] if peer.side is not None else ""
         self._send(peer, commands.write(BoxCommand(_WELCOME, address)) + commands.write(BoxCommand(running)))

@@ -17,7 +17,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState
 from schemas.messages.soccer.league.robot_numbers import numbers_of
-from schemas.messages.soccer.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
+from schemas.messages.soccer.league.world_state import BallSeen, RobotSeen, true_obstacles, world_state
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from schemas.topics import BELIEF, STATE, WORLD
@@ -116,17 +116,13 @@ class _Log:
 
     def _world_state(self, world: World, side: Side, attack: int) -> dict[str, Any]:
         playing = {name: robot for name, robot in world.robots.items() if robot.off_field is None}
-        others = [robot for name, robot in playing.items() if self._sides.get(name) is side.opponent]
-        radius, ball = self._setup.robot.radius, world.match_ball
+        ball = world.match_ball
         return world_state(
             self._setup.teams[side].name,
             attack,
             [self._robot(name, robot) for name, robot in playing.items() if self._sides.get(name) is side],
             [BallSeen(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)],
-            [
-                *(ObstacleSeen(other.x, other.y, other.vx, other.vy, radius) for other in others),
-                *(ObstacleSeen(body.x, body.y, 0.0, 0.0, body.radius) for body in world.obstacles.values()),
-            ],
+            true_obstacles(side, self._setup.robot.radius, self._sides, world),
         )
 
     def _robot(self, name: str, robot: RobotTruth) -> RobotSeen:

@@ -58,11 +58,10 @@ def _part(state: GameState) -> str:
 
 def _line(epoch_ms: int, game_s: float, run_s: float, state: str, signal: Signal, side: Side | None) -> str:
     """A line of the event file, as the referee box wrote it until 2019: five columns."""
-    character = signal.character.lower() if side is Side.MAGENTA else signal.character
     description = (
         f"{side.value.upper()} {signal.description}" if side is not None and signal.sided else signal.description
     )
-    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{character},{description}"
+    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{signal.character_for(side)},{description}"
 
 
 def _minutes(seconds: float) -> str:

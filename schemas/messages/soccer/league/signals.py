@@ -27,6 +27,10 @@ class Signal:
     """The half that it begins; 0 for none."""
     stage: GameStage = GameStage.REGULAR
 
+    def character_for(self, side: Side | None) -> str:
+        """The character for a side; empty for signals that only JSON has."""
+        return self.character.lower() if self.sided and side is Side.MAGENTA else self.character
+
 
 START = Signal("START", "s", EventKind.START, "START", phase=Phase.PLAY)
 STOP = Signal("STOP", "S", EventKind.STOP, "STOP", phase=Phase.STOPPED)

@@ -3,10 +3,12 @@
 `world_state` returns the object of the league's JSON: m, m/s and rad, in the team's axes.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from schemas.messages.soccer.league.axes import heading_across, vector_to_log
+from schemas.messages.world import World
+from schemas.side import Side
 
 _DIGITS = 3
 """Decimal places, as in the description of the format: mm and mrad."""
@@ -73,6 +75,16 @@ def world_state(
         "obstacles": [_obstacle(obstacle, attack) for obstacle in obstacles],
         "ageMs": age_ms,
     }
+
+
+def true_obstacles(side: Side, radius: float, sides: Mapping[str, Side], world: World) -> list[ObstacleSeen]:
+    """The opponents of a side that are on the field, with this radius in m, and all obstacles, where they are."""
+    opponents = [
+        ObstacleSeen(robot.x, robot.y, robot.vx, robot.vy, radius)
+        for name, robot in world.robots.items()
+        if robot.off_field is None and sides.get(name) is side.opponent
+    ]
+    return opponents + [ObstacleSeen(body.x, body.y, 0.0, 0.0, body.radius) for body in world.obstacles.values()]
 
 
 def _robot(robot: RobotSeen, attack: int) -> dict[str, Any]:

@@ -4,8 +4,9 @@ import json
 
 import pytest
 
-from coach_gateway.soccer.refbox import characters, commands
+from coach_gateway.soccer.refbox import commands
 from coach_gateway.soccer.refbox.commands import NoCommandError
+from schemas.messages.soccer.league.signals import BY_CHARACTER
 from schemas.side import Side
 
 FOR_BOTH = (
@@ -44,23 +45,21 @@ def test_every_command_is_read_and_written(name: str) -> None:
 
 @pytest.mark.parametrize(("character", "name"), CHARACTERS.items())
 def test_every_character_is_read_and_written(character: str, name: str) -> None:
-    signal, side = characters.read(character)
-    assert (signal.name, side) == (name, None)
-    assert characters.write(signal) == character.encode()
+    signal, side = BY_CHARACTER[character]
+    assert (signal.name, side, signal.character_for(None)) == (name, None, character)
 
 
 @pytest.mark.parametrize("side", list(Side))
 @pytest.mark.parametrize(("character", "name"), SIDED.items())
 def test_capital_letters_are_cyans_and_small_ones_magentas(character: str, name: str, side: Side) -> None:
     spelled = character if side is Side.CYAN else character.lower()
-    signal, whose = characters.read(spelled)
-    assert (signal.name, whose) == (name, side)
-    assert characters.write(signal, side) == spelled.encode()
+    signal, whose = BY_CHARACTER[spelled]
+    assert (signal.name, whose, signal.character_for(side)) == (name, side, spelled)
 
 
 @pytest.mark.parametrize("name", ["END_PART", "SUBSTITUTION", "IS_ALIVE"])
 def test_what_came_with_json_has_no_character(name: str) -> None:
-    assert characters.write(commands.read({"command": name}).signal, Side.CYAN) == b""
+    assert commands.read({"command": name}).signal.character_for(Side.CYAN) == ""
 
 
 @pytest.mark.parametrize(
