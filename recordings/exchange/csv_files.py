@@ -79,36 +79,16 @@ def _events(_: RecordedMessage, event: GameEvent, __: Sides) -> Iterable[Row]:
     place = (event.place.x, event.place.y) if event.place is not None else (None, None)
     score = (event.score.cyan, event.score.magenta) if event.score is not None else (None, None)
     involved = (event.side, event.robot, " ".join(event.robots))
+    what = (event.tick, event.time, event.clock, event.kind, event.rule)
     measured = (event.measured, event.limit, event.unit)
-    yield (
-        event.tick,
-        event.time,
-        event.clock,
-        event.kind,
-        event.rule,
-        *involved,
-        *place,
-        *score,
-        *measured,
-        event.card,
-        event.text,
-    )
+    yield *what, *involved, *place, *score, *measured, event.card, event.text
 
 
 def _states(_: RecordedMessage, state: GameState, __: Sides) -> Iterable[Row]:
     spot = (state.spot.x, state.spot.y) if state.spot is not None else (None, None)
     phase = (state.phase, state.side, state.running, state.half, state.stage)
-    times = (state.clock, state.effective)
-    yield (
-        state.tick,
-        state.time,
-        *phase,
-        *times,
-        *(state.score.cyan, state.score.magenta),
-        state.cyan_attacks,
-        *spot,
-        state.value,
-    )
+    counts = (state.clock, state.effective, state.score.cyan, state.score.magenta)
+    yield state.tick, state.time, *phase, *counts, state.cyan_attacks, *spot, state.value
 
 
 def _commands(recorded: RecordedMessage, command: Command, __: Sides) -> Iterable[Row]:

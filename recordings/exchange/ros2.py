@@ -128,8 +128,7 @@ class _Bag:
         attack = side.attack(self._cyan_attacks)
         if radio.self is not None:
             own = Pose(radio.self.x, radio.self.y, radio.self.heading).team(attack)
-            turn = self._quaternion(own.heading)
-            pose = self._make("geometry_msgs/msg/Pose", self._point(own.x, own.y, 0.0), turn)
+            pose = self._pose(own.x, own.y, 0.0, own.heading)
             self._write(f"/{robot}/belief/pose", POSE, log_ns, self._make(POSE.message, header, pose))
         if radio.ball is not None:
             point = self._point(attack * radio.ball.x, attack * radio.ball.y, 0.0)
@@ -154,31 +153,26 @@ class _Bag:
 
     def _transforms(self, stamp: Any, world: World) -> Iterator[Any]:
         for name, robot in world.robots.items():
-            yield self._transform(
-                stamp, base(name), self._vector(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
-            )
+            yield self._transform(stamp, base(name), robot.x, robot.y, robot.z, robot.heading)
         for name, one in world.obstacles.items():
             if one.pushed is not None:
-                yield self._transform(
-                    stamp, pushed(name), self._vector(one.x, one.y, 0.0), self._quaternion(one.heading)
-                )
+                yield self._transform(stamp, pushed(name), one.x, one.y, 0.0, one.heading)
         if (ball := world.ball) is not None:
-            yield self._transform(stamp, BALL, self._vector(ball.x, ball.y, ball.z), self._quaternion(0.0))
+            yield self._transform(stamp, BALL, ball.x, ball.y, ball.z, 0.0)
 
-    def _transform(self, stamp: Any, child: str, position: Any, rotation: Any) -> Any:
-        transform = self._make("geometry_msgs/msg/Transform", position, rotation)
+    def _transform(self, stamp: Any, child: str, x: float, y: float, z: float, heading: float) -> Any:
+        rotation = self._quaternion(heading)
+        transform = self._make("geometry_msgs/msg/Transform", self._vector(x, y, z), rotation)
         return self._make("geometry_msgs/msg/TransformStamped", self._header(stamp), child, transform)
 
     def _odometry(self, stamp: Any, name: str, robot: RobotTruth) -> Any:
         """Pose in `map`, twist in the body frame, as the definition of the message requires."""
         vx, vy = to_body(robot.vx, robot.vy, robot.heading)
-        pose = self._make(
-            "geometry_msgs/msg/Pose", self._point(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
-        )
+        pose = self._pose(robot.x, robot.y, robot.z, robot.heading)
         return self._odometry_of(stamp, base(name), pose, self._twist(vx, vy, 0.0, robot.omega))
 
     def _ball(self, stamp: Any, ball: BallTruth) -> Any:
-        pose = self._make("geometry_msgs/msg/Pose", self._point(ball.x, ball.y, ball.z), self._quaternion(0.0))
+        pose = self._pose(ball.x, ball.y, ball.z, 0.0)
         return self._odometry_of(stamp, BALL, pose, self._twist(ball.vx, ball.vy, ball.vz, 0.0))
 
     def _odometry_of(self, stamp: Any, child: str, pose: Any, twist: Any) -> Any:
@@ -198,6 +192,9 @@ class _Bag:
 
     def _vector(self, x: float, y: float, z: float) -> Any:
         return self._make("geometry_msgs/msg/Vector3", x, y, z)
+
+    def _pose(self, x: float, y: float, z: float, heading: float) -> Any:
+        return self._make("geometry_msgs/msg/Pose", self._point(x, y, z), self._quaternion(heading))
 
     def _point(self, x: float, y: float, z: float) -> Any:
         return self._make("geometry_msgs/msg/Point", x, y, z)
