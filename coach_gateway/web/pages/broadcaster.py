@@ -21,7 +21,7 @@ from coach_gateway.web.pages.protocol import (
 )
 from coach_gateway.web.pages.requests import RequestHandler, refusal
 from coach_gateway.web.settings import BeliefsFor
-from runtime.bus.contract import Bus
+from runtime.bus.contract import Bus, PresenceKind
 from schemas.config.scene import load_scene, shipped_scenes
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
@@ -51,10 +51,17 @@ class PageBroadcaster:
         self._scenes = {name: load_scene(name).description for name in shipped_scenes()}
         self.feed = PageFeed(bus)
 
-    async def follow(self, stop: asyncio.Event) -> None:
-        """Send all pages what is new until `stop` is set, or until the match has a result and its pages are closed."""
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Send all pages what is new until `stop` is set.
+
+        With a folder of the result it ends by itself after the match, once no page is open any more, and sets `stop`.
+        """
+        self._bus.declare_alive(PresenceKind.COACH, "page")
         works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._follow_result())
-        await until_first(stop.wait(), *works)
+        try:
+            await until_first(stop.wait(), *works)
+        finally:
+            stop.set()
 
     def welcome(self, page: Page) -> None:
         """Send a page its role and rights, then everything that is known of the match."""

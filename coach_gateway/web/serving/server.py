@@ -15,7 +15,7 @@ from coach_gateway.web.serving.binding import PageBinding
 from coach_gateway.web.serving.site import site
 from coach_gateway.web.serving.socket_endpoint import SocketEndpoint
 from coach_gateway.web.serving.uvicorn_server import web_server
-from runtime.bus.contract import Bus, PresenceKind
+from runtime.bus.contract import Bus
 
 
 class WebServer:
@@ -49,13 +49,13 @@ class WebServer:
         self.refusals.log_summary()
         serving.result()
 
-    def show(self, bus: Bus) -> "ShownMatch":
+    def show(self, bus: Bus) -> PageBroadcaster:
         """The match of this bus, as a service that sends it to all pages."""
         match = PageBroadcaster(
             bus, self.pages, RequestHandler(bus), self._binding.settings.beliefs, ResultReader(self._result)
         )
         self._endpoint.match = match
-        return ShownMatch(bus, match)
+        return match
 
     async def _send_alive(self) -> None:
         """Send all pages a sign of life."""
@@ -63,21 +63,3 @@ class WebServer:
         while True:
             self.pages.send(text)
             await asyncio.sleep(PAGE_ALIVE_S)
-
-
-class ShownMatch:
-    """Sends one match to all pages."""
-
-    def __init__(self, bus: Bus, match: PageBroadcaster) -> None:
-        self._bus, self._match = bus, match
-
-    async def serve(self, stop: asyncio.Event) -> None:
-        """Send what is new until `stop` is set.
-
-        With a folder of the result it ends by itself after the match, once no page is open any more, and sets `stop`.
-        """
-        self._bus.declare_alive(PresenceKind.COACH, "page")
-        try:
-            await self._match.follow(stop)
-        finally:
-            stop.set()
