@@ -16,27 +16,10 @@ from schemas.side import Side
 from schemas.soccer.game import EventKind, Score
 from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
 
-NOTABLE = frozenset(
-    {
-        EventKind.GOAL,
-        EventKind.NO_GOAL,
-        EventKind.SHOT,
-        EventKind.ADVANTAGE,
-        EventKind.CARD,
-        EventKind.OFF_FIELD,
-        EventKind.ON_FIELD,
-        EventKind.PROPOSAL,
-        EventKind.FORFEIT,
-        EventKind.HALF_TIME,
-        EventKind.FULL_TIME,
-        EventKind.NOTE,
-        EventKind.ACTION,
-        EventKind.AGENT,
-        EventKind.STALL,
-        EventKind.PARAMETERS,
-        EventKind.SCENE,
-    }
-)
+NOTABLE = frozenset(EventKind) - {
+    *(EventKind.STOP, EventKind.RESTART, EventKind.START, EventKind.IN_PLAY),
+    *(EventKind.FOUL, EventKind.BALL_OUT, EventKind.PARKING),
+}
 """Events in the printed result; stops and restarts are in the recording."""
 
 
