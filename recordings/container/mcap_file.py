@@ -12,7 +12,7 @@ from typing import IO, cast
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Attachment, Channel, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
+from mcap.records import Attachment, Channel, ChunkIndex, McapRecord, Message, Metadata
 from mcap.stream_reader import StreamReader
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
@@ -36,11 +36,24 @@ class ChannelRecord:
 
     key: str
     metadata: dict[str, str]
-    encoding: str = "json"
-    schema: Schema | None = None
     messages: int = 0
     first_ns: int = 0
     last_ns: int = 0
+
+    @property
+    def topic(self) -> str:
+        """Name of its topic in the topic table."""
+        return self.metadata.get("topic", "")
+
+    @property
+    def start(self) -> float:
+        """Time of its first message, s."""
+        return self.first_ns / 1e9
+
+    @property
+    def end(self) -> float:
+        """Time of its last message, s."""
+        return self.last_ns / 1e9
 
     def extend(self, log_ns: int) -> None:
         """Count a message."""
@@ -56,7 +69,6 @@ class McapFile:
     path: Path
     complete: bool = True
     """Whether the file was finished by its writer."""
-    library: str = ""
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     channels: dict[int, ChannelRecord] = field(default_factory=dict)
@@ -144,18 +156,15 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
     file.seek(0)
     try:
         reader = SeekingReader(file, record_size_limit=size)
-        mcap_file = McapFile(path, library=reader.get_header().library)
+        mcap_file = McapFile(path)
         for record in reader.iter_metadata():
             mcap_file.add_metadata(record)
         mcap_file.attachments = {record.name: record.data for record in reader.iter_attachments()}
         counts = summary.statistics.channel_message_counts
         chunks: dict[int, dict[int, list[int]]] = {}
         for number, channel in summary.channels.items():
-            known = ChannelRecord(channel.topic, channel.metadata, channel.message_encoding)
-            known.schema = summary.schemas.get(channel.schema_id)
-            known.messages = counts.get(number, 0)
-            known.first_ns, known.last_ns = _extent(file, summary, number, chunks)
-            mcap_file.channels[number] = known
+            extent = _extent(file, summary, number, chunks)
+            mcap_file.channels[number] = ChannelRecord(channel.topic, channel.metadata, counts.get(number, 0), *extent)
     except BROKEN as error:
         raise TouchlineError(f"{path}: {DAMAGED.format(error)}") from None
     return mcap_file
@@ -224,22 +233,15 @@ def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[in
 def _from_records(path: Path, file: IO[bytes]) -> McapFile:
     """Read a truncated file up to its end."""
     mcap_file = McapFile(path, complete=False)
-    schemas: dict[int, Schema] = {}
     file.seek(0)
     for record in _records(file, path.stat().st_size):
         match record:
-            case Header():
-                mcap_file.library = record.library
             case Metadata():
                 mcap_file.add_metadata(record)
             case Attachment():
                 mcap_file.attachments[record.name] = record.data
-            case Schema():
-                schemas[record.id] = record
             case Channel():
-                channel = ChannelRecord(record.topic, record.metadata, record.message_encoding)
-                channel.schema = schemas.get(record.schema_id)
-                mcap_file.channels.setdefault(record.id, channel)
+                mcap_file.channels.setdefault(record.id, ChannelRecord(record.topic, record.metadata))
             case Message():
                 mcap_file.channels[record.channel_id].extend(record.log_time)
     return mcap_file

@@ -80,7 +80,7 @@ def open_parts(path: Path) -> McapFile:
     for file, manifest in zip(files, manifests, strict=True):
         if (manifest.match, manifest.host) != (manifests[0].match, manifests[0].host):
             raise TouchlineError(f"{file.path}: is a part of another recording than {path}; move it away")
-    parted = PartedFile(path, last.complete, first.library, files=files)
+    parted = PartedFile(path, last.complete, files=files)
     parted.attachments = {**last.attachments, **first.attachments}
     parted.begins_ns = [None, *(manifest.begins_ns for manifest in manifests[1:])]
     parted.metadata = {**first.metadata, **last.metadata, MANIFEST: first.metadata[MANIFEST]}

@@ -8,7 +8,7 @@ from pydantic_core import from_json
 
 from recordings.container.manifest import MANIFEST, EndReason, KeyCount, Result
 from recordings.reading.recorded_config import config_of
-from recordings.reading.recording import ChannelFacts, Recording
+from recordings.reading.recording import Recording
 from recordings.recorder.sequence_tracker import LossCounts
 from schemas.config.soccer.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.errors import TouchlineError
@@ -153,7 +153,7 @@ def _of_ending(result: Result, recording: Recording) -> Iterator[str]:
 
 def _last(recording: Recording, key: str) -> Any:
     """The last valid message of a key; None if there is none."""
-    channel: ChannelFacts | None = next((one for one in recording.channels if one.key == key and one.messages), None)
+    channel = next((one for one in recording.channels if one.key == key and one.messages), None)
     if channel is None:
         return None
     newest = deque(recording.decoded(key, start=max(0.0, channel.end - _LAST_S)), maxlen=1)

@@ -176,12 +176,12 @@ def _ending(recording: Recording) -> tuple[str, Result]:
 
 def _key_facts(recording: Recording, counts: dict[str, KeyCount]) -> Iterator[KeyFacts]:
     for channel in recording.channels:
-        count = counts.get(channel.key, KeyCount())
+        count, lasts = counts.get(channel.key, KeyCount()), channel.end - channel.start
         yield KeyFacts(
             key=channel.key,
-            message=channel.message,
+            message=channel.metadata.get("message", ""),
             messages=channel.messages,
-            rate=channel.rate,
+            rate=(channel.messages - 1) / lasts if lasts > 0 else 0.0,
             bytes=count.bytes,
             lost=count.lost,
             missed_before_start=count.missed_before_start,

@@ -21,23 +21,6 @@ from schemas.topics import APPLIED, TOPICS, WORLD
 from schemas.wire.message import VERSION, BadMessageError
 
 
-class ChannelFacts(NamedTuple):
-    """One key of a recording; times in s of simulated time."""
-
-    key: str
-    topic: str
-    """Name of its topic in the topic table."""
-    message: str
-    messages: int
-    start: float
-    end: float
-
-    @property
-    def rate(self) -> float:
-        """Messages per simulated second between the first and the last."""
-        return (self.messages - 1) / (self.end - self.start) if self.end > self.start else 0.0
-
-
 class RecordedMessage(NamedTuple):
     """A message of a recording, decoded on demand."""
 
@@ -83,8 +66,6 @@ class Recording:
         self.path = mcap_file.path
         self.complete = mcap_file.complete
         """Whether the recorder finished the file."""
-        self.library = mcap_file.library
-        """Name and version of the program that wrote the file."""
         self.manifest = manifest
         self.result = result
         """How match and recording ended; None in a truncated file."""
@@ -144,20 +125,9 @@ class Recording:
         return int(note.get(DAMAGED_RECORDS, "0")) if is_sealed(note) else 0
 
     @property
-    def channels(self) -> list[ChannelFacts]:
+    def channels(self) -> list[ChannelRecord]:
         """The keys of this recording, sorted."""
-        facts = [
-            ChannelFacts(
-                key=channel.key,
-                topic=channel.metadata.get("topic", ""),
-                message=channel.metadata.get("message", ""),
-                messages=channel.messages,
-                start=channel.first_ns / 1e9,
-                end=channel.last_ns / 1e9,
-            )
-            for channel in self.mcap_file.channels.values()
-            if not is_derived(channel.metadata)
-        ]
+        facts = (one for one in self.mcap_file.channels.values() if not is_derived(one.metadata))
         return sorted(facts, key=lambda channel: natural_order(channel.key))
 
     @property
@@ -231,7 +201,7 @@ def _check_version(path: Path, theirs: str) -> None:
 
 
 def _topic(channel: ChannelRecord) -> Topic | None:
-    topic = TOPICS.get(channel.metadata.get("topic", ""))
+    topic = TOPICS.get(channel.topic)
     return topic if topic is not None and topic.message is not None else None
 
 

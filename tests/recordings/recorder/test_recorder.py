@@ -429,7 +429,8 @@ def test_the_manifest_names_config_versions_and_mathematics(recorded):
     assert manifest.setup.teams["cyan"].name == "Team cyan"
     assert {"touchline", "python", "mcap", "numpy", "platform", "machine"} <= set(manifest.versions)
     assert len(manifest.libm) == 16
-    assert recorded.library.startswith("touchline/")
+    with recorded.path.open("rb") as file:
+        assert make_reader(file).get_header().library.startswith("touchline/")
 
 
 def test_match_file_profile_rules_and_whole_schemas_are_attached(recorded):
