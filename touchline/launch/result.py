@@ -1,8 +1,7 @@
 """The result of a match: as one JSON object for programs, as score and table for people."""
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -11,9 +10,9 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
-from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent
+from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
-from schemas.soccer.game import EventKind, Score
+from schemas.soccer.game import EventKind, Phase, Score
 from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
 
 NOTABLE = frozenset(EventKind) - {
@@ -27,7 +26,8 @@ NOTABLE = frozenset(EventKind) - {
 class MatchResult:
     """The outcome of one match."""
 
-    score: Score
+    state: GameState
+    """The game at its end."""
     duration_s: float
     """Simulated time in s."""
     ticks: int
@@ -37,33 +37,21 @@ class MatchResult:
     wall_s: float
     """Wall time of play in s."""
     recording: RecordingOutcome = NO_RECORDING
-    effective_s: float = 0.0
-    """Simulated time with the ball in play, s."""
-    robots: Mapping[str, DisciplinaryRecord] = field(default_factory=dict)
-    """Robots that ended with a card or off the field."""
-    shoot_out: Score | None = None
-    """Goals of the penalty shoot-out, if there was one."""
     names: TeamNames = SIDES_ALONE
     """The teams' names."""
-    value: float | None = None
-    """Score of a game without goals."""
 
     @classmethod
     def of(cls, follower: MatchFollower, recording: RecordingOutcome, names: TeamNames) -> "MatchResult":
         """The result from the received messages."""
         return cls(
-            score=follower.state.score if follower.state is not None else Score(),
+            state=follower.state or GameState(tick=0, time=0.0, phase=Phase.PRE_GAME),
             duration_s=follower.last.time if follower.last is not None else 0.0,
             ticks=follower.last.tick if follower.last is not None else 0,
             events=tuple(follower.events),
             real_time_factor=follower.real_time_factor,
             wall_s=follower.wall_s,
             recording=recording,
-            effective_s=follower.state.effective if follower.state is not None else 0.0,
-            robots=follower.state.robots if follower.state is not None else {},
-            shoot_out=follower.state.shoot_out if follower.state is not None else None,
             names=names,
-            value=follower.state.value if follower.state is not None else None,
         )
 
     @property
@@ -76,13 +64,13 @@ class MatchResult:
         """One JSON object."""
         content = {
             "teams": {side.value: self.names[side] for side in Side},
-            "score": self.score.plain(),
-            "value": self.value,
+            "score": self.state.score.plain(),
+            "value": self.state.value,
             "halves": [score.plain() for score in self.halves],
-            "shoot_out": self.shoot_out.plain() if self.shoot_out is not None else None,
-            "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.robots.items()},
+            "shoot_out": self.state.shoot_out.plain() if self.state.shoot_out is not None else None,
+            "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.state.robots.items()},
             "duration_s": round(self.duration_s, 6),
-            "effective_s": round(self.effective_s, 6),
+            "effective_s": round(self.state.effective, 6),
             "ticks": self.ticks,
             "events": [event.plain("version") for event in self.events],
             "real_time_factor": round(self.real_time_factor, 3),
@@ -95,7 +83,7 @@ class MatchResult:
 
     def render(self) -> RenderableType:
         """Score, events and recording, for a console."""
-        headline = Text(f"\n{self.names.score(self.score, self.value)}", style="bold")
+        headline = Text(f"\n{self.names.score(self.state.score, self.state.value)}", style="bold")
         headline.append(
             f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
         )
@@ -111,13 +99,13 @@ class MatchResult:
     def _summary(self) -> str:
         """Score by halves, penalties, ball in play, and each robot's cards at the end."""
         parts = [str(self.names)] if self.names != SIDES_ALONE else []
-        if self.value is not None:
+        if self.state.value is not None:
             return "; ".join(parts)
         parts += ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
-        if self.shoot_out is not None:
-            parts.append(f"penalties {self.shoot_out.cyan}:{self.shoot_out.magenta}")
-        parts.append(f"ball in play {self.effective_s:.1f} s")
-        for name, one in self.robots.items():
+        if self.state.shoot_out is not None:
+            parts.append(f"penalties {self.state.shoot_out.cyan}:{self.state.shoot_out.magenta}")
+        parts.append(f"ball in play {self.state.effective:.1f} s")
+        for name, one in self.state.robots.items():
             parts += [f"{name} {count} {card}" for card, count in (("yellow", one.yellow), ("red", one.red)) if count]
         return "; ".join(parts)
 

@@ -120,7 +120,7 @@ def test_a_match_that_reaches_full_time_has_score_events_and_recording(
 ) -> None:
     match = stage(tmp_path, monkeypatch, FULL_TIME)
     result = match.play()
-    assert (result.score.cyan, result.score.magenta) == (1, 0)
+    assert (result.state.score.cyan, result.state.score.magenta) == (1, 0)
     assert (result.ticks, result.duration_s) == (21, 0.42)
     assert [event.text for event in result.events] == ["goal by cyan3"]
     assert result.recording.path == match.plan.recording
@@ -185,7 +185,7 @@ def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_what_the_ho
     match = stage(tmp_path, monkeypatch, CUT_SHORT)
     monkeypatch.setattr(match_run, "read_outcome", lambda path: published)
     result = match.play()
-    assert (result.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
+    assert (result.state.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
     assert [event.text for event in result.events] == ["goal by cyan3", "full time"]
     assert match.words.getvalue().count("goal by cyan3") == 1
     assert "full time" in match.words.getvalue()

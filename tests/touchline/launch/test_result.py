@@ -6,9 +6,9 @@ from pathlib import Path
 from rich.console import Console
 
 from coach_gateway.match.team_names import TeamNames
-from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent
+from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent, GameState
 from schemas.side import Side
-from schemas.soccer.game import EventKind, Score
+from schemas.soccer.game import EventKind, Phase, Score
 from touchline.launch.recording_outcome import RecordingOutcome
 from touchline.launch.result import MatchResult
 
@@ -20,20 +20,19 @@ def event(kind: EventKind, text: str) -> GameEvent:
 
 
 def result(recording: Path | None = Path("runs/a/match.mcap"), losses: dict[str, int] | None = None) -> MatchResult:
+    score, cards = Score(cyan=2, magenta=1), {"cyan3": DisciplinaryRecord(yellow=1)}
     return MatchResult(
-        score=Score(cyan=2, magenta=1),
+        GameState(tick=6000, time=120.0, phase=Phase.FULL_TIME, score=score, effective=80.0, robots=cards),
         duration_s=120.0,
         ticks=6000,
         events=(
             event(EventKind.GOAL, "goal by cyan3"),
             event(EventKind.STOP, "STOP; kick-off follows"),
-            event(EventKind.FULL_TIME, "half 2 ends").replace(score=Score(cyan=2, magenta=1)),
+            event(EventKind.FULL_TIME, "half 2 ends").replace(score=score),
         ),
         real_time_factor=6.0,
         wall_s=20.0,
         recording=RecordingOutcome(recording, losses or {}),
-        effective_s=80.0,
-        robots={"cyan3": DisciplinaryRecord(yellow=1)},
     )
 
 
@@ -115,5 +114,5 @@ def test_what_people_have_written_into_an_event_is_shown_as_it_is() -> None:
 
 
 def test_the_score_of_a_game_without_goals_is_shown_in_their_place() -> None:
-    shown = render(replace(result(), value=0.953))
+    shown = render(replace(result(), state=result().state.replace(value=0.953)))
     assert "score 0.953   120.0 s played" in shown and "2 : 1" not in shown and "halves" not in shown
