@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import Annotated, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 import typer
 
@@ -27,13 +27,16 @@ app = typer.Typer(
 
 @dataclass(frozen=True)
 class NoTarget:
-    """An action on the game as a whole."""
+    """An action on the game as a whole; `example` is that of a target in the help."""
+
+    example: ClassVar[str] = ""
 
 
 @dataclass(frozen=True)
 class SideTarget:
     """An action on a side."""
 
+    example: ClassVar[str] = "cyan"
     side: options.ForSide
 
 
@@ -41,6 +44,7 @@ class SideTarget:
 class RobotTarget:
     """An action on a robot."""
 
+    example: ClassVar[str] = "cyan3"
     robot: Annotated[str, typer.Argument(metavar="ROBOT", help="The robot's name.")]
 
 
@@ -48,6 +52,7 @@ class RobotTarget:
 class PlaceTarget:
     """An action on a point of the field."""
 
+    example: ClassVar[str] = "-3.5 2"
     x: Annotated[float, typer.Argument(help="m, field frame")]
     y: Annotated[float, typer.Argument(help="m, field frame")]
 
@@ -61,44 +66,36 @@ class RefereeCommand(NamedTuple):
     action: ActionName
     target: type[Target]
     help: str
-    example: str = ""
-    """Arguments of the example in the help."""
 
 
 REFEREE_COMMANDS: dict[str, RefereeCommand] = {
     "start": RefereeCommand(ActionName.START, NoTarget, "Give START: begin the match, or allow a restart."),
     "stop": RefereeCommand(ActionName.STOP, NoTarget, "Stop play."),
-    "kickoff": RefereeCommand(ActionName.KICK_OFF, SideTarget, "Stop play and give a side the kick-off.", "cyan"),
-    "freekick": RefereeCommand(ActionName.FREE_KICK, SideTarget, "Stop play and give a side a free kick.", "cyan"),
-    "goalkick": RefereeCommand(ActionName.GOAL_KICK, SideTarget, "Stop play and give a side a goal kick.", "cyan"),
-    "throwin": RefereeCommand(ActionName.THROW_IN, SideTarget, "Stop play and give a side a throw-in.", "cyan"),
-    "corner": RefereeCommand(ActionName.CORNER, SideTarget, "Stop play and give a side a corner.", "cyan"),
-    "penalty": RefereeCommand(ActionName.PENALTY, SideTarget, "Stop play and give a side a penalty.", "cyan"),
+    "kickoff": RefereeCommand(ActionName.KICK_OFF, SideTarget, "Stop play and give a side the kick-off."),
+    "freekick": RefereeCommand(ActionName.FREE_KICK, SideTarget, "Stop play and give a side a free kick."),
+    "goalkick": RefereeCommand(ActionName.GOAL_KICK, SideTarget, "Stop play and give a side a goal kick."),
+    "throwin": RefereeCommand(ActionName.THROW_IN, SideTarget, "Stop play and give a side a throw-in."),
+    "corner": RefereeCommand(ActionName.CORNER, SideTarget, "Stop play and give a side a corner."),
+    "penalty": RefereeCommand(ActionName.PENALTY, SideTarget, "Stop play and give a side a penalty."),
     "drop-ball": RefereeCommand(ActionName.DROP_BALL, NoTarget, "Stop play and drop the ball."),
     "place-ball": RefereeCommand(
-        ActionName.PLACE_BALL, PlaceTarget, "Set the ball down on a point of the field, at rest.", "-3.5 2"
+        ActionName.PLACE_BALL, PlaceTarget, "Set the ball down on a point of the field, at rest."
     ),
-    "goal": RefereeCommand(ActionName.GOAL, SideTarget, "Count a goal for a side.", "cyan"),
+    "goal": RefereeCommand(ActionName.GOAL, SideTarget, "Count a goal for a side."),
     "cancel-goal": RefereeCommand(
-        ActionName.CANCEL_GOAL, SideTarget, "Subtract a goal from a side's score; the game continues.", "cyan"
+        ActionName.CANCEL_GOAL, SideTarget, "Subtract a goal from a side's score; the game continues."
     ),
-    "yellow-card": RefereeCommand(ActionName.YELLOW_CARD, RobotTarget, "Show a robot the yellow card.", "cyan3"),
+    "yellow-card": RefereeCommand(ActionName.YELLOW_CARD, RobotTarget, "Show a robot the yellow card."),
     "double-yellow": RefereeCommand(
-        ActionName.DOUBLE_YELLOW, RobotTarget, "Show a robot its second yellow card: it is suspended.", "cyan3"
+        ActionName.DOUBLE_YELLOW, RobotTarget, "Show a robot its second yellow card: it is suspended."
     ),
-    "red-card": RefereeCommand(
-        ActionName.RED_CARD, RobotTarget, "Show a robot the red card: it leaves the field.", "cyan3"
-    ),
-    "repair": RefereeCommand(
-        ActionName.REPAIR, RobotTarget, "Take a robot off for repair; it returns at a stoppage.", "cyan3"
-    ),
-    "substitute": RefereeCommand(ActionName.SUBSTITUTE, RobotTarget, "Replace a robot during a stoppage.", "cyan3"),
-    "park": RefereeCommand(
-        ActionName.PARK, RobotTarget, "Take a robot off the field until `enter` brings it back.", "cyan3"
-    ),
-    "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Bring a robot back that is off the field.", "cyan3"),
+    "red-card": RefereeCommand(ActionName.RED_CARD, RobotTarget, "Show a robot the red card: it leaves the field."),
+    "repair": RefereeCommand(ActionName.REPAIR, RobotTarget, "Take a robot off for repair; it returns at a stoppage."),
+    "substitute": RefereeCommand(ActionName.SUBSTITUTE, RobotTarget, "Replace a robot during a stoppage."),
+    "park": RefereeCommand(ActionName.PARK, RobotTarget, "Take a robot off the field until `enter` brings it back."),
+    "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Bring a robot back that is off the field."),
     "name-robot": RefereeCommand(
-        ActionName.NAME_ROBOT, RobotTarget, "Name the robot that a card or a repair without a robot concerns.", "cyan3"
+        ActionName.NAME_ROBOT, RobotTarget, "Name the robot that a card or a repair without a robot concerns."
     ),
     "confirm": RefereeCommand(ActionName.CONFIRM, NoTarget, "Confirm the referee's proposal at once."),
     "overrule": RefereeCommand(ActionName.OVERRULE, NoTarget, "Reject the referee's proposal."),
@@ -125,7 +122,7 @@ def _command(row: RefereeCommand) -> Callable[..., None]:
 for _word, _row in REFEREE_COMMANDS.items():
     app.command(
         _word,
-        help=f"{_row.help}\n\nExample: touchline referee {_word} {_row.example}".rstrip(),
+        help=f"{_row.help}\n\nExample: touchline referee {_word} {_row.target.example}".rstrip(),
         context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is no option
     )(_command(_row))
 
