@@ -81,7 +81,7 @@ class OrderBook:
         """Take in an active order; returns whether order or acknowledgements are new."""
         before = self._active.get(side)
         self._active[side] = active
-        return before is None or _content(before) != _content(active)
+        return before is None or active.replace(tick=before.tick, time=before.time) != before
 
     def active(self, side: Side) -> ActiveOrder | None:
         """The active order and its acknowledgements; None before any was published."""
@@ -105,10 +105,6 @@ class OrderBook:
     def clear(self) -> None:
         """Forget all orders: they were another host's."""
         self._active.clear()
-
-
-def _content(active: ActiveOrder) -> tuple[object, ...]:
-    return active.order, active.acknowledged, active.refused
 
 
 def _by_reason(refused: Mapping[str, str]) -> dict[str, list[str]]:

@@ -1,12 +1,11 @@
 """Copies a part of a recording. Each message keeps its payload, times and sequence number."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import Manifest
 from recordings.editing.compose import composition
-from recordings.reading.recording import RecordedMessage, Recording, nanoseconds
+from recordings.reading.recording import Recording, nanoseconds
 from recordings.recorder.latched_messages import LATCHED, LatchedMessages
 from recordings.recorder.recording_writer import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
@@ -31,7 +30,8 @@ def filter_recording(
     """
     if out.exists() and recording.path.exists() and out.samefile(recording.path):
         raise TouchlineError(f"{out}: would overwrite the recording that is read; give another name for --out")
-    if not any(selection.includes(channel.key) for channel in recording.channels):
+    keys = [channel.key for channel in recording.channels if selection.includes(channel.key)]
+    if not keys:
         raise TouchlineError(f"{recording.path}: none of its keys is selected; `touchline info` lists them")
     manifest = _manifest_of_copy(recording.manifest, selection, nanoseconds(start))
     roster = RosterMetadata(recording.manifest.setup, recording.lineup())
@@ -39,7 +39,7 @@ def filter_recording(
         for log_ns, received in _latched_at(recording, selection, start) if start is not None else ():
             copy.add(log_ns, received)
         latched = copy.messages
-        for recorded in _selected(recording, selection, start, end):
+        for recorded in recording.messages(*keys, start=start, end=end):
             copy.add(recorded.log_ns, recorded.received())
         if copy.messages == latched:
             raise TouchlineError(
@@ -53,13 +53,6 @@ def _lasts(recording: Recording) -> str:
     begin = min(channel.start for channel in recording.channels)
     end = max(channel.end for channel in recording.channels)
     return f"it lasts from {begin:.2f} to {end:.2f} s of simulated time"
-
-
-def _selected(
-    recording: Recording, selection: KeySelection, start: float | None, end: float | None
-) -> Iterator[RecordedMessage]:
-    keys = [channel.key for channel in recording.channels if selection.includes(channel.key)]
-    return recording.messages(*keys, start=start, end=end)
 
 
 def _manifest_of_copy(manifest: Manifest, selection: KeySelection, start_ns: int | None) -> Manifest:

@@ -3,6 +3,7 @@
 from collections.abc import Container, Iterable
 from contextlib import suppress
 from itertools import islice
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 from pydantic_core import from_json
@@ -130,11 +131,7 @@ class CommandCheck:
         self._pending = {}
         for robot in list(self._unsent):
             self._resolve_beliefs(robot)
-        return sorted(self._mismatches, key=_tick_of)
-
-
-def _tick_of(candidate: CommandMismatch) -> int:
-    return candidate.tick
+        return sorted(self._mismatches, key=attrgetter("tick"))
 
 
 def _compare(tick: int, robot: str, input_: AppliedInput, sent: Iterable[_SentCommand]) -> list[CommandMismatch]:

@@ -113,16 +113,11 @@ class Replay:
             start_ns = max(start_ns, cursor.end_ns - round(settings.behind * 1e9))
         end_ns = round(self.time_of(settings.end) * 1e9) if settings.end is not None else None
         if not settings.follow and start_ns > cursor.end_ns:
-            extent = extent_text(cursor.start_ns, cursor.end_ns)
+            extent = f"the recording, {cursor.start_ns / 1e9:.2f} to {cursor.end_ns / 1e9:.2f} s"
             raise TouchlineError(f"--from {settings.start} is after the end of {extent}; begin earlier")
         if end_ns is not None and end_ns < start_ns:
             raise TouchlineError(f"--to {settings.end} is before the beginning at {start_ns / 1e9:.2f} s; end later")
         return PlaybackRange(start_ns, end_ns)
-
-
-def extent_text(start_ns: int, end_ns: int) -> str:
-    """An extent as text."""
-    return f"the recording, {start_ns / 1e9:.2f} to {end_ns / 1e9:.2f} s"
 
 
 def _check(selection: KeySelection, keys: Sequence[str]) -> None:

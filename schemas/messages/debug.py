@@ -158,7 +158,9 @@ class Debug(Part, omit_defaults=True, metaclass=_Bounded):
             points=[_turned(point, "x", "y") for point in self.points],
             lines=[_turned(line, "x1", "y1", "x2", "y2") for line in self.lines],
             circles=[_turned(circle, "x", "y") for circle in self.circles],
-            polygons=[_turned_polygon(polygon) for polygon in self.polygons],
+            polygons=[
+                one.replace(corners=[_turned(corner, "x", "y") for corner in one.corners]) for one in self.polygons
+            ],
             texts=[_turned(text, "x", "y") for text in self.texts],
         )
 
@@ -184,7 +186,3 @@ _S = TypeVar("_S", bound=Part)
 def _turned(shape: _S, *coordinates: str) -> _S:
     """A shape turned by π about the centre mark; 0, never -0."""
     return msgspec.structs.replace(shape, **{name: 0.0 - getattr(shape, name) for name in coordinates})
-
-
-def _turned_polygon(polygon: DebugPolygon) -> DebugPolygon:
-    return msgspec.structs.replace(polygon, corners=[_turned(corner, "x", "y") for corner in polygon.corners])

@@ -37,7 +37,7 @@ def event_differences(events: Sequence[RecordedMessage], tick: OfficiatedTick) -
     details = [Detail(_event_name(event), "message", None, event.text) for event in missing]
     details += [Detail(_event_name(event), "message", _text(event), None) for event in extra]
     if not details:
-        counts = zip_longest(_texts(recorded), _texts(tick.events))
+        counts = zip_longest(map(_text, recorded), map(_text, tick.events))
         details = [Detail(EVENT.key, "message", theirs, ours) for theirs, ours in counts if theirs != ours][:1]
     return details
 
@@ -80,7 +80,3 @@ def _state_text(state: GameState | None) -> str:
 
 def _text(event: GameEvent | None) -> str:
     return "not a valid message" if event is None else event.text
-
-
-def _texts(events: Sequence[GameEvent | None]) -> list[str]:
-    return [_text(event) for event in events]

@@ -84,10 +84,6 @@ def _end(_signal: Signal, _side: Side | None, _robot: str | None, state: GameSta
     return SignalResponse((_action(ActionName.END_HALF if goes_on else ActionName.END_GAME),))
 
 
-def _park(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> SignalResponse:
-    return SignalResponse(order=CoachMode.PARK)
-
-
 def _known(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> SignalResponse:
     """Our game needs no action for it."""
     return _NOTHING
@@ -121,7 +117,7 @@ FORWARD: Mapping[str, _Rule] = {
     "SECOND_HALF": _next_half,
     "FIRST_HALF_OVERTIME": _next_half,
     "SECOND_HALF_OVERTIME": _next_half,
-    "PARK": _park,
+    "PARK": lambda _signal, _side, _robot, _state: SignalResponse(order=CoachMode.PARK),
     "WELCOME": _known,
     "IS_ALIVE": _known,
     "RESET": _unsupported("would begin the simulation anew; touchline scene reset does"),

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 
 from coach_gateway.access import rights
@@ -21,7 +22,6 @@ from coach_gateway.web.pages.protocol import (
 )
 from runtime.bus.contract import Bus, Publisher
 from schemas.errors import TouchlineError
-from schemas.messages.coach import CoachOrder
 from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
 from schemas.soccer.game import ActionName
@@ -57,9 +57,10 @@ class RequestHandler:
         try:
             match request:
                 case PageOrder():
+                    order_of = partial(self._order_clients[request.side].order, request.side)
                     async with self._ordering[request.side]:  # of two orders the later one has the larger number
-                        order = await _in_thread(self._threads[role], lambda: self._order(request))
-                    return _accepted(request, order)
+                        order = await _in_thread(self._threads[role], partial(order_of, **request.order.content()))
+                    return Reply(id=request.id, accepted=True, answer=_content(order))
                 case _:
                     threads = self._stops if is_stop(request) else self._threads[role]
                     reply = await _in_thread(threads, self._query(role, request))
@@ -92,9 +93,6 @@ class RequestHandler:
                 return lambda: self.client.referee_seat(operation, **source)
         raise TypeError(f"{request.deed} is not a query to the match")
 
-    def _order(self, request: PageOrder) -> CoachOrder:
-        return self._order_clients[request.side].order(request.side, **request.order.content())
-
 
 def refusal(role: TokenRole, request: PageRequest, robots: Mapping[str, Side]) -> str | None:
     """Why a role may not ask for this; None when it may. `robots` are all robots of the match with their sides."""
@@ -119,10 +117,6 @@ def is_stop(request: PageRequest) -> bool:
 
 async def _in_thread(threads: ThreadPoolExecutor, request: Callable[[], Any]) -> Any:
     return await asyncio.get_running_loop().run_in_executor(threads, request)
-
-
-def _accepted(request: PageRequest, order: CoachOrder) -> Reply:
-    return Reply(id=request.id, accepted=True, answer=_content(order))
 
 
 def _content(reply: Message) -> dict[str, Any] | None:

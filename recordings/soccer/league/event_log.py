@@ -81,7 +81,9 @@ def _parse(line: str, names: TeamNames, findings: Findings) -> SignalLine | None
         return None
     if signal.sided and side is None:
         findings.note("signal for an unknown team: its name in the log can be given with --team-a", lost=True)
-    return SignalLine(float(epoch_ms), signal, side, _clock(clock), _half(part), description, _is_shoot_out(part))
+    return SignalLine(
+        float(epoch_ms), signal, side, _clock(clock), _half(part), description, "penalties" in part.lower()
+    )
 
 
 def _parse_2016(rest: str) -> tuple[Signal | None, Side | None, str]:
@@ -116,11 +118,6 @@ def _parse_2020(rest: str, names: TeamNames, findings: Findings) -> tuple[Signal
 def _clock(text: str) -> float | None:
     found = _CLOCK.match(text)
     return 60.0 * int(found[1]) + int(found[2]) if found is not None else None
-
-
-def _is_shoot_out(part: str) -> bool:
-    """Whether a part of the game is the shoot-out: `Penalties`, `Penalties/STOP`."""
-    return "penalties" in part.lower()
 
 
 def _half(part: str) -> int:

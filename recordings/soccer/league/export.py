@@ -15,7 +15,6 @@ from recordings.soccer.league.game_log import GameLog
 from schemas.config.free import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
-from schemas.messages.soccer.game import GameState
 from schemas.messages.soccer.league.robot_numbers import numbers_of
 from schemas.messages.soccer.league.world_state import BallSeen, RobotSeen, true_obstacles, world_state
 from schemas.messages.world import RobotTruth, World
@@ -103,13 +102,13 @@ class _Log:
         if world.time < self._next_time - tick / 2:
             return
         self._next_time = world.time + max(1, round(LOG_PERIOD / tick)) * tick
-        state = self.game.state
+        cyan_attacks = self.game.state.cyan_attacks if self.game.state is not None else 1
         for side in Side:
             record = {
                 "teamName": self._setup.teams[side].name,
                 "timestamp": self._start_ms + round(world.time * 1e3),
                 "gametimeMs": round(self.game.game_s(world.clock) * 1e3),
-                "worldstate": self._world_state(world, side, _attack_sign(state, side)),
+                "worldstate": self._world_state(world, side, side.attack(cyan_attacks)),
             }
             self._files[side].write((b",\n" if self.written[side] else b"[") + encode(record))
             self.written[side] += 1
@@ -128,7 +127,3 @@ class _Log:
     def _robot(self, name: str, robot: RobotTruth) -> RobotSeen:
         motion = (robot.x, robot.y, robot.heading, robot.vx, robot.vy, robot.omega)
         return RobotSeen(self._numbers[name], *motion, robot.holding, self._intentions.get(name, ""))
-
-
-def _attack_sign(state: GameState | None, side: Side) -> int:
-    return side.attack(state.cyan_attacks if state is not None else 1)

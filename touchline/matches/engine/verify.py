@@ -163,17 +163,17 @@ def _check_recording(
         faults.append(f"its hash chain ends with {chain}, that of the table with {outcome.chain}")
     if again is not None and again.goals != outcome.goals:
         faults.append(f"{_score(again.goals)} is recorded, and {_score(outcome.goals)} in the table")
-    elif again is not None and isinstance(outcome, Played) and _measured(again) != _measured(outcome):
+    elif (
+        again is not None
+        and isinstance(outcome, Played)
+        and (again.figures, again.value) != (outcome.figures, outcome.value)
+    ):
         faults.append("its figures are not those of its recording, such as cards and penalties")
     return ticks, faults, again
 
 
 def _compared(config: MatchConfig) -> dict[str, Any]:
     return config.model_dump(exclude={"record", "patience"})
-
-
-def _measured(played: Played) -> tuple[object, ...]:
-    return played.figures, played.value
 
 
 def _simulated(path: Path, *, runs_score: bool) -> tuple[int, list[str]]:

@@ -115,17 +115,13 @@ def _field_robots_time(row: MatchRow, teams: Teams) -> float:
     return sum(team.field_robots for team in teams) * row.playing_time
 
 
-def _controlled_time(row: MatchRow, _: Teams) -> float:
-    return sum(team.possession_s for team in row.teams)
-
-
 _TEAM: tuple[tuple[str, Of, Of, float], ...] = (
     ("passes completed a minute", _of("passes_completed"), _time, MINUTE),
     ("passes completed", _of("passes_completed"), _of("passes"), SHARE),
     ("shots in ten minutes", _of("shots"), _time, TEN_MINUTES),
     ("shots on goal", _of("shots_on_goal"), _of("shots"), SHARE),
     ("saves in ten minutes", _of("saves"), _time, TEN_MINUTES),
-    ("possession", _of("possession_s"), _controlled_time, SHARE),
+    ("possession", _of("possession_s"), lambda row, _: sum(team.possession_s for team in row.teams), SHARE),
     ("fouls a minute", _of("fouls"), _time, MINUTE),
     ("cards in ten minutes", _of("cards"), _time, TEN_MINUTES),
     ("m of a field robot in ten minutes", _of("field_distance"), _field_robots_time, TEN_MINUTES),

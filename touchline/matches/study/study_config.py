@@ -98,7 +98,8 @@ class Study(ConfigModel):
                 raise ValueError(f"factors.{key} has a level twice; equal levels give equal matches")
         for cell in self.cells:
             if set(cell) != set(self.cells[0]):
-                raise ValueError(f"cells have different keys, {_keys(self.cells[0])} and {_keys(cell)}; give each all")
+                one, other = (", ".join(keys) for keys in (self.cells[0], cell))
+                raise ValueError(f"cells have different keys, {one} and {other}; give each all")
         if self.functions and self.record == "inputs":
             raise ValueError('record is "inputs", and functions need whole recordings; leave record out')
         varied = [*self.factors, *(self.cells[0] if self.cells else ())]
@@ -143,7 +144,3 @@ def with_dotted_keys(tables: Mapping[str, Any], prefix: str = "") -> dict[str, A
         else:
             flat[f"{prefix}{key}"] = value
     return flat
-
-
-def _keys(cell: Mapping[str, Any]) -> str:
-    return ", ".join(cell)
