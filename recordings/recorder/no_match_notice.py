@@ -7,28 +7,21 @@ from runtime.bus.contract import Bus
 from runtime.bus.host_watch import HostWatch
 
 
-class NoMatchNotice:
-    """Watches for the host of a match, and reports once if it is missing for a while."""
+def with_no_match_notice(
+    bus: Bus, report: Callable[[str], None], should_stop: Callable[[], bool]
+) -> Callable[[], bool]:
+    """The function `should_stop`, which is called again and again; reports once if the host is missing for a while."""
+    host, due_at = HostWatch(bus), bus.clock.now() + NO_MATCH_S
+    is_done = False
 
-    def __init__(self, bus: Bus, report: Callable[[str], None]) -> None:
-        self._match, self._clock, self._report = bus.match, bus.clock, report
-        self._host = HostWatch(bus)
-        self._due_at = self._clock.now() + NO_MATCH_S
-        self._is_done = False
+    def look_and_ask() -> bool:
+        nonlocal is_done
+        if not is_done:
+            host.update()
+            is_late = bus.clock.now() >= due_at
+            if is_late and not host.seen:
+                report(f'waiting for match "{bus.match}", which the host does not play; is that its --match?')
+            is_done = host.seen or is_late
+        return should_stop()
 
-    def around(self, should_stop: Callable[[], bool]) -> Callable[[], bool]:
-        """The function `should_stop`, which is called again and again; looks for the host, too."""
-
-        def look_and_ask() -> bool:
-            if not self._is_done:
-                self._look()
-            return should_stop()
-
-        return look_and_ask
-
-    def _look(self) -> None:
-        self._host.update()
-        is_late = self._clock.now() >= self._due_at
-        if is_late and not self._host.seen:
-            self._report(f'waiting for match "{self._match}", which the host does not play; is that its --match?')
-        self._is_done = self._host.seen or is_late
+    return look_and_ask

@@ -6,7 +6,7 @@ from recordings.container.key_selection import KeySelection
 from recordings.container.manifest import EndReason
 from recordings.container.parts import parts_of
 from recordings.recorder.earlier_parts import read_earlier_parts
-from recordings.recorder.no_match_notice import NoMatchNotice
+from recordings.recorder.no_match_notice import with_no_match_notice
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
@@ -60,7 +60,7 @@ def record(
                 earlier=earlier,
                 host=host,
             )
-            return recorder.run(NoMatchNotice(bus, report).around(should_stop))
+            return recorder.run(with_no_match_notice(bus, report, should_stop))
         finally:
             sink.abandon()
 

@@ -31,16 +31,6 @@ _MAX_SPEED = 1000.0
 """Speed that is reported for `as fast as possible`, which viewers do not support."""
 
 
-def need_foxglove() -> None:
-    """Make sure that foxglove-sdk is installed.
-
-    Raises:
-        TouchlineError: it is not; the error has the command that installs it.
-    """
-    if importlib.util.find_spec("foxglove") is None:
-        raise TouchlineError("--foxglove requires foxglove-sdk, which is not installed; pip install 'touchline[viz]'")
-
-
 class LiveView:
     """A server for viewers on this machine. They may play, pause, seek and change the rate."""
 
@@ -50,7 +40,10 @@ class LiveView:
         Raises:
             TouchlineError: foxglove-sdk is not installed, or the port is in use.
         """
-        need_foxglove()
+        if importlib.util.find_spec("foxglove") is None:
+            raise TouchlineError(
+                "--foxglove requires foxglove-sdk, which is not installed; pip install 'touchline[viz]'"
+            )
         import foxglove
 
         self._setup, self._drawing = setup, Drawing(setup) if setup is not None else None

@@ -1,6 +1,6 @@
 import pytest
 
-from recordings.recorder.no_match_notice import NoMatchNotice
+from recordings.recorder.no_match_notice import with_no_match_notice
 from runtime.bus.contract import PresenceKind
 from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
@@ -10,7 +10,7 @@ from support.stepped_clock import SteppedClock
 def test_a_match_that_the_host_does_not_play_is_reported_once(host_at: float | None, count: int) -> None:
     medium, clock = SharedState(), SteppedClock()
     lines: list[str] = []
-    should_stop = NoMatchNotice(medium.open_bus("cup", clock), lines.append).around(lambda: clock.now() >= 9.0)
+    should_stop = with_no_match_notice(medium.open_bus("cup", clock), lines.append, lambda: clock.now() >= 9.0)
     host = medium.open_bus("cup", SteppedClock())
     while not should_stop():
         if clock.now() == host_at:
