@@ -17,11 +17,14 @@ from support.process_story import SHORT_LIMIT, Listener, Program
 
 ROBOTS = {"cyan": ["cyan1"], "magenta": ["magenta1"]}
 BRAIN = """
+import time
 from schemas.messages.command import Command, Drive
 
 def act(sight):
+    time.sleep(0.005)
     return Command(answers_tick=sight.tick, drive=Drive(vx=0.5, omega=1.0))
 """
+"""It thinks for a while: a match as fast as it can be takes both cores from other tests, as long as this one waits."""
 
 
 class Target:
