@@ -71,6 +71,7 @@ class RefereeRig:
         self.ball: tuple[float, float, float] = (0.0, 0.0, self.radius)
         self.velocity = (1.0, 0.0, 0.0)
         self.robots = {name: (pose.x, pose.y) for name, pose in self.starts.items()}
+        self._stood: dict[str, tuple[float, float]] = {}
         self.events: list[GameEvent] = []
         self.obstacles: tuple[ObstacleState, ...] = ()
         self.refbox = False
@@ -110,9 +111,7 @@ class RefereeRig:
         A ball without another `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
-        robots = RobotStates(
-            self._seen(name, *motions.get(self.robot(name), (0.0, 0.0, 0.0))) for name in self.roster.names
-        )
+        robots = self._robot_states(motions)
         ball = BallState(
             *self._turned(*self.ball[:2]), self.ball[2], *self._turned(*self.velocity[:2]), self.velocity[2]
         )
@@ -141,6 +140,15 @@ class RefereeRig:
             level=tuple(self.robot(name) for name in level),
             obstacles=self.obstacles,
         )
+
+    def _robot_states(self, motions: Mapping[str, tuple[float, float, float]]) -> RobotStates:
+        """The same object while all robots rest: to make it takes as long as the referee's tick."""
+        if motions or self._stood != self.robots:
+            self._states = RobotStates(
+                self._seen(name, *motions.get(self.robot(name), (0.0, 0.0, 0.0))) for name in self.roster.names
+            )
+            self._stood = {} if motions else dict(self.robots)
+        return self._states
 
     def _seen(self, name: str, heading: float, vx: float, vy: float) -> RobotState:
         at, velocity = self._turned(*self.robots[self.robot(name)]), self._turned(vx, vy)
