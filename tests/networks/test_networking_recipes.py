@@ -1,7 +1,7 @@
 """The commands of docs/networking.md, run as they are printed: each machine is a network namespace with its own folder.
 
-A match lasts 2 s at four times real time, of one robot against two, where the page has 60 s in real time. Only the
-machine of the host has the packages of the extras.
+A match lasts 2 s at four times real time, of one robot against two, where the page has 60 s in real time; 60 s where a
+coach and a recorder have to come before its end. Only the machine of the host has the packages of the extras.
 """
 
 import os
@@ -54,7 +54,7 @@ class Lab:
     """The machines of a recipe: a folder each, and the programs that were started on them."""
 
     def __init__(self, net: Network, folder: Path) -> None:
-        self.net, self.folder = net, folder
+        self.net, self.folder, self.duration = net, folder, "2"
         self.programs: list[tuple[str, Path, subprocess.Popen[bytes]]] = []
         for machine in net.names:
             (folder / machine).mkdir()
@@ -75,7 +75,7 @@ class Lab:
         assert words[0] == "touchline", f"a recipe has other commands than touchline and scp: {line}"
         if words[1] in ("match", "host"):
             words.insert(2, "small.toml")
-            words[words.index("--duration") + 1] = "2"
+            words[words.index("--duration") + 1] = self.duration
             words[words.index("--pace") + 1] = "x4"
         log = self.folder / machine / f"program{len(self.programs)}.out"
         folder = self.folder / machine
@@ -152,6 +152,7 @@ def test_a_match_whose_other_team_comes_from_a_second_machine(lab: Lab) -> None:
 
 
 def test_host_both_teams_coach_and_recorder_on_a_machine_each(lab: Lab) -> None:
+    lab.duration = "60"
     printed = follow(lab, "Every part on its own machine")
     assert "match over" in printed["host"]
     file = lab.folder / "recorder" / "final.mcap"
