@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from coach_gateway.access.roles import COACHES, TokenRole
 from schemas.errors import did_you_mean
+from schemas.messages.setup import Setup
 from schemas.side import Side
 from schemas.soccer.game import ActionName
 
@@ -35,9 +36,13 @@ _FOR_A_SIDE = frozenset(
 """Deeds that a coach may do for its own side alone."""
 
 
-def deeds_of(role: TokenRole) -> list[str]:
-    """The deeds of a role."""
-    return [deed for deed, roles in RIGHTS.items() if role in roles]
+_OF_A_REFEREE = frozenset({*(action.value for action in ActionName), "referee_seat"})
+
+
+def deeds_of(role: TokenRole, setup: Setup | None = None) -> list[str]:
+    """The deeds of a role; a free game has no referee."""
+    hidden = _OF_A_REFEREE if setup is not None and setup.free is not None else frozenset()
+    return [deed for deed, roles in RIGHTS.items() if role in roles and deed not in hidden]
 
 
 def sides_shown(role: TokenRole, *, to_all: bool) -> list[Side]:

@@ -26,11 +26,13 @@ class TeamNames:
     magenta: str = Side.MAGENTA.value
     playing: tuple[Side, ...] = tuple(Side)
     """The sides that have robots."""
-    unit: str = ""
-    """Unit of the score of a game without goals."""
+    unit: str | None = None
+    """Unit of the score of a game without goals; None for a game with goals."""
 
     @classmethod
-    def of(cls, names: Mapping[Side, str], playing: Collection[Side] = tuple(Side), unit: str = "") -> "TeamNames":
+    def of(
+        cls, names: Mapping[Side, str], playing: Collection[Side] = tuple(Side), unit: str | None = None
+    ) -> "TeamNames":
         """Two different names: a name that both teams have, or that is the other side's, gets its side."""
         shown = {side: printable(names[side]).strip() or side.value for side in Side}
         is_same = shown[Side.CYAN].casefold() == shown[Side.MAGENTA].casefold()
@@ -43,15 +45,15 @@ class TeamNames:
     def of_match(cls, config: MatchConfig) -> "TeamNames":
         """The names in a match file."""
         playing = [side for side in Side if config.robots(side)]
-        unit = config.free.unit if config.free is not None else ""
+        unit = config.free.unit if config.free is not None else None
         return cls.of({side: config.team(side).name for side in Side}, playing, unit)
 
     @classmethod
     def of_setup(cls, setup: Setup) -> "TeamNames":
         """The names that a host publishes."""
         playing = [side for side in Side if setup.teams[side].robots]
-        unit = setup.free.unit if setup.free is not None else ""
-        return cls.of({side: setup.teams[side].name for side in Side}, playing, printable(unit))
+        unit = printable(setup.free.unit) if setup.free is not None else None
+        return cls.of({side: setup.teams[side].name for side in Side}, playing, unit)
 
     def __getitem__(self, side: Side) -> str:
         return self.cyan if side is Side.CYAN else self.magenta
@@ -64,8 +66,8 @@ class TeamNames:
 
     def score(self, score: Score, value: float | None = None) -> str:
         """`Lions 2 : 0 NuBot`; the `value` of a game without goals as `score 0.25 m`."""
-        if value is not None:
-            return f"score {score_text(value, self.unit)}"
+        if value is not None or self.unit is not None:
+            return f"score {score_text(value, self.unit or '')}"
         return f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}"
 
     def in_text(self, text: str) -> str:

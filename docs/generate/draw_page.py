@@ -1,8 +1,9 @@
-"""Takes a screenshot of the page: `python docs/generate/draw_page.py ADDRESS PICTURE [WIDTH HEIGHT [WORDS]]`.
+"""Takes a screenshot of the page: `python docs/generate/draw_page.py ADDRESS PICTURE [WIDTH HEIGHT [WORDS [TRAILS]]]`.
 
 ADDRESS is printed by `touchline match --web` or `touchline replay FILE --web`. The screenshot is taken when the page's
-phase, score or event list contains WORDS, or at once without WORDS. `docs/images/page_live.png` and `page_phone.png`
-show a match with seed 9, `page_replay.png` its recording.
+phase, score or event list contains WORDS, or at once without WORDS; trails are `off`, `short` or `all`. In
+`docs/images`, `page_live.png` and `page_phone.png` show a match with seed 9, `page_replay.png` its recording, and
+`coverage.png` `examples/coverage/coverage.toml`: `ADDRESS coverage.png 1366 768 0.7 all`.
 """
 
 import os
@@ -19,7 +20,9 @@ CONTAINS = (
 )
 
 
-def main(address: str, picture: str, width: str = "1440", height: str = "900", words: str = "") -> None:
+def main(
+    address: str, picture: str, width: str = "1440", height: str = "900", words: str = "", trails: str = "short"
+) -> None:
     """Open the page, wait for the words, take the screenshot."""
     names = ("chromium-headless-shell", "chromium", "google-chrome")
     chromium = next(filter(None, map(shutil.which, names)), None)
@@ -28,6 +31,7 @@ def main(address: str, picture: str, width: str = "1440", height: str = "900", w
         browser = playwright.chromium.launch(executable_path=chromium, args=root)
         page = browser.new_page(viewport={"width": int(width), "height": int(height)})
         page.goto(address)
+        page.locator("#layer-trails").select_option(trails)
         deadline = time.monotonic() + PATIENCE_S
         while not (page.evaluate(DRAWN) and page.evaluate(CONTAINS, words)):
             if time.monotonic() > deadline:
@@ -39,6 +43,6 @@ def main(address: str, picture: str, width: str = "1440", height: str = "900", w
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (3, 5, 6):
+    if len(sys.argv) not in (3, 5, 6, 7):
         sys.exit(__doc__)
     main(*sys.argv[1:])

@@ -62,7 +62,7 @@ def log_entry(event: GameEvent, log_ns: int) -> bytes:
 def _score_text(state: GameState, setup: Setup) -> str:
     """The score, in the order of the teams' names on the board; that of a free game with its unit."""
     if setup.free is not None:
-        return score_text(state.value, setup.free.unit) if state.value is not None else "–"
+        return score_text(state.value, setup.free.unit)
     sides = (Side.CYAN, Side.MAGENTA) if state.cyan_attacks > 0 else (Side.MAGENTA, Side.CYAN)
     return " : ".join(str(state.score.of(side)) for side in sides)
 

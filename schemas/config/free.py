@@ -88,9 +88,9 @@ class FreeConfig(ConfigModel):
         return self
 
 
-def score_text(value: float, unit: str) -> str:
-    """A score with its unit, for people: `0.25 m`."""
-    return f"{value:.6g} {unit}".rstrip()
+def score_text(value: float | None, unit: str) -> str:
+    """A score with its unit, for people: `0.25 m`; a dash before the first tick."""
+    return f"{value:.6g} {unit}".rstrip() if value is not None else "–"
 
 
 def with_program(content: dict[str, Any], where: str, folders: Iterable[Path]) -> dict[str, Any]:

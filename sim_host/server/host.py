@@ -7,6 +7,7 @@ from runtime.bus.contract import Bus, PresenceKind, ReceivedMessage
 from runtime.process.timing import PARTING_S
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
+from schemas.errors import TouchlineError
 from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import ActionName
@@ -79,11 +80,19 @@ class Host:
         bus.declare_alive(PresenceKind.HOST, "host")
 
     def run(self) -> None:
-        """Play the match to its end, or until `stop` is called."""
+        """Play the match to its end, or until `stop` is called.
+
+        Raises:
+            TouchlineError: the score of a free game failed; all ticks before are recorded.
+        """
         self.wait_for_all()
         self.begin()
-        while not (self.simulation.over or self.stopping):
-            self.tick()
+        try:
+            while not (self.simulation.over or self.stopping):
+                self.tick()
+        except TouchlineError:
+            self.wait_for_recorders()
+            raise
         self.wait_for_recorders()
 
     def stop(self) -> None:

@@ -69,9 +69,10 @@ def _place(
     if not request.place:
         raise TouchlineError("no body to place is named; name a robot or the ball")
     movable = layout.movable
+    other = "the ball" if BALL in movable else "an obstacle that can be pushed"
     for one in request.place:
         if one.body not in movable:
-            raise TouchlineError(f"{one.body} is neither a robot nor the ball; {did_you_mean(one.body, movable)}")
+            raise TouchlineError(f"{one.body} is neither a robot nor {other}; {did_you_mean(one.body, movable)}")
         if one.body != BALL and (one.z is not None or one.vz):
             raise TouchlineError(f"{one.body} stands on the ground; z and vz are for the ball")
         if one.body == BALL and one.z is not None and one.z < specs.ball.radius:

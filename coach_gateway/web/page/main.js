@@ -102,7 +102,7 @@ match.on("welcome", () => {
   show(byId("token-form"), match.role === "spectator");
 });
 byId("help-open").addEventListener("click", () => byId("help").showModal());
-byId("keys").append(...KEYS.map(([keys, does]) => element("div", {}, element("dt", {}, keys), element("dd", {}, does))));
+byId("keys").append(...KEYS.map(([keys, does, of]) => element("div", { class: of }, element("dt", {}, keys), element("dd", {}, does))));
 
 /** For tests, and for the console of the browser. */
 window.touchline = { match, pitchCanvas, connection, selection, layers, manualControl };

@@ -71,7 +71,7 @@ class PageBroadcaster:
             match=self._bus.match,
             setup=feed.setup,
             live=feed.live,
-            deeds=rights.deeds_of(role),
+            deeds=rights.deeds_of(role, feed.setup),
             beliefs=self._beliefs_of(role),
             debug=self._own_sides(role),
             orders=self._own_sides(role),

@@ -1,10 +1,14 @@
 """Roles × deeds: the whole table, and which robots a coach may command."""
 
+from pathlib import Path
+
 import pytest
 
 from coach_gateway.access.rights import RIGHTS, deeds_of, refusal, sides_shown
 from coach_gateway.access.roles import TokenRole
+from schemas.messages.setup import Setup
 from schemas.side import Side
+from support.free_match import free_match
 
 ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
 OWN = ("repair", "substitute", "enter", "name_robot")
@@ -71,3 +75,11 @@ def test_what_is_a_team_s_own_is_shown_to_it_and_to_the_referee(
     role: TokenRole, to_all: bool, sides: list[Side]
 ) -> None:
     assert sides_shown(role, to_all=to_all) == sides
+
+
+def test_a_free_game_has_no_deeds_of_a_referee(tmp_path: Path) -> None:
+    match = free_match(tmp_path)
+    setup = Setup.of(match, match.load_profile(), match.load_rule_book())
+    left = {"order", "drive", "read_parameters", "parameters", "scene", "replay"}
+    assert set(deeds_of(TokenRole.REFEREE, setup)) == left
+    assert set(deeds_of(TokenRole.CYAN, setup)) == {"order", "drive", "read_parameters"}

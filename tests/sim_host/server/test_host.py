@@ -1,13 +1,16 @@
 """The same match again: on the bus, without one, and with another seed."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 
 from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
 from schemas.messages.world import World
-from schemas.topics import APPLIED, WORLD, WORLD_BALL, WORLD_ROBOT
+from schemas.topics import APPLIED, RECORD_BATCH, WORLD, WORLD_BALL, WORLD_ROBOT
 from support.brisk import BRISK
+from support.free_match import free_match
 from touchline.play.play_match import play_match
 
 SHIPPED = {
@@ -66,3 +69,13 @@ def test_single_bodies_are_published_as_in_the_world_of_the_same_tick(rig_of):
     assert frames and ball_frames
     assert all(frame.robot in world_at[frame.tick].robots.values() for frame in frames)
     assert all(frame.ball == world_at[frame.tick].ball for frame in ball_frames)
+
+
+def test_a_score_that_fails_ends_the_match_with_all_ticks_before_it_sent_to_recorders(rig_of, tmp_path: Path) -> None:
+    faulty = "def count(now):\n    return 1 / (now.tick - 11)\n"
+    rig = rig_of(**free_match(tmp_path, faulty).model_dump())
+    batches = rig.listen(RECORD_BATCH)
+    rig.join_all()
+    with pytest.raises(TouchlineError, match=r"ZeroDivisionError: .* \(tally.py, line 2\) at tick 11"):
+        rig.host.run()
+    assert batches.all()[-1].tick == 10

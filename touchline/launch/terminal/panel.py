@@ -75,9 +75,9 @@ def head(setup: Setup, state: GameState | None) -> Text:
     """Teams and score, clock, half and phase, the referee's proposal, robots that teams have to name."""
     names = TeamNames.of_setup(setup)
     if state is None:
-        return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for the robots")
+        return Text(f"{' – '.join(names[side] for side in names.playing)}  waiting for the robots")
     phase = (phase_text(state, names), Style(bold=True))
-    if state.value is not None:
+    if names.unit is not None:
         score = (f" {names.score(state.score, state.value)} ", Style(bold=True))
         return Text.assemble(score, f"  {clock_text(state.clock)}  ", phase)
     line = Text.assemble(

@@ -80,6 +80,8 @@ def play_in_process(planned: PlannedMatch, watch: HangWatch) -> Outcome:
 
 def reason_of(match: InProcessMatch, error: BaseException) -> str:
     """One line for an exception in a match: robot, tick, file and line, as far as they are known."""
+    if match.acting is None and isinstance(error, TouchlineError):
+        return str(error)  # of the score of a free game
     who = f"{match.acting}, tick {match.simulation.now.tick}: " if match.acting is not None else ""
     return f"{who}{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
 

@@ -92,7 +92,7 @@ export class Buttons {
   stop(source = byId("stop")) {
     const { match } = this;
     if (match.may("stop")) return this.#ask(source, { text: "Stop", action: "stop" });
-    if (match.may("order", match.role)) return this.#ask(source, { text: `Hold ${match.role}`, order: "hold", side: match.role });
+    if (match.role !== "referee" && match.may("order", match.role)) return this.#ask(source, { text: `Hold ${match.role}`, order: "hold", side: match.role });
     return null;
   }
 
@@ -118,20 +118,20 @@ export class Buttons {
       const why = this.why(row);
       button.disabled = why !== null;
       button.title = why ?? (row.press === onHold ? "hold it down for a second" : "");
-      show(button, match.may(deedOf(row), row.side ?? null));
+      show(button, match.may(deedOf(row), row.side ?? null) && (!row.side || match.sides.includes(row.side)));
     }
     for (const group of this.#groups) show(group, [...group.querySelectorAll("[data-action]")].some((button) => !button.hidden));
     if (match.setup !== null) {
       for (const side of ["cyan", "magenta"]) {
         for (const name of document.querySelectorAll(`[data-team=${side}]`)) setText(name, match.setup.teams[side].name);
-        for (const head of document.querySelectorAll(`.heads .${side}`)) show(head, match.may("order", side));
+        for (const head of document.querySelectorAll(`.heads .${side}`)) show(head, match.may("order", side) && match.sides.includes(side));
       }
     }
     const robots = match.robots.filter((name) => match.may("repair", match.sideOf(name)));
     offer(byId("robot"), [["", "none chosen"], ...robots.map((name) => [name, name])]);
     const chosen = robots.includes(selection.robot) ? selection.robot : "";
     if (byId("robot").value !== chosen) byId("robot").value = chosen;
-    show(byId("stop"), match.live && (match.may("stop") || match.may("order", match.role)));
+    show(byId("stop"), match.live && (match.may("stop") || (match.role !== "referee" && match.may("order", match.role))));
     byId("stop").disabled = !match.hostThere; // enabled while a referee box commands the match, too: a stop is always accepted
   }
 

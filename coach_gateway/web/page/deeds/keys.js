@@ -14,8 +14,8 @@ export const KEYS = [
   [", .", "recording: one frame back or forward"],
   ["w a s d, arrows", "driving: ahead, left, back, right"],
   ["q e", "driving: turn left, turn right"],
-  ["z", "driving: dribbler on or off"],
-  ["k l", "driving: kick along the ground, lob"],
+  ["z", "driving: dribbler on or off", "of-soccer"],
+  ["k l", "driving: kick along the ground, lob", "of-soccer"],
   ["enter", "press the button, or switch the box, that has the focus"],
 ];
 const FRAME_S = 0.02;

@@ -3,6 +3,7 @@
 import { drawBeliefs, drawPasses } from "./beliefs.js";
 import { drawDrawings } from "./drawings.js";
 import { drawDistances } from "./distances.js";
+import { drawFloor } from "./floor.js";
 import { fillGoals, writeTeams } from "./goals.js";
 import { drawGhost, drawMarkedRobot, drawObstacle, drawVelocity } from "./marked_bodies.js";
 import { Readings } from "./readings.js";
@@ -72,7 +73,8 @@ export class PitchCanvas {
     projection.resize(this.#moving);
     document.documentElement.style.setProperty("--ratio", String(projection.ratio));
     const context = projection.resize(this.#ground);
-    drawGrass(context, projection, pitch);
+    drawGrass(context, projection, pitch, match.free !== null);
+    if (match.free) return drawFloor(context, projection, pitch, match.free.zones);
     fillGoals(context, projection, pitch, defends);
     drawLines(context, projection, pitch);
     writeTeams(context, projection, pitch, teams, defends);
@@ -97,8 +99,10 @@ export class PitchCanvas {
       });
     }
     if (layers.roles) this.#labelRobots(context, world);
-    if (layers.velocities) drawVelocity(context, projection, world.ball, BALL_VELOCITY);
-    drawBall(context, projection, world.ball, match.setup.ball.radius);
+    if (world.ball) {
+      if (layers.velocities) drawVelocity(context, projection, world.ball, BALL_VELOCITY);
+      drawBall(context, projection, world.ball, match.setup.ball.radius);
+    }
     if (layers.drawings !== "none") drawDrawings(context, projection, match, layers.drawings);
     if (selection.dragged) drawGhost(context, projection, selection.dragged);
   }

@@ -40,7 +40,7 @@ export class Drag {
     if (!match.live) return "this is a recording";
     if (!match.may(action ? "place_ball" : "scene")) return "only the referee places bodies";
     if (action && match.refbox.connected) return "the referee box commands the match";
-    if (action || byId("freely").checked || !match.state?.running) return null;
+    if (action || match.free || byId("freely").checked || !match.state?.running) return null;
     return "the game is running; stop it first, or place freely (Settings)";
   }
 
@@ -136,7 +136,7 @@ export class Drag {
     if (world === null) return null;
     let nearest = null, least = REACH_PX;
     const robots = Object.entries(world.robots).map(([name, robot]) => [name, inPicture(projection, robot, this.match.radiusOf(name))]);
-    for (const [body, { x, y }] of [["ball", world.ball], ...robots]) {
+    for (const [body, { x, y }] of [...(world.ball ? [["ball", world.ball]] : []), ...robots]) {
       const off = Math.hypot(projection.x(x) - left, projection.y(y) - top) - (body === "ball" ? 3 : 0);
       if (off < least) [nearest, least] = [body, off];
     }

@@ -60,7 +60,7 @@ export class Layers {
 
   /** Offers nothing, all, each side and each robot; a choice that is not offered now is kept for later. */
   #offer(match, name, shown) {
-    const sides = match.setup === null ? [] : shown;
+    const sides = match.setup === null ? [] : shown.filter((side) => match.sides.includes(side));
     const robots = match.robots.filter((robot) => sides.includes(match.sideOf(robot)));
     const options = [
       ["none", "nothing"],

@@ -5,6 +5,8 @@ import { drawRobot, drawnRadius, inPicture } from "../shared/bodies.js";
 import { circle, line, write } from "../shared/shapes.js";
 import { numberOf } from "../parts/text.js";
 
+const FIXED = { fill: "#9d978b", edge: "#3a352a" };
+const MOVABLE = { fill: "#f4ead2", edge: "#3a352a" };
 const AHEAD_S = 0.5; // how far a line of velocity leads
 
 /** One robot; `look` has whether it is selected, and whether it holds the ball. */
@@ -31,13 +33,13 @@ export function drawVelocity(context, projection, body, colour) {
   line(context, projection, body, { x: body.x + AHEAD_S * body.vx, y: body.y + AHEAD_S * body.vy });
 }
 
-/** A body that stands on the pitch and is not a robot. */
-export function drawObstacle(context, projection, obstacle) {
+/** A body that stands on the pitch and is not a robot; one that can be pushed is lighter. */
+export function drawObstacle(context, projection, obstacle, look = obstacle.pushed ? MOVABLE : FIXED) {
   context.save();
   context.translate(projection.x(obstacle.x), projection.y(obstacle.y));
   context.rotate(projection.angle(obstacle.heading));
-  context.fillStyle = "#c9c2b4";
-  context.strokeStyle = "#3a352a";
+  context.fillStyle = look.fill;
+  context.strokeStyle = look.edge;
   context.lineWidth = 1.5;
   const wide = projection.length(obstacle.size_x, 4), high = projection.length(obstacle.size_y, 4);
   context.beginPath();

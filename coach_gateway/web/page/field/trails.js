@@ -22,7 +22,7 @@ export class Trails {
     if (world.episode !== this.#episode || world.time < this.#time) this.#ways.clear();
     this.#episode = world.episode;
     this.#time = world.time;
-    this.#step("ball", world.ball, world.time);
+    if (world.ball) this.#step("ball", world.ball, world.time);
     for (const [name, robot] of Object.entries(world.robots)) this.#step(name, robot, world.time);
   }
 

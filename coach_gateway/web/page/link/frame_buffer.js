@@ -62,9 +62,10 @@ export class FrameBuffer {
     if (before === undefined || after.time <= before.time) return after;
     const share = (time - before.time) / (after.time - before.time);
     const reach = JUMP_M + FASTEST * (after.time - before.time);
-    const robots = {};
-    for (const [name, robot] of Object.entries(after.robots)) robots[name] = mixed(before.robots[name], robot, share, reach);
-    return { ...after, time, robots, ball: mixed(before.ball, after.ball, share, reach) };
+    const between = (earlier, later) =>
+      Object.fromEntries(Object.entries(later ?? {}).map(([name, body]) => [name, mixed(earlier?.[name], body, share, reach)]));
+    const obstacles = between(before.obstacles, after.obstacles), robots = between(before.robots, after.robots);
+    return { ...after, time, robots, obstacles, ball: after.ball && mixed(before.ball, after.ball, share, reach) };
   }
 }
 

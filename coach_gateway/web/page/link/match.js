@@ -1,5 +1,6 @@
 // The match as the gateway sends it: what is known, and handlers for changes.
 
+import { freeScore } from "../parts/text.js";
 import { FrameBuffer } from "./frame_buffer.js";
 
 const MOST_EVENTS = 5000;
@@ -99,6 +100,23 @@ export class Match {
     const listed = this.setup ? ["cyan", "magenta"].flatMap((side) => this.setup.teams[side].robots) : [];
     const there = this.frames.newest?.robots ?? {};
     return [...listed, ...Object.keys(there).filter((name) => !listed.includes(name))];
+  }
+
+  /** The game `free`: its unit and zones; null in soccer. */
+  get free() {
+    return this.setup?.free ?? null;
+  }
+
+  /** The sides that play: in a free game one may have no robots. */
+  get sides() {
+    return ["cyan", "magenta"].filter((side) => this.free === null || this.setup.teams[side].robots.length > 0);
+  }
+
+  /** `2 : 1`, or the score of a free game with its unit. */
+  get scoreText() {
+    const { state, free } = this;
+    if (state === null) return free ? "–" : "– : –";
+    return free ? freeScore(state.value, free.unit) : `${state.score.cyan} : ${state.score.magenta}`;
   }
 
   /** Whether this role may do a deed; `side` is the side it is for, or null. */

@@ -32,8 +32,8 @@ export class Coach {
   update() {
     const { match } = this;
     if (match.setup === null) return;
-    const sides = ["cyan", "magenta"].filter((side) => match.may("order", side));
-    const shown = sides.length ? sides : ["cyan", "magenta"];
+    const sides = match.sides.filter((side) => match.may("order", side));
+    const shown = sides.length ? sides : match.sides;
     offer(byId("order-side"), shown.map((side) => [side, match.setup.teams[side].name]));
     const robots = [["", "none"], ...match.setup.teams[this.side].robots.map((name) => [name, name])];
     for (const key of ["robot_a", "robot_b"]) offer(this.#inputs[key].select, robots);

@@ -11,7 +11,7 @@ const LINES = [
   ["intention", "intends", ({ word }) => word?.intention ?? ""],
   ["pose", "at", ({ body }) => (body ? `${placeText(body)} ${degreeText(body.heading)}` : "")],
   ["speed", "speed", ({ body }) => (body ? `${metres(Math.hypot(body.vx, body.vy))} m/s` : "")],
-  ["ball", "ball", ({ body, ball, holds }) => (holds ? "held" : body ? `${metres(Math.hypot(ball.x - body.x, ball.y - body.y))} m away` : "")],
+  ["ball", "ball", ({ body, ball, holds }) => (holds ? "held" : body && ball ? `${metres(Math.hypot(ball.x - body.x, ball.y - body.y))} m away` : "")],
   ["battery", "battery", ({ word }) => batteryWords(word?.extra?.battery)],
   ["latency", "replies in", ({ health }) => (health?.latency_ms ? `${health.latency_ms.toFixed(1)} ms` : "")],
   ["missed", "missed", ({ health }) => (health?.missed ? `${health.missed} of ${health.answers + health.missed}` : "")],
@@ -35,7 +35,7 @@ export class Panels {
     if (match.setup === null) return;
     if (match.robots.join() !== this.#robots) this.#lay();
     for (const [name, panel] of this.#panels) this.#fill(name, panel);
-    if (this.pitchCanvas.world) setText(byId("ball-says"), ballWords(this.pitchCanvas.world));
+    if (this.pitchCanvas.world?.ball) setText(byId("ball-says"), ballWords(this.pitchCanvas.world));
   }
 
   #lay() {

@@ -42,13 +42,13 @@ export class Result {
     if (setup === null || state === null) return;
     const goals = goalsOf(events, state.score);
     for (const side of SIDES) {
-      setText(byId(`result-${side}`), setup.teams[side].name);
+      setText(byId(`result-${side}`), match.sides.includes(side) ? setup.teams[side].name : "");
       byId(`${side}-scorers`).replaceChildren(...goals.filter((goal) => goal.side === side).map(({ robot, clock }) =>
         element("li", {}, `${robot ?? "goal"} ${clockText(clock)}`)));
     }
     const shootOut = state.shoot_out?.goals ?? state.shoot_out;
     const penalties = shootOut ? ` (${shootOut.cyan} : ${shootOut.magenta} on penalties)` : "";
-    setText(byId("result-score"), `${state.score.cyan} : ${state.score.magenta}${penalties}`);
+    setText(byId("result-score"), match.scoreText + penalties);
     const counted = COUNTS.map(([name, counts]) => [name, ...SIDES.map((side) =>
       String(events.filter((event) => event.side === side && counts(event)).length))]);
     byId("result-figures").tBodies[0].replaceChildren(...(result?.figures.length ? result.figures : counted).map(([name, cyan, magenta]) =>

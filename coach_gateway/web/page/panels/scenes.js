@@ -20,7 +20,7 @@ export class Scenes {
     const may = match.live && match.may("scene") && match.hostThere;
     offer(byId("scene"), Object.keys(match.scenes).map((name) => [name, name.replaceAll("_", " ")]));
     setText(byId("scene-says"), match.scenes[byId("scene").value] ?? "");
-    offer(byId("place-body"), [["ball", "ball"], ...match.robots.map((name) => [name, name])]);
+    offer(byId("place-body"), [...(match.free ? [] : [["ball", "ball"]]), ...match.robots.map((name) => [name, name])]);
     for (const id of ["scene", "scene-load", "scene-reset", "match-reset", "freely"]) byId(id).disabled = !may;
     for (const id of ["place-body", "place-x", "place-y", "place-heading", "place"]) byId(id).disabled = !may && !match.may("place_ball");
   }

@@ -17,18 +17,20 @@ export class Scoreboard {
     this.#notice();
     if (match.setup === null) return;
     const { teams } = match.setup;
-    document.title = `${teams.cyan.name} – ${teams.magenta.name}`;
-    setText(byId("cyan-name"), teams.cyan.name);
-    setText(byId("magenta-name"), teams.magenta.name);
+    document.title = match.sides.map((side) => teams[side].name).join(" – ");
+    for (const side of ["cyan", "magenta"]) {
+      setText(byId(`${side}-name`), teams[side].name);
+      show(byId(`${side}-name`).parentElement, match.sides.includes(side));
+    }
     const { state } = match;
     this.#announce(state, teams);
-    setText(byId("score"), state ? `${state.score.cyan} : ${state.score.magenta}` : "– : –");
+    setText(byId("score"), match.scoreText);
     setText(byId("phase"), state ? phaseText(state, teams) : "Not begun");
     byId("phase").dataset.side = state?.side ?? "";
     const heard = this.connection.up && !this.connection.silent && match.hostThere;
     mark(byId("phase"), "running", heard && state?.running === true);
     setText(byId("half"), state ? halfText(state) : "");
-    setText(byId("left"), state?.left !== null && state?.left !== undefined ? `${Math.ceil(state.left)} s left` : "");
+    setText(byId("left"), typeof state?.left === "number" && state.phase !== "full_time" ? `${Math.ceil(state.left)} s left` : "");
     setText(byId("people"), state ? disciplineLine(state) : "");
     byId("people").title = byId("people").textContent;
   }

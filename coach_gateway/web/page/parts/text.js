@@ -35,6 +35,9 @@ export function phaseText(state, teams) {
   return words.join(", ");
 }
 
+/** A score of a free game with six digits and its unit; a dash before the first tick. */
+export const freeScore = (value, unit) => (typeof value === "number" ? `${Number(value.toPrecision(6))} ${unit}`.trim() : "–");
+
 /** `Half 1`, `Extra time, half 3`, or `Penalties 4 : 3`. */
 export function halfText(state) {
   if (state.stage === "shoot_out" && state.shoot_out) {

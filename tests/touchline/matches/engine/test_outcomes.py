@@ -1,6 +1,7 @@
 """How planned matches end, and whose fault it is if they do not."""
 
 import os
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 
 from schemas.config.match_config import MatchConfig
 from schemas.side import Side
+from support.free_match import free_match
 from support.process_story import descendants, is_running, wait_for
 from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
@@ -191,3 +193,13 @@ def command_line(pid: int) -> str:
         return Path(f"/proc/{pid}/cmdline").read_text()
     except OSError:
         return ""
+
+
+def test_a_match_whose_score_fails_has_failed_by_nobody_s_fault(folder: Path, tmp_path: Path) -> None:
+    config = free_match(
+        tmp_path, "def count(now):\n    return now.nothing\n", **{"teams.cyan.brain": "planned_brains:Forward"}
+    )
+    outcome = play(PlannedMatch(config, brain_folder=folder, logs=tmp_path / "logs"))
+    assert isinstance(outcome, Failed) and outcome.culprit is None
+    line = """free.score is "tally:count"; it raised AttributeError: .*'nothing' \\(tally.py, line 2\\) at tick 1"""
+    assert re.fullmatch(line, outcome.reason)
