@@ -5,6 +5,7 @@ every field of a match file.
 """
 
 import csv
+import html
 import json
 import re
 from pathlib import Path
@@ -51,7 +52,7 @@ def text_of(page: Path) -> list[str]:
     """The words of a report, without pictures and versions."""
     body = page.read_text("utf-8").partition("<h2>Versions</h2>")[0]
     without_pictures = re.sub(r"<(svg|style)\b.*?</\1>", " ", body, flags=re.DOTALL)
-    return re.sub(r"<[^>]*>", " ", without_pictures).split()
+    return html.unescape(re.sub(r"<[^>]*>", " ", without_pictures)).split()
 
 
 @pytest.mark.long
