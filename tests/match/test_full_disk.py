@@ -13,7 +13,7 @@ from recordings.reading.recording import open_recording
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-FULL = 180_000
+FULL = 220_000
 """Most bytes of a file: what a full disk does, by size."""
 MATCH = """
 name = "full"
