@@ -1,4 +1,4 @@
-"""Draws robots and ball on the pitch, and the trails of moving bodies."""
+"""Draws robots, ball and obstacles on the floor, and the trails of moving bodies."""
 
 import math
 import re
@@ -8,16 +8,18 @@ from itertools import pairwise
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, Polygon, Rectangle
 
+from schemas.config.obstacle import Shape
 from schemas.frames import Point
 from schemas.messages.setup import Setup
-from schemas.messages.world import BallTruth, World
+from schemas.messages.world import BallTruth, ObstacleTruth, World
 from schemas.side import Side
 
 COLOURS = {Side.CYAN: "#22c3dd", Side.MAGENTA: "#e0389a"}
 _EDGES = {Side.CYAN: "#073b45", Side.MAGENTA: "#4a0730"}
 _BALL = "#ffb000"
+_OBSTACLE = "#5d6470"
 _ROBOT_SCALE = 1.9
 """Scale at which robots are drawn: in true size, their numbers would be unreadable."""
 _BALL_SCALE = 1.6
@@ -28,6 +30,8 @@ _JUMP_M = 1.0
 def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float) -> None:
     """Draw the last of `worlds`, with trails through the others; `scale` is inches on paper per metre."""
     now = worlds[-1]
+    for obstacle in now.obstacles.values():
+        _obstacle(axes, obstacle, scale)
     sides = setup.sides
     for name, robot in now.robots.items():
         if robot.off_field is not None or name not in sides:
@@ -58,6 +62,18 @@ def _trail(axes: Axes, way: Sequence[Point], colour: str, width: float) -> None:
             zorder=2.5,
         )
     )
+
+
+def _obstacle(axes: Axes, obstacle: ObstacleTruth, scale: float) -> None:
+    """Draw an obstacle in true size."""
+    x, y = obstacle.x, obstacle.y
+    look = {"facecolor": _OBSTACLE, "edgecolor": "#23272e", "lw": 2.0 * scale, "zorder": 2.8}
+    if obstacle.shape is Shape.CYLINDER:
+        axes.add_patch(Circle((x, y), obstacle.radius, **look))
+        return
+    corner = x - obstacle.size_x / 2, y - obstacle.size_y / 2
+    turned = math.degrees(obstacle.heading)
+    axes.add_patch(Rectangle(corner, obstacle.size_x, obstacle.size_y, angle=turned, rotation_point="center", **look))
 
 
 def _robot(axes: Axes, place: Point, heading: float, radius: float, side: Side, number: str, scale: float) -> None:

@@ -1,8 +1,12 @@
-"""Draws the pitch: grass, lines, areas and goals, in m in the field frame."""
+"""Draws the pitch of soccer, or the floor of a free game, in m in the field frame."""
+
+import math
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
-from matplotlib.patches import Arc, Rectangle
+from matplotlib.patches import Arc, Circle, Rectangle
 
+from schemas.config.free import Zone
 from schemas.config.sections import Pitch
 
 _GRASS = "#2f6f4e"
@@ -11,12 +15,14 @@ _SURROUND = "#275c41"
 _LINE = "#eef4ef"
 _NET = "#d7e0da"
 _STRIPES = 11
+_ZONE = {"facecolor": "#7fe3fa26", "edgecolor": "#c7d8cf", "lw": 1.3, "zorder": 1}
 
 
 def draw_pitch(axes: Axes, pitch: Pitch) -> None:
     """Draw the pitch below everything else, x to the right and y up, and set the limits of the axes to it."""
     half_x, half_y = pitch.goal_line, pitch.touch_line
     _ground(axes, pitch)
+    _limits(axes, pitch)
     _box(axes, -half_x, -half_y, pitch.length, pitch.width)
     axes.plot([0, 0], [-half_y, half_y], color=_LINE, lw=1.3, zorder=1)
     _arc(axes, 0, 0, pitch.centre_circle_radius, 0, 360)
@@ -24,9 +30,28 @@ def draw_pitch(axes: Axes, pitch: Pitch) -> None:
         axes.plot([x], [y], "o", color=_LINE, ms=1.8, zorder=1)
     for sign in (-1, 1):
         _end(axes, pitch, sign)
+
+
+def draw_floor(axes: Axes, pitch: Pitch, zones: Sequence[Zone]) -> None:
+    """Draw the floor of a free game, with its zones and their names, and set the limits of the axes to it."""
+    _ground(axes, pitch)
+    _limits(axes, pitch)
+    _box(axes, -pitch.goal_line, -pitch.touch_line, pitch.length, pitch.width)
+    for zone in zones:
+        x, y = zone.place
+        if zone.size is None:
+            axes.add_patch(Circle((x, y), zone.radius or 0.0, **_ZONE))
+        else:
+            wide, high = zone.size
+            angle, corner = math.degrees(zone.heading), (x - wide / 2, y - high / 2)
+            axes.add_patch(Rectangle(corner, wide, high, angle=angle, rotation_point="center", **_ZONE))
+        axes.text(x, y, zone.name, color=_LINE, fontsize=9, ha="center", va="center", zorder=1.1)
+
+
+def _limits(axes: Axes, pitch: Pitch) -> None:
     margin_x = pitch.border + pitch.goal_depth * 0.2
-    axes.set_xlim(-half_x - margin_x, half_x + margin_x)
-    axes.set_ylim(-half_y - pitch.border, half_y + pitch.border)
+    axes.set_xlim(-pitch.goal_line - margin_x, pitch.goal_line + margin_x)
+    axes.set_ylim(-pitch.touch_line - pitch.border, pitch.touch_line + pitch.border)
     axes.set_aspect("equal")
     axes.set_axis_off()
 
