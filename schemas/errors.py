@@ -8,6 +8,13 @@ class TouchlineError(Exception):
     """Invalid input or a broken environment; shown as one line, exit status 2."""
 
 
+class NoBallError(TouchlineError):
+    """The ball of a game without one was asked for."""
+
+    def __init__(self) -> None:
+        super().__init__("this game has no ball")
+
+
 class MatchFailedError(Exception):
     """The input was valid and the match failed; shown as one line, exit status 1."""
 

@@ -13,7 +13,7 @@ from schemas.config.obstacle import ObstacleConfig, Shape
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.roster import RosterEntry
-from schemas.errors import TouchlineError
+from schemas.errors import NoBallError
 from schemas.frames import Pose
 from schemas.side import Side
 
@@ -107,13 +107,6 @@ class BallState(NamedTuple):
     vx: float
     vy: float
     vz: float
-
-
-class NoBallError(TouchlineError):
-    """The ball of a game without one was asked for."""
-
-    def __init__(self) -> None:
-        super().__init__("this game has no ball")
 
 
 class Pushed(NamedTuple):

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from schemas.config.obstacle import Shape
 from schemas.config.sensors.table import Reading
-from schemas.errors import TouchlineError
+from schemas.errors import NoBallError
 from schemas.side import Side
 from schemas.soccer.game import OffField
 from schemas.wire.message import WITHOUT_SENSORS, Message, Name
@@ -128,10 +128,10 @@ class World(Message):
         """The ball of a game that has one.
 
         Raises:
-            TouchlineError: the game has none.
+            NoBallError: the game has none.
         """
         if self.ball is None:
-            raise TouchlineError("this game has no ball")
+            raise NoBallError
         return self.ball
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
+from schemas.errors import NoBallError
 from schemas.frames import wrap
 from sim_host.physics.bodies import NO_TURN, BodyMaker, upright
 from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Gap
@@ -21,7 +22,7 @@ from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.pitch import SOCCER, Furniture
 from sim_host.physics.pushables import Pushable, inertia
 from sim_host.physics.vectors import FieldTwist, Vector
-from sim_host.snapshot import BALL, BallState, NoBallError, ObstacleState, RobotState, RobotStates, Roster
+from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster
 
 _ITERATIONS = 200
 """Maximum of the solver; with Bullet's 50, two robots press a ball, of a hundredth of their mass, into their hulls."""
