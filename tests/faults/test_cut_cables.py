@@ -13,6 +13,8 @@ SECOND = 50
 """Ticks of a second."""
 BACK = 3 * SECOND
 """Ticks in which all robots play again; 50 on a machine of its own, and more where tests share the processor."""
+CLOSED = 10 * SECOND
+"""Ticks that Zenoh may take to close a link with unsent data, see docs/decisions.md: without load it takes none."""
 REST = 13
 """Ticks in which a robot at 0.6 m/s is at rest: 0.25 s, and the tick in which its last command arrives."""
 
@@ -25,14 +27,14 @@ def restore(match: Match) -> None:
     match.net.impair("cyan", LinkConditions())
 
 
-@pytest.mark.parametrize("seconds", [3, pytest.param(15, marks=pytest.mark.long)])
-def test_all_robots_of_a_team_play_again_after_a_cut(match: Match, seconds: int) -> None:
+@pytest.mark.parametrize(("seconds", "back"), [(3, BACK), pytest.param(15, BACK + CLOSED, marks=pytest.mark.long)])
+def test_all_robots_of_a_team_play_again_after_a_cut(match: Match, seconds: int, back: int) -> None:
     """Also after 8 s, four times as long as the agents wait for a host that is gone."""
     restore(match)
     match.until_playing(*CYAN, since=match.log.tick)
     answers = match.log.robot("magenta1").answers
     first, last = match.after_fault(lambda: cut(match), seconds * SECOND, lambda: restore(match))
-    assert match.until_playing(*CYAN, since=last) - last <= BACK
+    assert match.until_playing(*CYAN, since=last) - last <= back
     assert match.log.robot("magenta1").answers - answers > (last - first) / 2, "the other team plays on"
 
 
