@@ -9,7 +9,7 @@ import signal
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, Protocol
 
-from coach_gateway.timing import HOST_SEARCH_S
+from coach_gateway.timing import HOST_RETRY_S
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus, BusError
 from runtime.bus.settings import ClientSettings
@@ -75,7 +75,7 @@ class _Connected:
 
         def join() -> Bus:
             account = Account.OPERATOR  # it officiates, and gives the orders of both coaches
-            return open_client(client.match, WallClock(), client.connect, HOST_SEARCH_S, client.credentials, account)
+            return open_client(client.match, WallClock(), client.connect, HOST_RETRY_S, client.credentials, account)
 
         try:
             bus = await asyncio.to_thread(join)

@@ -4,10 +4,9 @@ POLL_S = 0.01
 """Between two polls of the bus, or of who is due: half a tick of the host."""
 REPLY_S = 3.0
 """For a reply of the host: a busy one replies between two ticks."""
-HOST_SEARCH_S = 1.0
-"""One attempt to find a host; attempts follow each other, so that this is how soon a signal ends the process."""
 HOST_RETRY_S = 0.5
-"""Until a host that did not reply is queried again."""
+"""One attempt to find a host, which is how soon a signal ends the process; until one that did not reply is queried
+again."""
 STATE_SETTLES_S = 0.2
 """Without another state, the last one is the newest: a host's cache may deliver the oldest first."""
 CATCH_UP_S = 1.0
@@ -21,16 +20,11 @@ PAGE_ALIVE_S = 0.5
 """Between two signs of life to pages; a page shows a silent connection after 1.4 s."""
 RELOAD_S = 3.0
 """A page that was closed may come again, as one does that is loaded anew."""
-PAGE_TOKEN_S = 1.0
-"""For the token of a page that comes when all places are taken; a page sends it first of all."""
-PAGE_CLOSING_S = 1.0
-"""To tell a page why it is closed; it may read nothing."""
-PING_S = 10.0
-"""Between two WebSocket pings to a page, and until one must be answered."""
-KEEP_ALIVE_S = 5
-"""For another request on an HTTP connection."""
-SHUTDOWN_S = 1
-"""For responses that are in progress when the server ends."""
+FIRST_MESSAGE_S = 1.0
+"""For what a client sends first of all: the token of a page that comes when all places are taken, the name of a base
+station. Some base stations wait for the welcome before they send anything."""
+CLOSING_S = 1
+"""To tell a page why it is closed, and for responses that are in progress when the server ends: it may read nothing."""
 
 UNREAD_S = 10.0
 """A connection is closed whose other side has read nothing for this long: of pages, and to a referee box."""
@@ -40,15 +34,10 @@ SILENCE_S = 5.0
 BOX_PERIOD_S = 0.05
 """Between two world states to a referee box, and two datagrams of the audience feed. The league's box sends the feed as
 often; it requires ten world states a second."""
-BOX_CONNECT_S = 5.0
-"""One attempt to connect to a referee box."""
-BOX_FIRST_PAUSE_S, BOX_LONGEST_PAUSE_S = 0.25, 5.0
-"""Before the next attempt, doubled each time up to the longest. After a link on which the box has sent something, the
-first pause applies again."""
+BOX_FIRST_PAUSE_S, BOX_CONNECT_S = 0.25, 5.0
+"""Between two attempts to connect to a referee box, doubled each time; and one attempt, as well as the longest pause.
+After a link on which the box has sent something, the first pause applies again."""
 START_AGAIN_S = 0.1
 """Between two repetitions of START."""
-HELLO_S = 1.0
-"""A base station that has not identified itself is welcomed without an address: some software waits for the welcome
-before it sends anything."""
 WORLD_STATE_S = 1.0
 """A base station's world state is replaced by ours in the audience feed when it is older."""

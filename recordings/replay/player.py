@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
-from recordings.timing import GROWTH_S
+from recordings.timing import POLL_S
 from runtime.process.clock import Clock
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
@@ -136,7 +136,7 @@ class Player:
         if self._steps or self.ended:
             return 0.0
         message = self._next()
-        return GROWTH_S if message is None else self._playback.wait(message.log_ns, self._clock.now())
+        return POLL_S if message is None else self._playback.wait(message.log_ns, self._clock.now())
 
     def republish_latched(self) -> None:
         """Publish the latched messages again, for listeners that arrived later."""
@@ -192,7 +192,7 @@ class Player:
         self._steps = 0
         now = self._clock.now()
         if self._follow and not self._cursor.finished and self._cursor.peek() is None:
-            if now - self._checked_at >= GROWTH_S:
+            if now - self._checked_at >= POLL_S:
                 self._checked_at = now
                 self._cursor.grow()
             self._playback = self._playback.moved(self._position_ns, now)

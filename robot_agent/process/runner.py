@@ -7,11 +7,12 @@ from robot_agent.loading.brain_error import BrainError, RobotError
 from robot_agent.loading.brain_reload import BrainReload
 from robot_agent.process.claim import Membership
 from robot_agent.process.settings import FIRST_SIGHT_FAILED
-from robot_agent.process.timing import IDLE_S, SETUP_REPLY_S
+from robot_agent.process.timing import IDLE_S
 from robot_agent.sdk.contract import Brain
 from runtime.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp
 from runtime.bus.host_watch import HostWatch
 from runtime.process.process_log import Level, log_line
+from runtime.process.timing import REPLY_S
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup, SetupRequest
@@ -106,7 +107,7 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
     deadline = clock.now() + patience
     while True:
         try:
-            setup: Setup = bus.query(SETUP, SetupRequest(), timeout=SETUP_REPLY_S).result(SETUP_REPLY_S + 0.5)
+            setup: Setup = bus.query(SETUP, SetupRequest(), timeout=REPLY_S).result(REPLY_S + 0.5)
         except (RefusedQueryError, BadMessageError) as error:
             raise TouchlineError(f"match {bus.match}: refused by the host: {error}") from None
         except NoReplyError as error:

@@ -2,8 +2,6 @@
 
 IDLE_S = 0.25
 """Without a sight, until the host is looked for; also the longest wait for an answer of a program of lines."""
-SETUP_REPLY_S = 1.0
-"""For a reply to one query for the setup."""
 CLAIM_REPLY_S = 4.0
 """For a reply to a claim: the host replies at once, or after the link of an earlier agent has expired."""
 PROGRAM_SILENT_S = 1.0
@@ -13,6 +11,5 @@ ACT_S = 30.0
 REPORT_S = 0.05
 """Between two lines without a command that are sent to the host, which limits a flood of them."""
 PROGRAM_ENDS_S = 0.5
-"""For a program to end after its input has ended, and again after SIGTERM."""
-OWN_SIGNAL_S = 0.3
-"""For a signal that has ended a program to interrupt this process, too, where it was sent to both."""
+"""For a program to end after its input has ended, and again after SIGTERM; for a signal that has ended it to interrupt
+this process, too, where it was sent to both."""

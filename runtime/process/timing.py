@@ -19,7 +19,7 @@ PROBE_S = 0.3
 CONNECT_S = 1.0
 """For a connection that shows why no host admits a client: longer than one packet that is lost and sent again takes."""
 REPLY_S = 1.0
-"""For the reply of a router to a query for tokens."""
+"""For a reply: of a router to a query for tokens, of a host to a robot's query for the setup."""
 SLICE_S = 0.2
 """A client that waits for a host asks after this time again whether it is to stop."""
 WAKE_AGAIN_S = 0.05

@@ -154,7 +154,7 @@ def test_bridges_need_no_web_server() -> None:
 
 
 def test_a_gateway_that_waits_for_a_host_ends_on_a_signal(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(service, "HOST_SEARCH_S", 0.1)
+    monkeypatch.setattr(service, "HOST_RETRY_S", 0.1)
     endpoint, logged = with_free_port("tcp/127.0.0.1:0"), list[str]()
 
     def end(line: str) -> None:

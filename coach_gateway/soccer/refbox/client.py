@@ -22,7 +22,6 @@ from coach_gateway.soccer.refbox.signal_queue import BoxSignal, SignalQueue
 from coach_gateway.timing import (
     BOX_CONNECT_S,
     BOX_FIRST_PAUSE_S,
-    BOX_LONGEST_PAUSE_S,
     BOX_PERIOD_S,
     START_AGAIN_S,
     UNREAD_S,
@@ -82,14 +81,14 @@ class RefBoxClient:
                     reported = True
                     self._log(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying again")
                 await pause(stop, wait)
-                wait = min(2 * wait, BOX_LONGEST_PAUSE_S)
+                wait = min(2 * wait, BOX_CONNECT_S)
                 continue
             reported, received = False, self.counts["received"]
             await self._run_connection(reader, writer, stop)
             if self.counts["received"] > received:
                 wait = BOX_FIRST_PAUSE_S
             await pause(stop, wait)
-            wait = min(2 * wait, BOX_LONGEST_PAUSE_S)
+            wait = min(2 * wait, BOX_CONNECT_S)
 
     async def _connect(self, stop: asyncio.Event) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         """Connect to the box, unless `stop` is set first.

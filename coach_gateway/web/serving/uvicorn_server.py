@@ -5,7 +5,7 @@ import logging
 import uvicorn
 from starlette.types import ASGIApp
 
-from coach_gateway.timing import KEEP_ALIVE_S, PING_S, SHUTDOWN_S
+from coach_gateway.timing import CLOSING_S
 
 MAX_MESSAGE_BYTES = 65_536
 """A longer message of a page ends its connection."""
@@ -31,10 +31,7 @@ def web_server(app: ASGIApp, most_pages: int) -> uvicorn.Server:
             server_header=False,
             limit_concurrency=most_pages + _LOADING,
             ws_max_size=MAX_MESSAGE_BYTES,
-            ws_ping_interval=PING_S,
-            ws_ping_timeout=PING_S,
             h11_max_incomplete_event_size=_MAX_HEADER_BYTES,
-            timeout_keep_alive=KEEP_ALIVE_S,
-            timeout_graceful_shutdown=SHUTDOWN_S,
+            timeout_graceful_shutdown=CLOSING_S,
         )
     )

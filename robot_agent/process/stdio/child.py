@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from robot_agent.process.stdio.lines import Line, LineSplitter
-from robot_agent.process.timing import OWN_SIGNAL_S, PROGRAM_ENDS_S
+from robot_agent.process.timing import PROGRAM_ENDS_S
 from runtime.process.leash import leashed
 from schemas.messages.command import Command
 
@@ -80,7 +80,7 @@ class Child:
 
     def ending(self) -> str:
         """How the program ended whose output has ended: `ended with status 3`."""
-        select.poll().poll(OWN_SIGNAL_S * 1e3)
+        select.poll().poll(PROGRAM_ENDS_S * 1e3)
         try:
             status = self._popen.wait(PROGRAM_ENDS_S)
         except subprocess.TimeoutExpired:

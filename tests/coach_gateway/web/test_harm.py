@@ -180,8 +180,7 @@ def test_a_deaf_page_that_goes_on_asking_is_dropped_before_it_fills_the_memory(
 def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(listener, "UNREAD_S", 600.0)  # however long the other page takes, this one is let be
-    monkeypatch.setattr(uvicorn_server, "PING_S", 600.0)
+    monkeypatch.setattr(listener, "UNREAD_S", 600.0)  # however long the other page takes
     gateway = gateway_of()
     narrow = socket.socket()
     narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
