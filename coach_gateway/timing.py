@@ -2,8 +2,6 @@
 
 POLL_S = 0.01
 """Between two polls of the bus, or of who is due: half a tick of the host."""
-REPLY_S = 3.0
-"""For a reply of the host: a busy one replies between two ticks."""
 HOST_RETRY_S = 0.5
 """One attempt to find a host, which is how soon a signal ends the process; until one that did not reply is queried
 again."""

@@ -9,11 +9,9 @@ RESEND_S = 0.05
 PRESENCE_S = 0.005
 """Between two checks for agents that have joined or left."""
 HEALTH_S = 0.25
-"""Between two reports on health."""
+"""Between two reports on health, and two updates of the accounts' limits."""
 AVERAGING_S = 1.0
 """The real-time factor is averaged over this time."""
-ACCOUNTS_S = 0.1
-"""Between two updates of the accounts' limits."""
 FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
 """The host stays for its watchers after full time: missed messages of the end show with the bus's next heartbeat, and
 can be fetched as long as the host is running."""

@@ -5,8 +5,9 @@ from typing import Any, TypeVar
 from coach_gateway.access.referee_name import gateway_name
 from coach_gateway.match.orders import OrderFollower, Receipt
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
-from coach_gateway.timing import POLL_S, REPLY_S
+from coach_gateway.timing import POLL_S
 from runtime.bus.contract import Bus, NoReplyError, PresenceKind, Publisher
+from runtime.process.timing import REQUEST_S
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
 from schemas.messages.setup import Setup, SetupRequest
@@ -25,7 +26,7 @@ M = TypeVar("M", RefereeAction, SeatRequest)
 class HostClient:
     """One client of a match's host."""
 
-    def __init__(self, bus: Bus, patience: float = REPLY_S, referee: str | None = None) -> None:
+    def __init__(self, bus: Bus, patience: float = REQUEST_S, referee: str | None = None) -> None:
         """`referee` is the name under which it officiates; by default its connection's, which is present with it.
 
         A client that closes its connection after each request needs a name of its own, to keep the referee's seat.

@@ -16,10 +16,11 @@ PROBE_EVERY_S = 1.0
 """Between two checks whether the network is cut."""
 PROBE_S = 0.3
 """A machine that does not answer a probe for this time is cut off: its clients have nothing else to do meanwhile."""
-CONNECT_S = 1.0
-"""For a connection that shows why no host admits a client: longer than one packet that is lost and sent again takes."""
 REPLY_S = 1.0
-"""For a reply: of a router to a query for tokens, of a host to a robot's query for the setup."""
+"""For a reply: of a router to a query for tokens, of a host to a robot's query for the setup, of a machine to a
+connection that shows why no host admits a client. It is longer than one packet that is lost and sent again takes."""
+REQUEST_S = 3.0
+"""For a reply of a host to what a person requests: a busy one replies between two ticks."""
 SLICE_S = 0.2
 """A client that waits for a host asks after this time again whether it is to stop."""
 WAKE_AGAIN_S = 0.05
@@ -34,15 +35,16 @@ packets ever more rarely: only a new attempt notices at once that the network is
 four round trips at 0.1 s of delay each way."""
 RETRY_FROM_MS, RETRY_TO_MS = 20, 100
 """Between two attempts to connect again, which becomes longer."""
-HALF_OPEN_MS = 2000
-"""Half-open connections make room after this time."""
+HALF_OPEN_MS = round(LEASE_S * 1000)
+"""Half-open connections make room after as long as a broken link."""
 CONGESTION_US = 1_000_000
 """A client has to make room for data that must not be dropped within this time; then its link is closed, and it may
 connect again."""
 GIVE_UP_S = 20.0
 """Without progress for this time, missing batches are given up; a link recovers in less."""
 PARTING_S = 5.0
-"""A host or a replay waits at its end for its recorders to receive the last tick."""
+"""For the last messages of a match: a host or a replay waits at its end for its recorders, a launcher for those of a
+host whose process has ended, since a busy machine is late."""
 SUSPENDED_S = 0.5
 """Most time between two readings of a clock that counts; the rest is taken for a suspension of the process."""
 CORE_WAIT_S = 0.25

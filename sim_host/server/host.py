@@ -23,7 +23,7 @@ from sim_host.server.reports.host_reports import HostReports
 from sim_host.server.reports.outbox import Outbox
 from sim_host.server.services import Services
 from sim_host.server.services.referee_seat import RefereeSeat
-from sim_host.timing import ACCOUNTS_S, FULL_TIME_GRACE_S
+from sim_host.timing import FULL_TIME_GRACE_S, HEALTH_S
 
 
 class Host:
@@ -211,7 +211,7 @@ class Host:
     def _update_accounts(self) -> None:
         """Count what the bus has refused, and allow all accounts the messages of the wall time that has passed."""
         now = self._clock.now()
-        if now - self._accounts_updated_at >= ACCOUNTS_S:
+        if now - self._accounts_updated_at >= HEALTH_S:
             self.accounts.add_refusals(self._bus.refusals.pop())
             self.accounts.pass_time(now - self._accounts_updated_at)
             self._accounts_updated_at = now

@@ -6,6 +6,7 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
+from runtime.process.timing import REQUEST_S
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.wire.part import encode
 from touchline.commands import orders
@@ -14,7 +15,6 @@ from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client
 from touchline.commands.cli.option_groups import with_option_groups
 from touchline.commands.serve import serve
-from touchline.timing import HOST_S
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -38,7 +38,7 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
 
     with bus_client(connection, Account.REFEREE) as bus:
         follower = MatchFollower(bus)
-        found = follower.wait_for_state(HOST_S)
+        found = follower.wait_for_state(REQUEST_S)
         names = HostClient(bus).team_names()
     if found is None and follower.health is not None:
         there = sum(robot.alive for robot in follower.health.robots.values())

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from runtime.bus.settings import ClientSettings
+from runtime.process.timing import REQUEST_S
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client
 from touchline.commands.cli.option_groups import with_option_groups
-from touchline.timing import HOST_S
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -75,7 +75,7 @@ def health(
     from touchline.commands.diagnosis.health.live import LiveLedgers
 
     with bus_client(connection) as bus:
-        ledgers = LiveLedgers(bus, HOST_S)
+        ledgers = LiveLedgers(bus, REQUEST_S)
         if not watch:
             _show(ledgers.newest(), json=json)
             return

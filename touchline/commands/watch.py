@@ -13,11 +13,12 @@ from coach_gateway.match.host_client import HostClient
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus, PresenceKind
 from runtime.bus.settings import ClientSettings
+from runtime.process.timing import REQUEST_S
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.setup import Setup
 from touchline.commands.cli.bus_client import bus_client
 from touchline.commands.cli.option_groups import with_option_groups
-from touchline.timing import HOST_S, REFRESH_S
+from touchline.timing import REFRESH_S
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -64,9 +65,9 @@ def watch_lines(bus: Bus, log: Callable[[str], None]) -> None:
 
     seen, before = MatchFollower(bus), None
     bus.declare_alive(PresenceKind.COACH, "watch")
-    if not seen.host.wait(HOST_S):
+    if not seen.host.wait(REQUEST_S):
         raise TouchlineError(f'match "{bus.match}": no host plays it there; name the match with --match')
-    names = HostClient(bus, HOST_S).team_names()
+    names = HostClient(bus, REQUEST_S).team_names()
     while not seen.gone:
         news = seen.update()
         for event in news.events:
@@ -91,11 +92,11 @@ def watch_on(bus: Bus, console: "Console", robot: str | None = None) -> None:
 
     from touchline.launch.terminal.panel import panel
 
-    client, seen = HostClient(bus, HOST_S), MatchFollower(bus, details=True)
+    client, seen = HostClient(bus, REQUEST_S), MatchFollower(bus, details=True)
     drawings, host_changes = DebugFollower(bus), 0
     setup, episode = client.setup(), 0
     _check_robot(robot, setup)
-    seen.host.wait(HOST_S)
+    seen.host.wait(REQUEST_S)
     bus.declare_alive(PresenceKind.COACH, "watch")
     with Live(console=console, auto_refresh=False) as live:
         going = True

@@ -25,7 +25,7 @@ from touchline.launch.processes.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.processes.supervisor import ending
 from touchline.launch.run_folder import RUNS
 from touchline.launch.team_error import TeamError
-from touchline.timing import BUILD_NOTICE_S, BUILD_S
+from touchline.timing import BUILD_NOTICE_S, HANG_S
 
 _FAULT = "touchline: brain is "
 """What the line of a faulty brain begins with."""
@@ -94,7 +94,7 @@ class _BuildCheck:
         self.side = side
         self._key = f"teams.{side.value}.brain"
         self._brain = config.team(side).brain
-        self._patience = max(config.patience.attendance, BUILD_S) * max(len(config.robots(side)), 1)
+        self._patience = max(config.patience.attendance, HANG_S) * max(len(config.robots(side)), 1)
         beside = brain_folder.absolute() if brain_folder is not None else None
         settings = BuildCheckSettings(config=config, side=side, brain_folder=beside, launch_folder=Path.cwd())
         file = folder / f"{side.value}.json"

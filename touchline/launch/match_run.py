@@ -17,6 +17,7 @@ from runtime.bus.outcome_file import read_outcome
 from runtime.bus.zenoh.bus import open_client
 from runtime.process.clock import Clock
 from runtime.process.settings_file import WRONG
+from runtime.process.timing import PARTING_S
 from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
@@ -34,7 +35,7 @@ from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
 from touchline.launch.team_error import TeamLeftError
 from touchline.launch.terminal.screen import Screen
-from touchline.timing import LAST_MESSAGES_S, PAGE_CLOSES_S, POLL_S, WATCH_S
+from touchline.timing import PAGE_CLOSES_S, POLL_S, WATCH_S
 
 if TYPE_CHECKING:
     from coach_gateway.web.pages.protocol import ResultUpdate
@@ -159,7 +160,7 @@ class MatchRun:
             while self._poll_processes(stop):
                 self._match_screen.update(follower)
                 self._clock.sleep_until(self._clock.now() + POLL_S)
-            deadline = self._clock.now() + LAST_MESSAGES_S
+            deadline = self._clock.now() + PARTING_S
             while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
                 self._clock.sleep_until(self._clock.now() + WATCH_S)
             self._match_screen.update(follower)

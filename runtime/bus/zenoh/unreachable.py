@@ -7,7 +7,7 @@ import socket
 
 from runtime.access.credentials import Credentials
 from runtime.bus.endpoint import parse_endpoint
-from runtime.process.timing import CONNECT_S
+from runtime.process.timing import REPLY_S
 
 
 def why_unreachable(connect: str, credentials: Credentials | None = None) -> str:
@@ -22,7 +22,7 @@ def why_unreachable(connect: str, credentials: Credentials | None = None) -> str
         )
     if protocol in ("tcp", "tls", "ws"):
         try:
-            socket.create_connection((str(addresses[0][4][0]), port), timeout=CONNECT_S).close()
+            socket.create_connection((str(addresses[0][4][0]), port), timeout=REPLY_S).close()
         except TimeoutError:
             return (
                 f"--connect {connect}: nothing answers there, not even with a refusal; is the address right, and does "

@@ -4,7 +4,7 @@ from runtime.access.accounts import Account
 from runtime.bus.contract import Bus
 from runtime.bus.settings import ClientSettings
 from runtime.process.clock import WallClock
-from touchline.timing import HOST_S
+from runtime.process.timing import REQUEST_S
 
 
 def bus_client(connection: ClientSettings, account: Account = Account.VIEWER) -> Bus:
@@ -15,4 +15,4 @@ def bus_client(connection: ClientSettings, account: Account = Account.VIEWER) ->
     """
     from runtime.bus.zenoh.bus import open_client
 
-    return open_client(connection.match, WallClock(), connection.connect, HOST_S, connection.credentials, account)
+    return open_client(connection.match, WallClock(), connection.connect, REQUEST_S, connection.credentials, account)

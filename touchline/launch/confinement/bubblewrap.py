@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from schemas.errors import TouchlineError
-from touchline.timing import BUBBLEWRAP_S
+from touchline.timing import PROGRAM_S
 
 NOBODY = 65534
 """Id of the user and the group that robots have in place of root. Root in bubblewrap could leave it, and what belongs
@@ -45,12 +45,10 @@ def check_bubblewrap(visible: Iterable[Path], hidden: Iterable[Path], user: int 
         probe = [*bubblewrap(Path(folder), visible, hidden), "true"]
         try:
             tried = subprocess.run(
-                probe, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=BUBBLEWRAP_S, **run_as(user)
+                probe, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PROGRAM_S, **run_as(user)
             )
         except subprocess.TimeoutExpired:
-            raise TouchlineError(
-                f"--isolate bubblewrap: bwrap does not start a program in {BUBBLEWRAP_S:g} s"
-            ) from None
+            raise TouchlineError(f"--isolate bubblewrap: bwrap does not start a program in {PROGRAM_S:g} s") from None
     if tried.returncode != 0:
         reason = (tried.stderr.strip().splitlines() or ["no reason given"])[-1]
         remedy = "allow user namespaces, or use none"

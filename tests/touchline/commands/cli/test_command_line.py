@@ -133,7 +133,7 @@ def test_wrong_input_gives_one_line_with_the_remedy_and_status_2(
     case: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("touchline.commands.cli.bus_client.HOST_S", 0.0)
+    monkeypatch.setattr("touchline.commands.cli.bus_client.REQUEST_S", 0.0)
     words, remedy = WRONG[case]
     result = touchline(*words)
     assert result.exit_code == 2

@@ -7,6 +7,7 @@ from coach_gateway.match.host_client import HostClient
 from runtime.bus.contract import Bus
 from runtime.bus.zenoh.bus import ZenohBus
 from runtime.bus.zenoh.round_trip import round_trips_s
+from runtime.process.timing import REQUEST_S
 from schemas.config.match_config import LOCKSTEP
 from schemas.errors import TouchlineError
 from schemas.messages.health import Health
@@ -15,7 +16,7 @@ from schemas.topics import HEALTH, WORLD
 from schemas.wire.message import VERSION, BadMessageError
 from touchline.commands.diagnosis.doctor.clock_offset import ClockOffset, clock_offset
 from touchline.commands.diagnosis.doctor.finding import Finding, Status
-from touchline.timing import HOST_S, LISTEN_S
+from touchline.timing import EXAMINE_S
 
 _ROUND_TRIPS = 50
 _OFFSET_S = 0.1
@@ -25,7 +26,7 @@ _OFFSET_S = 0.1
 def examine_link(bus: ZenohBus) -> Iterator[Finding]:
     """The findings on a host that has accepted this client."""
     try:
-        setup = HostClient(bus, HOST_S).setup()
+        setup = HostClient(bus, REQUEST_S).setup()
     except (BadMessageError, TouchlineError) as error:
         yield _no_setup(bus, error)
         return
@@ -98,7 +99,7 @@ def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
     """The newest report on the host's health, and times of sending and arrival of its messages, in ns."""
     subscriptions = [bus.subscribe(HEALTH, history=True), bus.subscribe(WORLD)]
     newest, stamps = None, []
-    until = bus.clock.now() + LISTEN_S
+    until = bus.clock.now() + EXAMINE_S
     while bus.clock.now() < until:
         for subscription in subscriptions:
             received = subscription.receive(0.01)
