@@ -77,11 +77,11 @@ def in_hull(body: RobotBody, at: complex) -> bool:
     return abs(at) <= body.radius or in_frame
 
 
-def marched(simulation: Simulation, robot: str, bearing: float, reach: float) -> float | None:
+def marched(simulation: Simulation, robot: str, bearing: float, reach: float, place: complex = 0.1) -> float | None:
     """Distance along a beam of the range finder, by steps of 1 mm, to the first point within something."""
     world = simulation.now.world
     own = world["robots"][robot]
-    eye = complex(own["x"], own["y"]) + 0.1 * complex(math.cos(own["heading"]), math.sin(own["heading"]))
+    eye = complex(own["x"], own["y"]) + place * complex(math.cos(own["heading"]), math.sin(own["heading"]))
     way = complex(math.cos(own["heading"] + bearing), math.sin(own["heading"] + bearing))
     others = [
         (model.body, complex(one["x"], one["y"]), complex(math.cos(one["heading"]), math.sin(one["heading"])))
@@ -116,6 +116,55 @@ def test_each_beam_has_the_distance_of_the_first_body_on_it(play) -> None:
             assert reading.distances[beam] == (None if expected is None else approx(expected, abs=0.002)), (robot, beam)
             hits += expected is not None
     assert 10 < hits < 4 * 8
+
+
+@pytest.mark.parametrize(
+    ("beams", "span", "heading"),
+    [(37, math.tau, 0.0), (24, math.tau, 2.0), (1, 0.0, -3.0), (1, 0.0, 3.1), (2, 6.2, 1.0)],
+)
+def test_beams_all_round_and_single_ones_meet_bodies_at_the_seam_of_the_span(play, beams, span, heading) -> None:
+    numbers = {"beams": (beams, "1"), "span": (span, "rad"), "heading": (heading, "rad"), "y": (-0.2, "m")}
+    front = sensor("front", "range", max_distance=(9.0, "m"), **numbers)
+    one = play(front, obstacles=[BOX, POST], **{"teams.cyan.types": {"cyan3": "keeper"}})
+    step(one, 40)
+    for robot in one.roster.names:
+        reading = sensed(one, robot)["front"]
+        assert reading.angle_min == approx(heading + (span / beams - span) / 2)
+        for beam in range(0, beams, 3):
+            bearing = reading.angle_min + beam * reading.angle_increment
+            expected = marched(one, robot, bearing, 9.0, place=-0.2j)
+            assert reading.distances[beam] == (None if expected is None else approx(expected, abs=0.002)), (robot, beam)
+
+
+def test_beams_pass_over_what_is_lower_and_meet_the_slice_of_a_ball_at_their_height(play) -> None:
+    common = {"span": (0.0, "rad"), "beams": (1, "1"), "max_distance": (30.0, "m")}
+    wall = '[field]\nboundary_height = { value = 0.5, unit = "m", origin = "test" }\n'
+    probe = play(wall)
+    field, low, radius = probe.profile.field, 0.6, probe.profile.ball.radius
+    one = play(
+        wall
+        + sensor("top", "range", **common, height=(field.boundary_height, "m"))
+        + sensor("over", "range", **common, height=(field.boundary_height + 0.01, "m"))
+        + sensor("crate", "range", **common, height=(low, "m"))
+        + sensor("air", "range", **common, height=(low + 0.001, "m"))
+        + sensor("ball", "range", **common, height=(radius + 0.05, "m")).rstrip()
+        + '\nball = { value = "seen", origin = "test" }\n',
+        obstacles=[{**BOX, "place": [8.0, -4.0], "heading": 0.0, "size": [0.6, 0.9, 0.6]}],
+    )
+    place = [
+        {"body": "cyan2", "x": 3.0, "y": 5.2, "heading": 0.0},
+        {"body": "cyan3", "x": 5.0, "y": -4.0, "heading": 0.0},
+        {"body": "ball", "x": 4.0, "y": 5.2},
+    ]
+    assert one.handle_scene(validated(SceneRequest, {"operation": SceneOperation.PLACE, "place": place})).accepted
+    one.step({})
+    clear, boxed = sensed(one, "cyan2"), sensed(one, "cyan3")
+    assert clear["top"].distances == [approx(field.goal_line + field.border - 3.0, abs=1e-3)] and clear[
+        "over"
+    ].distances == [None]
+    assert boxed["crate"].distances[0] == approx(8.0 - 0.3 - 5.0, abs=1e-3)
+    assert boxed["air"].distances[0] != approx(8.0 - 0.3 - 5.0, abs=0.1)
+    assert clear["ball"].distances == [approx(1.0 - math.sqrt(radius**2 - 0.05**2), abs=2e-3)]
 
 
 def test_beams_have_noise_dropouts_and_a_rate_and_readings_grow_older(play) -> None:
@@ -153,6 +202,46 @@ def test_a_compass_shows_the_heading_in_the_field_frame_with_its_errors(play) ->
         assert sensed(one, name)["north"].heading == approx(robot["heading"], abs=1e-4)
         error = sensed(one, name)["bent"].heading - robot["heading"]
         assert math.remainder(error - 0.5, math.tau) == approx(0.0, abs=0.5) and error != 0.5
+
+
+def test_the_error_of_a_compass_wanders_from_knot_to_knot(play) -> None:
+    one = play(sensor("bent", "compass", drift=(0.1, "rad"), drift_time=(0.2, "s")))
+    errors: dict[str, list[float]] = {name: [] for name in one.roster.names}
+    for _ in range(81):
+        for name, robot in one.now.world["robots"].items():
+            errors[name].append(math.remainder(sensed(one, name)["bent"].heading - robot["heading"], math.tau))
+        step(one, 1)
+    for error in errors.values():
+        for knot in range(0, 80, 10):
+            between = 0.5 * math.pi * 0.3  # three of ten ticks later
+            expected = math.cos(between) * error[knot] + math.sin(between) * error[knot + 10]
+            assert error[knot + 3] == approx(expected, abs=5e-4)
+    at_knots = [error[knot] for error in errors.values() for knot in range(0, 81, 10)]
+    assert math.sqrt(sum(error**2 for error in at_knots) / len(at_knots)) == approx(0.1, rel=0.25)
+
+
+def test_a_bumper_feels_with_the_frame_of_its_hull_and_no_farther(play) -> None:
+    one = play(
+        sensor("bumper", "contact", sectors=(8, "1"), gap=(0.03, "m")),
+        obstacles=[{**POST, "radius": 0.05}],
+        **{"teams.cyan.types": {"cyan1": "keeper"}},
+    )
+    body = one.roster.models[0].body
+    corner = math.atan2(body.frame_width / 2, body.radius)
+    for bearing, gap, touched in (
+        (corner, 0.01, [1]),
+        (-corner, 0.01, [7]),
+        (corner, 0.045, []),
+        (math.pi - corner, 0.01, []),
+        (math.pi, 0.01, []),
+    ):
+        away = math.hypot(body.radius, body.frame_width / 2) + 0.05 + gap
+        x, y = -5.0 - away * math.cos(bearing), -3.0 - away * math.sin(bearing)
+        place = [{"body": "cyan1", "x": x, "y": y, "heading": 0.0}]
+        assert one.handle_scene(validated(SceneRequest, {"operation": SceneOperation.PLACE, "place": place})).accepted
+        one.step({})
+        felt = sensed(one, "cyan1")["bumper"].touched
+        assert [number for number, is_touched in enumerate(felt) if is_touched] == touched, (bearing, gap)
 
 
 def test_a_bumper_feels_robots_obstacles_and_the_boundary_in_their_sectors(play) -> None:
