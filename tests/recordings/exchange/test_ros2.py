@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
@@ -149,8 +150,21 @@ def test_the_bag_has_the_profile_and_the_quality_of_service_that_ros_asks_for(ba
     assert {channel.message_encoding for channel in summary.channels.values()} == {"cdr"}
     assert {schema.encoding for schema in summary.schemas.values()} == {"ros2msg"}
     for channel in summary.channels.values():
-        offered = channel.metadata["offered_qos_profiles"]
-        assert ("best_effort" if channel.topic == "/clock" else "reliable") in offered
+        (offered,) = yaml.safe_load(channel.metadata["offered_qos_profiles"])
+        never = {"sec": 2147483647, "nsec": 4294967295}
+        is_clock = channel.topic == "/clock"
+        assert offered == {
+            "history": "keep_last",
+            "depth": 1 if is_clock else offered["depth"],
+            "reliability": "best_effort" if is_clock else "reliable",
+            "durability": "volatile",
+            "deadline": never,
+            "lifespan": never,
+            "liveliness": "automatic",
+            "liveliness_lease_duration": never,
+            "avoid_ros_namespace_conventions": False,
+        }
+        assert offered["depth"] > 1 or is_clock
     assert "storage_identifier: mcap" in (bag / "metadata.yaml").read_text()
 
 

@@ -66,6 +66,31 @@ def test_a_filtered_recording_is_summarised_with_its_keys(recorded):
     assert not {"keys", "lost on", "part", "damaged", "made"} & set(dict(summary_lines(facts_of(recorded))))
 
 
+def test_the_summary_has_all_facts_in_words_and_leaves_unknown_ones_out(recorded):
+    facts = replace(
+        facts_of(recorded), made="filtered", part=2, drawn={"/tf": 3, "/scene": 1}, damaged=["chunk 3", "index"]
+    )
+    lines = dict(summary_lines(replace(facts, missed_before_start=4)))
+    assert {name: lines[name] for name in ("made", "part", "for viewers", "damaged", "phase", "ended")} == {
+        "made": "filtered",
+        "part": "2",
+        "for viewers": "/tf /scene",
+        "damaged": "chunk 3, index",
+        "phase": "full_time",
+        "ended": "full_time",
+    }
+    assert lines["messages"].endswith("4 sent before it began") and lines["size"] == f"{facts.size} bytes"
+    told = summary_lines(replace(facts, contradictions=["two ends", "no start"]))
+    assert told[-2:] == [("contradiction", "two ends"), ("contradiction", "no start")]
+    unknown = replace(facts, score=None, seed=None, profile=None, rules=None, pace=None, phase=None, teams={}, tick=-1)
+    names = dict(
+        summary_lines(replace(unknown, part=1, made="recorded", drawn={}, damaged=[], contradictions=[]))
+    ).keys()
+    assert names == {"match", "ended", "started", "duration", "messages", "events", "size"}
+    assert dict(summary_lines(replace(unknown, tick=0)))["last tick"] == f"0 at {facts.time:.2f} s"
+    assert dict(summary_lines(replace(facts, value=0.25, unit="m")))["score"] == "0.25 m"
+
+
 def test_the_summary_names_match_teams_numbers_and_losses(recorded):
     keys = facts_of(recorded).keys
     facts = replace(facts_of(recorded), keys=[replace(keys[0], lost=3), *keys[1:]], lost=3, complete=False)

@@ -51,6 +51,20 @@ def test_each_robot_and_the_ball_have_a_frame_in_the_map():
     assert (shadow.translation.x, shadow.translation.z) == pytest.approx((1.2, 0.0), abs=STEP_M)
 
 
+def test_pushed_obstacles_have_a_frame_on_the_ground_and_a_game_without_a_ball_has_none_for_it():
+    robots = {"cyan1": {"x": 1.0, "y": 2.0, "z": 0.4, "heading": 0.0}}
+    crate = {"x": -1.5, "y": 0.25, "heading": 2.5, "pushed": {"vx": 0.0, "vy": 0.0, "omega": 0.0, "mass": 3.0}}
+    drawn = decode_world(
+        encode({"robots": robots, "obstacles": {"crate": crate, "wall": {"x": 0.0, "y": 0.0}}, "ball": None})
+    )
+    _, box = FrameTransforms.FromString(Transforms().encode(drawn, 0)).transforms
+    assert (box.child_frame_id, box.translation.z, box.rotation.x, box.rotation.y) == ("obstacle/crate", 0.0, 0.0, 0.0)
+    assert (box.translation.x, box.translation.y) == pytest.approx((-1.5, 0.25), abs=STEP_M)
+    assert 2 * math.atan2(box.rotation.z, box.rotation.w) == pytest.approx(2.5, abs=4 * STEP_M)
+    ball = FrameTransforms.FromString(Transforms().encode(world(), 0)).transforms
+    assert [(one.rotation.z, one.rotation.w) for one in ball] == [(0.0, 1.0)] * 2
+
+
 def test_transforms_are_those_of_each_world_alone():
     transforms = Transforms()
     transforms.encode(world(cyan1=(-10.2, 0.1, 0.4, 3.0), cyan2=(1.0, 1.0, 1.0, 1.0)), 8_240_000_000)

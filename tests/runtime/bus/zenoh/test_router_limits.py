@@ -12,7 +12,7 @@ from runtime.bus.endpoint import with_free_port
 from runtime.bus.zenoh.bus import open_host
 from runtime.bus.zenoh.router_limits import router_limits
 from runtime.process.clock import WallClock
-from schemas.topic import Party
+from schemas.topic import Delivery, Party
 from schemas.topics import COMMAND, ORDER, TOPICS, key_prefix
 from support.attacker import open_session
 
@@ -38,6 +38,26 @@ def test_every_message_of_the_topic_table_is_within_the_size_for_its_key() -> No
         sizes = [rule["size_limit"] for rule in LIMITS["low_pass_filter"] if key in rule["key_exprs"]]
         assert len(sizes) == 1, topic.key
         assert min(sizes) >= topic.message.max_bytes
+
+
+def test_a_command_has_a_rate_of_its_robot_and_every_other_key_one_of_its_kind() -> None:
+    rules = {(rule["id"], item["key_expr"]): item["freq"] for rule in LIMITS["downsampling"] for item in rule["rules"]}
+    assert [rule["messages"] for rule in LIMITS["downsampling"]] == [["put", "delete"], ["query"]]
+    assert {rule["flows"][0] for rule in LIMITS["downsampling"] + LIMITS["low_pass_filter"]} == {"ingress"}
+    for robot in ROBOTS:
+        assert rules["messages", PREFIX + COMMAND.fill(robot=robot)] == 200_000.0
+    assert rules["messages", PREFIX + ORDER.fill(side="cyan")] == rules["messages", PREFIX + ORDER.fill(side="magenta")]
+    assert rules["messages", PREFIX + ORDER.fill(side="cyan")] == 1000.0
+    for topic in TOPICS.values():
+        if topic.writer is not Party.HOST and topic.message is not None and topic.delivery is Delivery.QUERY:
+            keys = [
+                key for kind, key in rules if kind == "queries" and zenoh.KeyExpr(key).intersects(PREFIX + topic.fill())
+            ]
+            assert keys and {rules["queries", key] for key in keys} == {500.0}, topic.key
+        if topic.delivery is Delivery.RECOVERED:
+            caches = zenoh.KeyExpr(PREFIX + topic.fill() + "/@adv/**")
+            keys = [key for kind, key in rules if kind == "queries" and caches.intersects(key)]
+            assert keys and {rules["queries", key] for key in keys} == {200.0}, topic.key
 
 
 def test_no_two_rules_match_the_same_key() -> None:

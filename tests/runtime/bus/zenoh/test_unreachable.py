@@ -4,6 +4,8 @@ import socket
 
 import pytest
 
+from runtime.access.accounts import Account
+from runtime.access.credentials import Credentials
 from runtime.bus.contract import BusError
 from runtime.bus.zenoh.bus import open_client
 from runtime.bus.zenoh.unreachable import why_unreachable
@@ -47,3 +49,18 @@ def test_the_cause_is_told_from_how_a_connection_fails(monkeypatch, connect, wor
 
 def test_a_connectionless_endpoint_is_not_tried():
     assert "no host answers there" in why_unreachable("udp/127.0.0.1:7447")
+
+
+@pytest.mark.parametrize("account", [None, Account.RECORDER])
+def test_a_listener_that_does_not_admit_is_told_with_who_was_refused_and_what_to_do(account):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        endpoint = f"tcp/127.0.0.1:{server.getsockname()[1]}"
+        line = why_unreachable(endpoint, None if account is None else Credentials(user=account, password="x" * 16))
+    who = 'the user "recorder"' if account else "a client without credentials"
+    remedy = (
+        "check --credentials: the file must be of the host" if account else "add --credentials FILE, or set TOUCHLINE"
+    )
+    assert line.startswith(
+        f"--connect {endpoint}: what listens there does not admit {who}, or is no host that is ready; "
+    )
+    assert remedy in line and f"(`touchline health --doctor --connect {endpoint}` examines port" in line
