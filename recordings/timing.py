@@ -6,9 +6,10 @@ continues would never end."""
 NO_MATCH_S = 3.0
 """Without its match at the host for this time, a recorder reports that."""
 REPLY_S = 1.0
-"""A request to a host without a reply is repeated after this time: for its stream, for its setup, for batches."""
+"""A request to a host without a reply is repeated after this time: for its stream, for batches."""
 REPEAT_S = 0.2
-"""Between a reply without what was asked for and the next request."""
+"""Between a reply without what was asked for and the next request; until the query for the setup is repeated at first,
+doubled each time up to `REPLY_S`."""
 QUIET_S = 0.25
 """Without a batch for this time, newer ones are requested: the last batch may have been lost. At the end, without a
 message for this time, none is expected any more."""

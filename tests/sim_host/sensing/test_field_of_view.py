@@ -16,6 +16,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation
+from sim_host.sensing.view import View
 from support.scenery import Scenery, roster_of
 
 NARROW = math.radians(100.0)
@@ -114,3 +115,9 @@ def test_perfect_noise_does_not_turn_the_camera_round():
     """The view is the robot's, as its hull; presets change the noise."""
     one = scenery([NARROW], [(0, 0)], (-3.0, 0.0), sensing=PERFECT).look()[0]
     assert not one.visible
+
+
+def test_the_edge_of_the_view_belongs_to_it():
+    """With half a turn to each side, a thing at a right angle to the kick axis is exactly on the edge."""
+    half_plane, places = View(np.array([[0.0]])), np.array([[0.0 + 2.0j, -0.001 + 2.0j, 0.001 - 2.0j]])
+    assert half_plane.has(places, np.abs(places), np.array([0.0])).tolist() == [[True, False, True]]

@@ -232,6 +232,7 @@ def test_a_bumper_feels_with_the_frame_of_its_hull_and_no_farther(play) -> None:
         (corner, 0.01, [1]),
         (-corner, 0.01, [7]),
         (corner, 0.045, []),
+        (corner + 0.3, 0.01, []),
         (math.pi - corner, 0.01, []),
         (math.pi, 0.01, []),
     ):

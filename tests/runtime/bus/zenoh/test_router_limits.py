@@ -41,8 +41,9 @@ def test_every_message_of_the_topic_table_is_within_the_size_for_its_key() -> No
 
 
 def test_a_command_has_a_rate_of_its_robot_and_every_other_key_one_of_its_kind() -> None:
-    rules = {(rule["id"], item["key_expr"]): item["freq"] for rule in LIMITS["downsampling"] for item in rule["rules"]}
-    assert [rule["messages"] for rule in LIMITS["downsampling"]] == [["put", "delete"], ["query"]]
+    limits = router_limits("test", ROBOTS)
+    rules = {(rule["id"], item["key_expr"]): item["freq"] for rule in limits["downsampling"] for item in rule["rules"]}
+    assert [rule["messages"] for rule in limits["downsampling"]] == [["put", "delete"], ["query"]]
     assert {rule["flows"][0] for rule in LIMITS["downsampling"] + LIMITS["low_pass_filter"]} == {"ingress"}
     for robot in ROBOTS:
         assert rules["messages", PREFIX + COMMAND.fill(robot=robot)] == 200_000.0

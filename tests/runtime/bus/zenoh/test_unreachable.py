@@ -63,4 +63,4 @@ def test_a_listener_that_does_not_admit_is_told_with_who_was_refused_and_what_to
     assert line.startswith(
         f"--connect {endpoint}: what listens there does not admit {who}, or is no host that is ready; "
     )
-    assert remedy in line and f"(`touchline health --doctor --connect {endpoint}` examines port" in line
+    assert f"; {remedy}" in line and f"(`touchline health --doctor --connect {endpoint}` examines port" in line
