@@ -1,28 +1,33 @@
 """Wall times of recorders and replays, in s."""
 
+HOST_ANSWER_S = 2.0
+"""A request to a host that may be about to leave is repeated after this time."""
 HOST_PATIENCE_S = 10.0
 """A host that is present has this time to answer, and one that has left may have sent messages for this time: one that
 continues would never end."""
+SETUP_FIRST_S, SETUP_LONGEST_S = 0.1, 1.6
+"""Until the query for the setup is repeated: at first, and at most; the time doubles with each query."""
 NO_MATCH_S = 3.0
 """Without its match at the host for this time, a recorder reports that."""
 REPLY_S = 1.0
-"""A request to a host without a reply is repeated after this time: for its stream, for batches."""
+"""A request for batches without a reply is repeated after this time."""
 REPEAT_S = 0.2
-"""Between a reply without what was asked for and the next request; until the query for the setup is repeated at first,
-doubled each time up to `REPLY_S`."""
-QUIET_S = 0.25
-"""Without a batch for this time, newer ones are requested: the last batch may have been lost. At the end, without a
-message for this time, none is expected any more."""
+"""Between a reply without a missing batch and the next request."""
+QUIET_S = 0.5
+"""Without a batch for this time, newer ones are requested: the last batch may have been lost."""
+DRAINED_S = 0.25
+"""At the end, without a message for this time, none is expected any more."""
 REPORT_S = 0.05
 """Progress is reported, and the end of the match is looked for, after this time in any case."""
 POLL_S = 0.2
 """Longest time between two polls: the file is written, or read as it grows, at least this often."""
+RECOVERY_POLL_S = 0.01
+"""Between two polls while batches are missing."""
 FLUSH_S = 0.5
 """Messages are in the file after this time."""
 LATCHED_S = 1.0
 """A paused replay publishes the latched messages again after this time, for new listeners."""
-BUSY_POLL_S, REPLAY_STEP_S = 0.02, 0.001
-"""Longest and shortest time between two checks of a replay for queries and due messages; the longest is also between
-two polls of a recorder that misses batches."""
+REPLAY_POLL_S, REPLAY_STEP_S = 0.02, 0.001
+"""Longest and shortest time between two checks of a replay for queries and due messages."""
 RECORDER_PATIENCE_S = 1.0
 """A replay no longer waits for a recorder without progress for this time."""

@@ -11,7 +11,7 @@ from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
-from recordings.timing import HOST_PATIENCE_S, REPEAT_S, REPLY_S
+from recordings.timing import HOST_ANSWER_S, HOST_PATIENCE_S
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus, NoReplyError
 from runtime.bus.zenoh.bus import ZenohBus, open_client
@@ -44,7 +44,7 @@ def record(
     if client is None:
         return None
     with client as bus:
-        host = _stream_of_host(bus, HOST_PATIENCE_S if parts_of(settings.out) else 2 * REPLY_S)
+        host = _stream_of_host(bus, HOST_PATIENCE_S if parts_of(settings.out) else HOST_ANSWER_S)
         earlier = read_earlier_parts(settings.out, host)
         if earlier.result is not None and earlier.result.ended is EndReason.FULL_TIME:
             return RecordingSummary(earlier.files, sum(file.stat().st_size for file in earlier.files), earlier.result)
@@ -70,8 +70,10 @@ def _stream_of_host(bus: Bus, patience: float) -> int:
     limit = bus.clock.now() + patience
     while bus.clock.now() < limit:
         try:
-            payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), REPLY_S).payload(REPLY_S)
+            payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), HOST_ANSWER_S).payload(
+                HOST_ANSWER_S
+            )
             return RecordBatchesReply.decode(payload).stream
         except (NoReplyError, BadMessageError):
-            bus.clock.sleep_until(bus.clock.now() + REPEAT_S)
+            bus.clock.sleep_until(bus.clock.now() + HOST_ANSWER_S / 10)
     return 0

@@ -17,7 +17,7 @@ from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.recording_writer import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
-from recordings.timing import BUSY_POLL_S, HOST_PATIENCE_S, QUIET_S, REPORT_S
+from recordings.timing import DRAINED_S, HOST_PATIENCE_S, RECOVERY_POLL_S, REPORT_S
 from runtime.bus.contract import Bus, PresenceKind
 from runtime.bus.host_watch import HostWatch
 from runtime.process.idle_time import run_in_idle_time
@@ -91,7 +91,7 @@ class Recorder:
         run_in_idle_time(poll)
         self._host.update()
         stopped = stopped and self._host.is_reachable()
-        self.drain(QUIET_S if stopped else HOST_PATIENCE_S)
+        self.drain(DRAINED_S if stopped else HOST_PATIENCE_S)
         return self.finish(stopped)
 
     def pump(self) -> int:
@@ -106,17 +106,17 @@ class Recorder:
         return count
 
     def drain(self, patience: float) -> None:
-        """Read messages until none has arrived for `QUIET_S`, for at most `patience` s.
+        """Read messages until none has arrived for `DRAINED_S`, for at most `patience` s.
 
         Without a link, only messages that have already arrived are read.
         """
         if not self._begun:
             self._begin(None)
         limit = self._clock.now() + patience
-        quiet = self._clock.now() + QUIET_S
+        quiet = self._clock.now() + DRAINED_S
         while self._clock.now() < min(quiet, limit):
             if self.pump():
-                quiet = self._clock.now() + QUIET_S
+                quiet = self._clock.now() + DRAINED_S
             elif not self._bus.connected():
                 break
             else:
@@ -129,7 +129,7 @@ class Recorder:
         now = self._clock.now()
         until = self._poll_interval.next_poll(now, self._tick)
         if not self._batches.is_complete:
-            until = min(until, now + BUSY_POLL_S)
+            until = min(until, now + RECOVERY_POLL_S)
         while True:
             self._clock.sleep_until(min(until, now + REPORT_S))
             now = self._clock.now()

@@ -1,6 +1,6 @@
 """Queries the setup of a match from its host before a recording begins."""
 
-from recordings.timing import HOST_PATIENCE_S, REPEAT_S, REPLY_S
+from recordings.timing import HOST_PATIENCE_S, SETUP_FIRST_S, SETUP_LONGEST_S
 from runtime.bus.contract import Bus, NoReplyError, PendingReply
 from runtime.bus.host_watch import HostWatch
 from schemas.messages.setup import Setup, SetupRequest
@@ -15,7 +15,7 @@ class SetupQuery:
         self._bus, self._clock, self._host = bus, bus.clock, host
         self._pending: PendingReply | None = None
         self._sent_at = self._unanswered_since = self._clock.now()
-        self._pause = REPEAT_S
+        self._pause = SETUP_FIRST_S
         self.setup: Setup | None = None
         """The reply; None without a valid one."""
         self.is_unreadable = False
@@ -25,7 +25,7 @@ class SetupQuery:
         """Whether the host has replied, or has not replied in time; sends the query when it is due."""
         now = self._clock.now()
         if self._pending is None or now - self._sent_at >= self._pause:
-            self._pause = min(2 * self._pause, REPLY_S)
+            self._pause = min(2 * self._pause, SETUP_LONGEST_S)
             self._pending, self._sent_at = self._bus.query(SETUP, SetupRequest(), self._pause), now
         try:
             self.setup = self._pending.result(0.0)

@@ -7,7 +7,7 @@ from typing import Any
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
-from recordings.timing import BUSY_POLL_S, LATCHED_S, REPLAY_STEP_S
+from recordings.timing import LATCHED_S, REPLAY_POLL_S, REPLAY_STEP_S
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
 from runtime.process.timing import PARTING_S
@@ -64,7 +64,7 @@ class ReplayHost:
             meanwhile(self.player)
             if not published:
                 now = self._clock.now()
-                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(BUSY_POLL_S, self.player.wait())))
+                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(REPLAY_POLL_S, self.player.wait())))
         self.wait_for_recorders()
 
     def pump(self) -> int:
@@ -91,7 +91,7 @@ class ReplayHost:
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
         while self._listeners.any_behind() and self._clock.now() < deadline:
-            self._clock.sleep_until(self._clock.now() + BUSY_POLL_S)
+            self._clock.sleep_until(self._clock.now() + REPLAY_POLL_S)
             self._answer()
             self._listeners.update()
 
