@@ -20,11 +20,8 @@ _ZONE = {"facecolor": "#7fe3fa26", "edgecolor": "#c7d8cf", "lw": 1.3, "zorder": 
 
 def draw_pitch(axes: Axes, pitch: Pitch) -> None:
     """Draw the pitch below everything else, x to the right and y up, and set the limits of the axes to it."""
-    half_x, half_y = pitch.goal_line, pitch.touch_line
-    _ground(axes, pitch)
-    _limits(axes, pitch)
-    _box(axes, -half_x, -half_y, pitch.length, pitch.width)
-    axes.plot([0, 0], [-half_y, half_y], color=_LINE, lw=1.3, zorder=1)
+    draw_floor(axes, pitch, ())
+    axes.plot([0, 0], [-pitch.touch_line, pitch.touch_line], color=_LINE, lw=1.3, zorder=1)
     _arc(axes, 0, 0, pitch.centre_circle_radius, 0, 360)
     for x, y in pitch.restart_spots:
         axes.plot([x], [y], "o", color=_LINE, ms=1.8, zorder=1)
@@ -35,7 +32,11 @@ def draw_pitch(axes: Axes, pitch: Pitch) -> None:
 def draw_floor(axes: Axes, pitch: Pitch, zones: Sequence[Zone]) -> None:
     """Draw the floor of a free game, with its zones and their names, and set the limits of the axes to it."""
     _ground(axes, pitch)
-    _limits(axes, pitch)
+    margin_x = pitch.border + pitch.goal_depth * 0.2
+    axes.set_xlim(-pitch.goal_line - margin_x, pitch.goal_line + margin_x)
+    axes.set_ylim(-pitch.touch_line - pitch.border, pitch.touch_line + pitch.border)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
     _box(axes, -pitch.goal_line, -pitch.touch_line, pitch.length, pitch.width)
     for zone in zones:
         x, y = zone.place
@@ -46,14 +47,6 @@ def draw_floor(axes: Axes, pitch: Pitch, zones: Sequence[Zone]) -> None:
             angle, corner = math.degrees(zone.heading), (x - wide / 2, y - high / 2)
             axes.add_patch(Rectangle(corner, wide, high, angle=angle, rotation_point="center", **_ZONE))
         axes.text(x, y, zone.name, color=_LINE, fontsize=9, ha="center", va="center", zorder=1.1)
-
-
-def _limits(axes: Axes, pitch: Pitch) -> None:
-    margin_x = pitch.border + pitch.goal_depth * 0.2
-    axes.set_xlim(-pitch.goal_line - margin_x, pitch.goal_line + margin_x)
-    axes.set_ylim(-pitch.touch_line - pitch.border, pitch.touch_line + pitch.border)
-    axes.set_aspect("equal")
-    axes.set_axis_off()
 
 
 def _ground(axes: Axes, pitch: Pitch) -> None:
