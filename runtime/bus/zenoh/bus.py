@@ -101,7 +101,8 @@ def open_client(
     session, endpoint, known = open_connection(find, clock, patience)
     try:
         name = match_at(session, endpoint, clock, deadline) if match is None else match
-        if match is not None and match not in (others := hosts_of(session)) and others:
+        until = deadline if any_match else clock.now()  # a router accepts clients before its host is present
+        if match is not None and match not in (others := hosts_of(session, clock, until)) and others:
             if not any_match or len(others) > 1:
                 raise BusError(other_match(endpoint, match, others))
             (name,) = others

@@ -17,10 +17,9 @@ def match_at(session: zenoh.Session, connect: str, clock: Clock, deadline: float
     Raises:
         BusError: no match is played there, or more than one.
     """
-    while not (names := hosts_of(session)):
-        if clock.now() >= deadline:
-            raise BusError(f"--connect {connect}: no match is played there; start one with `touchline match`")
-        clock.sleep_until(clock.now() + POLL_S)
+    names = hosts_of(session, clock, deadline)
+    if not names:
+        raise BusError(f"--connect {connect}: no match is played there; start one with `touchline match`")
     if len(names) > 1:
         raise BusError(f"--connect {connect}: several matches are played there; choose one: --match {sorted(names)}")
     return names.pop()
@@ -32,8 +31,11 @@ def other_match(connect: str, match: str, played: set[str]) -> str:
     return f"--match {match}: the host at {connect} plays {names}; leave --match out, or give another --connect"
 
 
-def hosts_of(session: zenoh.Session) -> set[str]:
-    """The matches whose hosts are present."""
-    replies = session.liveliness().get(_ALL_HOSTS, timeout=REPLY_S)
-    keys = [str(reply.ok.key_expr) for reply in replies if reply.ok is not None]
-    return {key[_START:].partition("/")[0] for key in keys}
+def hosts_of(session: zenoh.Session, clock: Clock, deadline: float) -> set[str]:
+    """The matches whose hosts are present, queried until there is one or `deadline` is over."""
+    while True:
+        replies = session.liveliness().get(_ALL_HOSTS, timeout=REPLY_S)
+        keys = [str(reply.ok.key_expr) for reply in replies if reply.ok is not None]
+        if keys or clock.now() >= deadline:
+            return {key[_START:].partition("/")[0] for key in keys}
+        clock.sleep_until(clock.now() + POLL_S)

@@ -5,6 +5,7 @@ import socket
 import subprocess
 import sys
 import textwrap
+import threading
 import time
 
 import pytest
@@ -78,6 +79,16 @@ def test_a_client_without_a_name_joins_the_match_that_its_host_plays() -> None:
         host.declare_alive(PresenceKind.HOST, "host")
         with open_client(None, WallClock(), host.endpoint) as client:
             assert client.match == "cup"
+
+
+def test_a_client_for_any_match_waits_until_its_host_is_present() -> None:
+    """A router accepts clients before its host says what it plays; a wrong name would be kept, and heard by nobody."""
+    with open_host("cup", WallClock(), "tcp/127.0.0.1:0") as host:
+        present = threading.Timer(0.5, host.declare_alive, (PresenceKind.HOST, "host"))
+        present.start()
+        with open_client("final", WallClock(), host.endpoint, any_match=True) as client:
+            assert client.match == "cup"
+        present.join()
 
 
 def test_an_endpoint_where_no_match_is_played_is_one_line_with_the_remedy() -> None:
