@@ -7,7 +7,7 @@ QUICK_S = 0.1
 RESEND_S = 0.05
 """An unanswered sight is sent again after this time: its command may have been lost."""
 PRESENCE_S = 0.005
-"""Between two checks for agents that have joined or left."""
+"""Between two checks for agents that have joined or left, and at the end for recorders that have read all."""
 HEALTH_S = 0.25
 """Between two reports on health, and two updates of the accounts' limits."""
 AVERAGING_S = 1.0

@@ -8,8 +8,6 @@ PAGE_CLOSES_S = 1.0
 """After which the server of a page ends if it has a result and no page is open."""
 BUILD_NOTICE_S = 3.0
 """After which a wait for brains that are built is reported."""
-DASK_CONNECT_S = 10.0
-"""To reach a Dask scheduler on another machine."""
 HANG_S = 10.0
 """For which a brain may be silent in a planned match, a thousand times what a decision takes, and for it to be built
 where the match file allows less."""
@@ -17,18 +15,12 @@ HANG_RENEW_S = 0.25
 """Between two renewals of the deadline of a brain: each starts a thread."""
 EXAMINE_S = 2.0
 """For one connection or handshake that is examined, and for which a host is heard then: eight of its reports."""
-ORDER_S = 2.0
-"""For the robots to acknowledge an order, where the command does not say."""
 PROGRAM_S = 30.0
 """For a program that is checked to join, and for each of its commands: it may still load a model. For bwrap to start a
 program that does nothing, on a busy machine."""
 PROGRAM_ENDS_S = 1.5
-"""From SIGTERM to SIGKILL for a program that is checked, as in a match."""
+"""From SIGTERM to SIGKILL for robots, page and bridges after a match, and for a program that is checked."""
 REFRESH_S = 0.1
 """Between two states of what is shown on a terminal."""
-LINE_S = 5.0
-"""Between two lines of status on a stream that is no terminal."""
-ATTENDANCE_S = 86_400.0
-"""For which a host on its own waits for its robots, which people start on other machines."""
-PAGE_REFRESH_S = 4
-"""After which a page of a running cup loads itself again."""
+STATUS_S = 5
+"""Between two lines of status on a stream that is no terminal, and two looks of a page at a cup that is running."""

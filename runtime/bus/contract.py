@@ -14,6 +14,7 @@ from runtime.access.accounts import Account
 from runtime.bus.mailbox import Mailbox
 from runtime.bus.refusals import Refusals
 from runtime.process.clock import Clock
+from runtime.process.timing import REQUEST_S
 from schemas.errors import TouchlineError
 from schemas.tokens import PresenceKind as PresenceKind
 from schemas.topic import Delivery, Topic
@@ -253,7 +254,7 @@ class Bus(ABC):
 
     @abstractmethod
     def query(
-        self, topic: Topic, request: Message, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+        self, topic: Topic, request: Message, timeout: float = REQUEST_S, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
         """Send a query; it is open for `timeout` s.
 

@@ -1,17 +1,17 @@
 """Wall times of the bus and of processes, in s unless the name says otherwise."""
 
 LEASE_S = 2.0
-"""Without any data for this time, a link counts as broken."""
+"""Without any data for this time, a link counts as broken, and a half-open connection makes room."""
 HEARTBEAT_S = 0.5
 """Longest time until a subscriber of a `recovered` topic detects that it missed the newest message."""
 LINK_GRACE_S = LEASE_S + 0.5
 """Watchers tolerate a broken link for this time, and a claim waits for the end of an earlier agent."""
 RECONNECT_S = 10.0
-"""Agents and recorders wait for an unreachable host for this time before they give up the match."""
+"""An unreachable host or scheduler is waited for this long; agents and recorders then give up the match."""
 CUT_OFF_S = 3600.0
 """The same where the network to the host is cut: the match goes on there, and lasts no longer."""
 POLL_S = 0.02
-"""Between two checks for a host that is awaited."""
+"""Between two checks for a host or for robots that are awaited, and of a host that lingers at its end."""
 PROBE_EVERY_S = 1.0
 """Between two checks whether the network is cut."""
 PROBE_S = 0.3
@@ -20,23 +20,20 @@ REPLY_S = 1.0
 """For a reply: of a router to a query for tokens, of a host to a robot's query for the setup, of a machine to a
 connection that shows why no host admits a client. It is longer than one packet that is lost and sent again takes."""
 REQUEST_S = 3.0
-"""For a reply of a host to what a person requests: a busy one replies between two ticks."""
+"""For a reply of a host, or of robots to an order, to what a person requests: a busy host replies between two ticks."""
 SLICE_S = 0.2
 """A client that waits for a host asks after this time again whether it is to stop."""
 WAKE_AGAIN_S = 0.05
 """A reader that was woken and still waits is woken again."""
 FIRST_ATTEMPT_S = 0.5
-"""Length of the first attempt to connect; it doubles with each attempt. Ctrl-C takes effect between attempts."""
-LONGEST_ATTEMPT_S = 2.0
-"""For a machine that is too busy to answer at once."""
+"""Length of the first attempt to connect; it doubles with each attempt, up to `LEASE_S`: a machine may be too busy to
+answer at once. Ctrl-C takes effect between attempts."""
 HANDSHAKE_S = 0.9
 """Longest attempt to connect again. A cut network answers nothing, and an attempt that has begun then repeats its
 packets ever more rarely: only a new attempt notices at once that the network is back. It suffices for the handshake of
 four round trips at 0.1 s of delay each way."""
 RETRY_FROM_MS, RETRY_TO_MS = 20, 100
-"""Between two attempts to connect again, which becomes longer."""
-HALF_OPEN_MS = round(LEASE_S * 1000)
-"""Half-open connections make room after as long as a broken link."""
+"""Between two attempts to connect again, which becomes longer; between the first ones of a client, the longest."""
 CONGESTION_US = 1_000_000
 """A client has to make room for data that must not be dropped within this time; then its link is closed, and it may
 connect again."""

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus, PresenceKind, ReceivedMessage
-from runtime.process.timing import PARTING_S
+from runtime.process.timing import PARTING_S, POLL_S
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.errors import TouchlineError
@@ -23,7 +23,7 @@ from sim_host.server.reports.host_reports import HostReports
 from sim_host.server.reports.outbox import Outbox
 from sim_host.server.services import Services
 from sim_host.server.services.referee_seat import RefereeSeat
-from sim_host.timing import FULL_TIME_GRACE_S, HEALTH_S
+from sim_host.timing import FULL_TIME_GRACE_S, HEALTH_S, PRESENCE_S
 
 
 class Host:
@@ -115,7 +115,7 @@ class Host:
         ):
             if self.stopping:
                 return
-            self.presence.update(timeout=0.02)
+            self.presence.update(timeout=POLL_S)
             self._process_requests()
             self._reports.publish(self.simulation.now)
             self._report(self.simulation.now)
@@ -167,7 +167,7 @@ class Host:
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
         while self._clock.now() < deadline:
-            self.presence.update(timeout=0.005)
+            self.presence.update(timeout=PRESENCE_S)
             self._services.process()
             self._services.requests.refuse("the match is over")
             self._batches.send_if_due()
@@ -179,7 +179,7 @@ class Host:
     def _linger(self, until: float) -> None:
         """Refuse requests, since the match is over, until this wall time or until `stop` is called."""
         while self._clock.now() < until and not self.stopping:
-            self._clock.sleep_until(min(until, self._clock.now() + 0.05))
+            self._clock.sleep_until(min(until, self._clock.now() + POLL_S))
             self._services.process()
             self._services.requests.refuse("the match is over")
 

@@ -10,7 +10,6 @@ from sim_host import run
 from sim_host.server.settings import HostSettings
 from touchline.commands.cli import options
 from touchline.commands.cli.option_groups import FieldsOf, from_options, with_option_groups
-from touchline.timing import ATTENDANCE_S
 
 
 @with_option_groups
@@ -30,8 +29,9 @@ def host(
     Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --credentials credentials/host.json
     """
     config = match.read(**{f"patience__{key}": value for key, value in waiting.items()})
-    if "attendance" not in config.patience.model_fields_set:
-        config = config.model_copy(update={"patience": config.patience.model_copy(update={"attendance": ATTENDANCE_S})})
+    patience = config.patience
+    if "attendance" not in patience.model_fields_set:  # people start the robots on other machines
+        config = config.model_copy(update={"patience": patience.model_copy(update={"attendance": patience.remote})})
     check_protected(match.listening)  # checked before the host is loaded
     settings = from_options(HostSettings, config=config, **match.listening.model_dump(), **more)
     raise typer.Exit(run(settings))

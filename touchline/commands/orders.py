@@ -9,6 +9,7 @@ import typer
 from coach_gateway.match.host_client import HostClient
 from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
+from runtime.process.timing import REQUEST_S
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.side import Side
@@ -17,7 +18,6 @@ from schemas.wire.part_faults import validated
 from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client
 from touchline.commands.cli.option_groups import from_options, with_option_groups
-from touchline.timing import ORDER_S
 
 if TYPE_CHECKING:
     from coach_gateway.match.orders import Receipt
@@ -63,7 +63,7 @@ class OrderOptions:
 class AcknowledgementOptions:
     """How long to wait for acknowledgements, and how to print them."""
 
-    wait: Annotated[float, typer.Option(min=0.0, help="Time to wait for acknowledgements, s.")] = ORDER_S
+    wait: Annotated[float, typer.Option(min=0.0, help="Time to wait for acknowledgements, s.")] = REQUEST_S
     json: options.Json = False
 
 

@@ -35,6 +35,7 @@ from runtime.bus.zenoh.session import SessionContext, open_connection, open_rout
 from runtime.bus.zenoh.stream import ZenohPublisher, ZenohSubscription
 from runtime.bus.zenoh.wait_timer import WaitTimer
 from runtime.process.clock import Clock
+from runtime.process.timing import RECONNECT_S, REQUEST_S
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, key_prefix
 from schemas.wire.message import Message
@@ -67,7 +68,7 @@ def open_client(
     match: str | None,
     clock: Clock,
     connect: str | None = None,
-    patience: float = 10.0,
+    patience: float = RECONNECT_S,
     credentials: Path | None = None,
     account: Account | None = None,
     *,
@@ -170,7 +171,7 @@ class ZenohBus(Bus):
         return server
 
     def query(
-        self, topic: Topic, request: Message, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+        self, topic: Topic, request: Message, timeout: float = REQUEST_S, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
         self._check_may_write(topic)
         return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, droppable, self._open())

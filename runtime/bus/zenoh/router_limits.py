@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from itertools import product
 from typing import Any
 
-from runtime.process.timing import HALF_OPEN_MS
+from runtime.process.timing import LEASE_S
 from schemas.side import Side
 from schemas.topic import Delivery, Party, Topic
 from schemas.topics import COMMAND, TOPICS, key_prefix
@@ -42,7 +42,7 @@ def router_limits(match: str, robots: Iterable[str]) -> dict[str, Any]:
     return {
         "transport/unicast/max_sessions": _MAX_CONNECTIONS,
         "transport/unicast/accept_pending": _MAX_PENDING,
-        "transport/unicast/accept_timeout": HALF_OPEN_MS,
+        "transport/unicast/accept_timeout": round(LEASE_S * 1000),
         "transport/link/rx/max_message_size": _MAX_MESSAGE_BYTES,
         "low_pass_filter": _sizes(prefix),
         "downsampling": _rates(prefix, list(robots)),

@@ -23,7 +23,6 @@ from runtime.process.timing import (
     FIRST_ATTEMPT_S,
     HANDSHAKE_S,
     LEASE_S,
-    LONGEST_ATTEMPT_S,
     RETRY_FROM_MS,
     RETRY_TO_MS,
 )
@@ -140,8 +139,8 @@ def open_connection(
         except zenoh.ZError as error:
             if clock.now() >= deadline:
                 raise BusError(why_unreachable(connect, credentials)) from error
-            clock.sleep_until(clock.now() + 0.1)
-            lasts = min(2 * lasts, LONGEST_ATTEMPT_S)
+            clock.sleep_until(clock.now() + RETRY_TO_MS / 1000)
+            lasts = min(2 * lasts, LEASE_S)
 
 
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:

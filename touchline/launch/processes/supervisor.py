@@ -14,7 +14,7 @@ from runtime.process.settings_file import WRONG
 from schemas.errors import TouchlineError
 from touchline.launch.processes.child_process import ChildProcess
 from touchline.launch.processes.process_table import Process, ProcessKind
-from touchline.timing import WATCH_S
+from touchline.timing import PROGRAM_ENDS_S, WATCH_S
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ _RECONNECTING = frozenset({ProcessKind.AGENT, ProcessKind.PAGE, ProcessKind.BRID
 
 AFTER_THE_MATCH = (
     EndStep(0.0, _RECONNECTING, signal.SIGTERM),
-    EndStep(1.5, _RECONNECTING, signal.SIGKILL),
+    EndStep(PROGRAM_ENDS_S, _RECONNECTING, signal.SIGKILL),
     EndStep(30.0, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
     EndStep(35.0, _ALL, signal.SIGKILL),
 )

@@ -9,7 +9,7 @@ from rich.text import Text
 
 from runtime.process.clock import Clock
 from touchline.launch.terminal.console import console
-from touchline.timing import LINE_S, REFRESH_S
+from touchline.timing import REFRESH_S, STATUS_S
 
 
 class Screen:
@@ -18,12 +18,12 @@ class Screen:
     def __init__(self, stream: TextIO, clock: Clock) -> None:
         self._stream = stream
         self._clock = clock
-        self._shown_at = -LINE_S
+        self._shown_at: float = -STATUS_S
 
     def status(self, line: str) -> None:
-        """Print at most one line in `LINE_S` seconds."""
+        """Print at most one line in `STATUS_S` seconds."""
         now = self._clock.now()
-        if now - self._shown_at >= LINE_S:
+        if now - self._shown_at >= STATUS_S:
             self._shown_at = now
             self._write(line)
 

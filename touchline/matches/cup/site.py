@@ -19,7 +19,7 @@ from touchline.matches.cup.match_result import score_text, scored
 from touchline.matches.cup.standings import Standing
 from touchline.matches.report import page_of, part_of
 from touchline.matches.statistics.ratings import Ratings, rate
-from touchline.timing import PAGE_REFRESH_S
+from touchline.timing import STATUS_S
 
 _LONGEST_EVIDENCE = 20_000
 """Characters of evidence on a page, from its end."""
@@ -86,7 +86,7 @@ def standings(rows: Sequence[Standing]) -> str:
 
 
 def _page(template: str, title: str, *, running: bool = False, **values: Any) -> str:
-    return page_of(f"cup/{template}", title=title, running=running, refresh_s=PAGE_REFRESH_S, **_functions(), **values)
+    return page_of(f"cup/{template}", title=title, running=running, refresh_s=STATUS_S, **_functions(), **values)
 
 
 def _functions() -> dict[str, Any]:

@@ -9,15 +9,15 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
+from runtime.process.timing import RECONNECT_S
 from schemas.errors import TouchlineError
-from touchline.timing import DASK_CONNECT_S
 
 _RETRIES = 3
 """Losses of a worker after which its match is given up."""
 
 
 @contextmanager
-def dask_cluster(address: str, connect_s: float = DASK_CONNECT_S) -> Iterator[tuple[Executor, int]]:
+def dask_cluster(address: str, connect_s: float = RECONNECT_S) -> Iterator[tuple[Executor, int]]:
     """The executor of the scheduler at `tcp://HOST:PORT`, and the number of matches that its workers play at a time.
 
     That is at least 1, while no worker has joined yet. Matches that still wait at the end of the block are not played.

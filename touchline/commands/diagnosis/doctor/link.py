@@ -16,7 +16,7 @@ from schemas.topics import HEALTH, WORLD
 from schemas.wire.message import VERSION, BadMessageError
 from touchline.commands.diagnosis.doctor.clock_offset import ClockOffset, clock_offset
 from touchline.commands.diagnosis.doctor.finding import Finding, Status
-from touchline.timing import EXAMINE_S
+from touchline.timing import EXAMINE_S, WATCH_S
 
 _ROUND_TRIPS = 50
 _OFFSET_S = 0.1
@@ -102,7 +102,7 @@ def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
     until = bus.clock.now() + EXAMINE_S
     while bus.clock.now() < until:
         for subscription in subscriptions:
-            received = subscription.receive(0.01)
+            received = subscription.receive(WATCH_S)
             if received is None:
                 continue
             if received.stamp is not None:
