@@ -18,23 +18,23 @@ PAGE_ALIVE_S = 0.5
 """Between two signs of life to pages; a page shows a silent connection after 1.4 s."""
 RELOAD_S = 3.0
 """A page that was closed may come again, as one does that is loaded anew."""
-FIRST_MESSAGE_S = 1.0
+CLIENT_S = 1
 """For what a client sends first of all: the token of a page that comes when all places are taken, the name of a base
-station. Some base stations wait for the welcome before they send anything."""
-CLOSING_S = 1
-"""To tell a page why it is closed, and for responses that are in progress when the server ends: it may read nothing."""
+station; some base stations wait for the welcome before they send anything. To tell a page why it is closed, and for
+responses that are in progress when the server ends: a client may read nothing."""
 
 UNREAD_S = 10.0
 """A connection is closed whose other side has read nothing for this long: of pages, and to a referee box."""
 SILENCE_S = 5.0
-"""A coach program's session is over, and a base station is no longer in use, when nothing is received for this long."""
+"""A coach program's session is over, and a base station is no longer in use, when nothing is received for this long. An
+attempt to connect to a referee box takes at most this, and so does the longest pause between two."""
 
 BOX_PERIOD_S = 0.05
 """Between two world states to a referee box, and two datagrams of the audience feed. The league's box sends the feed as
 often; it requires ten world states a second."""
-BOX_FIRST_PAUSE_S, BOX_CONNECT_S = 0.25, 5.0
-"""Between two attempts to connect to a referee box, doubled each time; and one attempt, as well as the longest pause.
-After a link on which the box has sent something, the first pause applies again."""
+BOX_FIRST_PAUSE_S = 0.25
+"""Between two attempts to connect to a referee box, doubled each time. After a link on which the box has sent
+something, the first pause applies again."""
 START_AGAIN_S = 0.1
 """Between two repetitions of START."""
 WORLD_STATE_S = 1.0

@@ -2,15 +2,8 @@
 
 HOST_ANSWER_S = 2.0
 """A request to a host that may be about to leave is repeated after this time."""
-HOST_PATIENCE_S = 10.0
-"""A host that is present has this time to answer, and one that has left may have sent messages for this time: one that
-continues would never end."""
 SETUP_FIRST_S, SETUP_LONGEST_S = 0.1, 1.6
 """Until the query for the setup is repeated: at first, and at most; the time doubles with each query."""
-NO_MATCH_S = 3.0
-"""Without its match at the host for this time, a recorder reports that."""
-REPLY_S = 1.0
-"""A request for batches without a reply is repeated after this time."""
 REPEAT_S = 0.2
 """Between a reply without a missing batch and the next request."""
 QUIET_S = 0.5
@@ -22,12 +15,12 @@ REPORT_S = 0.05
 POLL_S = 0.2
 """Longest time between two polls: the file is written, or read as it grows, at least this often."""
 RECOVERY_POLL_S = 0.01
-"""Between two polls while batches are missing."""
+"""Between two polls while batches are missing; shortest wait of a writer for what is to be written."""
 FLUSH_S = 0.5
 """Messages are in the file after this time."""
 LATCHED_S = 1.0
 """A paused replay publishes the latched messages again after this time, for new listeners."""
-REPLAY_POLL_S, REPLAY_STEP_S = 0.02, 0.001
-"""Longest and shortest time between two checks of a replay for queries and due messages."""
+REPLAY_STEP_S = 0.001
+"""Shortest time between two checks of a replay for queries and due messages."""
 RECORDER_PATIENCE_S = 1.0
 """A replay no longer waits for a recorder without progress for this time."""

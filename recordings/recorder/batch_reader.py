@@ -9,10 +9,10 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 from recordings.recorder.recording_writer import LoggedMessage
-from recordings.timing import QUIET_S, REPEAT_S, REPLY_S
+from recordings.timing import QUIET_S, REPEAT_S
 from runtime.bus.contract import Bus, NoReplyError, PendingReply, ReceivedMessage, Stamp
 from runtime.process.active_clock import ActiveClock
-from runtime.process.timing import GIVE_UP_S
+from runtime.process.timing import GIVE_UP_S, REPLY_S
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.topic import Party, Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES, SIGHT, TOPICS

@@ -2,16 +2,16 @@
 
 from collections.abc import Callable
 
-from recordings.timing import NO_MATCH_S
 from runtime.bus.contract import Bus
 from runtime.bus.host_watch import HostWatch
+from runtime.process.timing import REQUEST_S
 
 
 def with_no_match_notice(
     bus: Bus, report: Callable[[str], None], should_stop: Callable[[], bool]
 ) -> Callable[[], bool]:
     """The function `should_stop`, which is called again and again; reports once if the host is missing for a while."""
-    host, due_at = HostWatch(bus), bus.clock.now() + NO_MATCH_S
+    host, due_at = HostWatch(bus), bus.clock.now() + REQUEST_S
     is_done = False
 
     def look_and_ask() -> bool:

@@ -11,12 +11,13 @@ from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
-from recordings.timing import HOST_ANSWER_S, HOST_PATIENCE_S
+from recordings.timing import HOST_ANSWER_S
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus, NoReplyError
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.bus.zenoh.waiting_client import open_when_there
 from runtime.process.clock import WallClock
+from runtime.process.timing import RECONNECT_S
 from schemas.messages.record_batch import RecordBatchesReply, RecordBatchesRequest
 from schemas.topics import RECORD_BATCHES
 from schemas.wire.message import BadMessageError
@@ -44,7 +45,7 @@ def record(
     if client is None:
         return None
     with client as bus:
-        host = _stream_of_host(bus, HOST_PATIENCE_S if parts_of(settings.out) else HOST_ANSWER_S)
+        host = _stream_of_host(bus, RECONNECT_S if parts_of(settings.out) else HOST_ANSWER_S)
         earlier = read_earlier_parts(settings.out, host)
         if earlier.result is not None and earlier.result.ended is EndReason.FULL_TIME:
             return RecordingSummary(earlier.files, sum(file.stat().st_size for file in earlier.files), earlier.result)

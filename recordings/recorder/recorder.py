@@ -17,7 +17,7 @@ from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.recording_writer import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
-from recordings.timing import DRAINED_S, HOST_PATIENCE_S, RECOVERY_POLL_S, REPORT_S
+from recordings.timing import DRAINED_S, RECOVERY_POLL_S, REPORT_S
 from runtime.bus.contract import Bus, PresenceKind
 from runtime.bus.host_watch import HostWatch
 from runtime.process.idle_time import run_in_idle_time
@@ -91,7 +91,7 @@ class Recorder:
         run_in_idle_time(poll)
         self._host.update()
         stopped = stopped and self._host.is_reachable()
-        self.drain(DRAINED_S if stopped else HOST_PATIENCE_S)
+        self.drain(DRAINED_S if stopped else RECONNECT_S)
         return self.finish(stopped)
 
     def pump(self) -> int:

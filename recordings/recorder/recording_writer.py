@@ -19,7 +19,7 @@ from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError, create_part
 from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.roster_metadata import RosterMetadata
-from recordings.timing import FLUSH_S
+from recordings.timing import FLUSH_S, RECOVERY_POLL_S
 from recordings.viz.drawing import READS
 from recordings.viz.viz_channels import VizChannels
 from runtime.bus.contract import ReceivedMessage
@@ -128,7 +128,7 @@ class RecordingWriter:
         After an error, jobs are discarded.
         """
         try:
-            job = self._jobs.get(timeout=max(0.01, self._flush_at - self._clock.now()))
+            job = self._jobs.get(timeout=max(RECOVERY_POLL_S, self._flush_at - self._clock.now()))
         except Empty:
             job = _nothing
         if job is None or self._error is not None:

@@ -22,7 +22,7 @@ _MAX_RATE = 10_000
 _BURST = 1_000
 """Messages beyond that rate that a writer may send in one burst."""
 _SILENT_NS = 1_000_000_000
-"""Time in ns without a message after which a gap is rather one of another writer."""
+"""Wall time in ns without a message after which a gap is rather one of another writer."""
 
 
 class _Writer:

@@ -1,8 +1,9 @@
 """Queries the setup of a match from its host before a recording begins."""
 
-from recordings.timing import HOST_PATIENCE_S, SETUP_FIRST_S, SETUP_LONGEST_S
+from recordings.timing import SETUP_FIRST_S, SETUP_LONGEST_S
 from runtime.bus.contract import Bus, NoReplyError, PendingReply
 from runtime.bus.host_watch import HostWatch
+from runtime.process.timing import RECONNECT_S
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.topics import SETUP
 from schemas.wire.message import BadMessageError
@@ -32,7 +33,7 @@ class SetupQuery:
         except NoReplyError:
             if not self._host.seen:
                 self._unanswered_since = now
-            return now - self._unanswered_since >= HOST_PATIENCE_S
+            return now - self._unanswered_since >= RECONNECT_S
         except BadMessageError:
             self.is_unreadable = True
         return True

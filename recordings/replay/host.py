@@ -7,10 +7,10 @@ from typing import Any
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
-from recordings.timing import LATCHED_S, REPLAY_POLL_S, REPLAY_STEP_S
+from recordings.timing import LATCHED_S, REPLAY_STEP_S
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
-from runtime.process.timing import PARTING_S
+from runtime.process.timing import PARTING_S, POLL_S
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply
@@ -64,7 +64,7 @@ class ReplayHost:
             meanwhile(self.player)
             if not published:
                 now = self._clock.now()
-                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(REPLAY_POLL_S, self.player.wait())))
+                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(POLL_S, self.player.wait())))
         self.wait_for_recorders()
 
     def pump(self) -> int:
@@ -91,7 +91,7 @@ class ReplayHost:
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
         while self._listeners.any_behind() and self._clock.now() < deadline:
-            self._clock.sleep_until(self._clock.now() + REPLAY_POLL_S)
+            self._clock.sleep_until(self._clock.now() + POLL_S)
             self._answer()
             self._listeners.update()
 

@@ -18,7 +18,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 
 _FILE_TIME_NS = 10_000_000
-"""The times of files may be this much too early."""
+"""The wall times of files may be this much too early."""
 
 
 class BrainReload:

@@ -8,6 +8,7 @@ from robot_agent.process.timing import CLAIM_REPLY_S
 from runtime.access.accounts import Account
 from runtime.bus.contract import Bus, NoReplyError, PresenceKind, RefusedQueryError
 from runtime.process.installed import installed_version
+from runtime.process.timing import SLICE_S
 from schemas.errors import TouchlineError
 from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.setup import Setup
@@ -86,7 +87,7 @@ class Membership:
         while True:
             try:
                 query = self._bus.query(ROBOT_CLAIM, self._claim, timeout=CLAIM_REPLY_S, robot=self._key)
-                reply: AgentClaimReply = query.result(CLAIM_REPLY_S + 0.5)
+                reply: AgentClaimReply = query.result(CLAIM_REPLY_S)
             except RefusedQueryError as error:
                 raise TouchlineError(f"{self._claim.robot}: refused by the host: {error}") from None
             except NoReplyError as error:
@@ -94,6 +95,6 @@ class Membership:
                     raise TouchlineError(
                         f"{self._claim.robot}: the host does not reply to the agent's claim ({error})"
                     ) from None
-                clock.sleep_until(clock.now() + 0.1)
+                clock.sleep_until(clock.now() + SLICE_S)
             else:
                 return reply

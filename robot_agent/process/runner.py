@@ -12,7 +12,7 @@ from robot_agent.sdk.contract import Brain
 from runtime.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp
 from runtime.bus.host_watch import HostWatch
 from runtime.process.process_log import Level, log_line
-from runtime.process.timing import REPLY_S
+from runtime.process.timing import REPLY_S, SLICE_S
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup, SetupRequest
@@ -107,7 +107,7 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
     deadline = clock.now() + patience
     while True:
         try:
-            setup: Setup = bus.query(SETUP, SetupRequest(), timeout=REPLY_S).result(REPLY_S + 0.5)
+            setup: Setup = bus.query(SETUP, SetupRequest(), timeout=REPLY_S).result(REPLY_S)
         except (RefusedQueryError, BadMessageError) as error:
             raise TouchlineError(f"match {bus.match}: refused by the host: {error}") from None
         except NoReplyError as error:
@@ -116,7 +116,7 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
                     f"match {bus.match}: no host replied with the setup within {patience:g} s ({error}); "
                     "is --match the name of the match that the host plays?"
                 ) from None
-            clock.sleep_until(clock.now() + 0.1)
+            clock.sleep_until(clock.now() + SLICE_S)
         else:
             return setup
 

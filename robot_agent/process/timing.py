@@ -6,8 +6,10 @@ CLAIM_REPLY_S = 4.0
 """For a reply to a claim: the host replies at once, or after the link of an earlier agent has expired."""
 PROGRAM_SILENT_S = 1.0
 """Without an answer, until a program of lines counts as silent and may get a newer sight."""
-ACT_S = 30.0
-"""For an answer of a program in a match in one process, which waits for each robot."""
+PROGRAM_S = 30.0
+"""For an answer of a program in a match in one process, which waits for each robot. For a program that is checked to
+join, and for each of its commands: it may still load a model. For bwrap to start a program that does nothing, on a busy
+machine."""
 REPORT_S = 0.05
 """Between two lines without a command that are sent to the host, which limits a flood of them."""
 PROGRAM_ENDS_S = 0.5

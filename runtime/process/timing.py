@@ -7,22 +7,27 @@ HEARTBEAT_S = 0.5
 LINK_GRACE_S = LEASE_S + 0.5
 """Watchers tolerate a broken link for this time, and a claim waits for the end of an earlier agent."""
 RECONNECT_S = 10.0
-"""An unreachable host or scheduler is waited for this long; agents and recorders then give up the match."""
+"""An unreachable host or scheduler is waited for this long; agents and recorders then give up the match. A host that is
+present has this time to answer a recorder; one that has left may have sent messages for it: one that continues would
+never end."""
 CUT_OFF_S = 3600.0
 """The same where the network to the host is cut: the match goes on there, and lasts no longer."""
 POLL_S = 0.02
-"""Between two checks for a host or for robots that are awaited, and of a host that lingers at its end."""
+"""Between two checks for what may come or end at any moment: a host, a robot, a process. Longest time between two
+checks of a replay for queries and due messages."""
 PROBE_EVERY_S = 1.0
 """Between two checks whether the network is cut."""
 PROBE_S = 0.3
 """A machine that does not answer a probe for this time is cut off: its clients have nothing else to do meanwhile."""
 REPLY_S = 1.0
-"""For a reply: of a router to a query for tokens, of a host to a robot's query for the setup, of a machine to a
-connection that shows why no host admits a client. It is longer than one packet that is lost and sent again takes."""
+"""For a reply: of a router to a query for tokens, of a host to a robot's query for the setup or a recorder's query for
+batches, of a machine to a connection that shows why no host admits a client. It is longer than one packet that is lost
+and sent again takes. A recorder whose host has failed has received all by then."""
 REQUEST_S = 3.0
-"""For a reply of a host, or of robots to an order, to what a person requests: a busy host replies between two ticks."""
+"""For a reply of a host, or of robots to an order, to what a person requests: a busy host replies between two ticks. A
+recorder without its match reports that after this time; a link and a host are examined for it."""
 SLICE_S = 0.2
-"""A client that waits for a host asks after this time again whether it is to stop."""
+"""A client that waits for a host asks again after this time, and whether it is to stop."""
 WAKE_AGAIN_S = 0.05
 """A reader that was woken and still waits is woken again."""
 FIRST_ATTEMPT_S = 0.5

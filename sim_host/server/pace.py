@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from runtime.process.clock import Clock
+from runtime.process.timing import POLL_S
 from schemas.config.match_parts import Patience
 from schemas.messages.command import Command
 from schemas.recovery_window import RUN_AHEAD_TICKS
@@ -165,7 +166,7 @@ class Lockstep:
             if self.step_agents is not None:
                 self.step_agents()
             else:
-                self._presence.receive_progress(0.01)
+                self._presence.receive_progress(POLL_S)
 
     def _far_behind(self, tick: int) -> dict[str, int]:
         """Recorder → its newest tick, of recorders that lag too far and are not still where they were given up."""

@@ -25,7 +25,7 @@ from touchline.launch.processes.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.processes.supervisor import ending
 from touchline.launch.run_folder import RUNS
 from touchline.launch.team_error import TeamError
-from touchline.timing import BUILD_NOTICE_S, HANG_S
+from touchline.timing import HANG_S, STATUS_S
 
 _FAULT = "touchline: brain is "
 """What the line of a faulty brain begins with."""
@@ -120,7 +120,7 @@ class _BuildCheck:
         Raises:
             TouchlineError: a brain cannot be built, or takes too long.
         """
-        status = self._process.wait(BUILD_NOTICE_S, self._clock)
+        status = self._process.wait(STATUS_S, self._clock)
         if status is None:
             report(f"waiting for {self._brain} to be built")
             status = self._process.wait(self._patience, self._clock)

@@ -35,7 +35,7 @@ from touchline.launch.remote_teams import RemoteTeams
 from touchline.launch.result import MatchResult
 from touchline.launch.team_error import TeamLeftError
 from touchline.launch.terminal.screen import Screen
-from touchline.timing import PAGE_CLOSES_S, POLL_S, WATCH_S
+from touchline.timing import PAGE_CLOSES_S, POLL_S
 
 if TYPE_CHECKING:
     from coach_gateway.web.pages.protocol import ResultUpdate
@@ -147,7 +147,7 @@ class MatchRun:
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
                 return True
-            self._clock.sleep_until(self._clock.now() + WATCH_S)
+            self._clock.sleep_until(self._clock.now() + POLL_S)
         return False
 
     def _follow(self, stop: StopSignals) -> MatchFollower | None:
@@ -162,7 +162,7 @@ class MatchRun:
                 self._clock.sleep_until(self._clock.now() + POLL_S)
             deadline = self._clock.now() + PARTING_S
             while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
-                self._clock.sleep_until(self._clock.now() + WATCH_S)
+                self._clock.sleep_until(self._clock.now() + POLL_S)
             self._match_screen.update(follower)
         return follower
 

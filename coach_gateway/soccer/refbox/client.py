@@ -19,13 +19,7 @@ from coach_gateway.soccer.refbox.forwarding import WAITS_FOR_START, SignalRespon
 from coach_gateway.soccer.refbox.framing import Framer
 from coach_gateway.soccer.refbox.own_world_state import own_world_state
 from coach_gateway.soccer.refbox.signal_queue import BoxSignal, SignalQueue
-from coach_gateway.timing import (
-    BOX_CONNECT_S,
-    BOX_FIRST_PAUSE_S,
-    BOX_PERIOD_S,
-    START_AGAIN_S,
-    UNREAD_S,
-)
+from coach_gateway.timing import BOX_FIRST_PAUSE_S, BOX_PERIOD_S, SILENCE_S, START_AGAIN_S, UNREAD_S
 from schemas.errors import TouchlineError
 from schemas.messages.coach import CoachMode
 from schemas.messages.soccer.game import RefereeAction
@@ -81,14 +75,14 @@ class RefBoxClient:
                     reported = True
                     self._log(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying again")
                 await pause(stop, wait)
-                wait = min(2 * wait, BOX_CONNECT_S)
+                wait = min(2 * wait, SILENCE_S)
                 continue
             reported, received = False, self.counts["received"]
             await self._run_connection(reader, writer, stop)
             if self.counts["received"] > received:
                 wait = BOX_FIRST_PAUSE_S
             await pause(stop, wait)
-            wait = min(2 * wait, BOX_CONNECT_S)
+            wait = min(2 * wait, SILENCE_S)
 
     async def _connect(self, stop: asyncio.Event) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         """Connect to the box, unless `stop` is set first.
@@ -98,12 +92,12 @@ class RefBoxClient:
         """
         reached = asyncio.create_task(asyncio.open_connection(self._box.host, self._box.port))
         stopped = asyncio.create_task(stop.wait())
-        await asyncio.wait((reached, stopped), timeout=BOX_CONNECT_S, return_when=asyncio.FIRST_COMPLETED)
+        await asyncio.wait((reached, stopped), timeout=SILENCE_S, return_when=asyncio.FIRST_COMPLETED)
         stopped.cancel()
         if not reached.done():
             reached.cancel()
             await asyncio.wait((reached,))
-            raise TimeoutError(f"no answer within {BOX_CONNECT_S:g} s")
+            raise TimeoutError(f"no answer within {SILENCE_S:g} s")
         return reached.result()
 
     async def _run_connection(

@@ -22,7 +22,7 @@ from coach_gateway.soccer.refbox.commands import BoxCommand
 from coach_gateway.soccer.refbox.identity import HELLO, Identity, UnknownTeamError, identify, targets
 from coach_gateway.soccer.refbox.peers import MOST, Peer, Peers, Proof
 from coach_gateway.soccer.refbox.team_world_state import TeamWorldState
-from coach_gateway.timing import FIRST_MESSAGE_S
+from coach_gateway.timing import CLIENT_S
 from schemas.messages.soccer.game import GameState
 from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.messages.soccer.league.calls import Call
@@ -138,7 +138,7 @@ class RefBoxServer:
         if len(self._peers) >= MOST and not self._make_room(peer):
             return
         self._peers.add(peer)
-        late = asyncio.get_running_loop().call_later(FIRST_MESSAGE_S, self._welcome_unidentified, peer)
+        late = asyncio.get_running_loop().call_later(CLIENT_S, self._welcome_unidentified, peer)
         try:
             if address.side is not None:
                 self._settle(peer, Identity(address.side), Proof.PORT)

@@ -14,7 +14,7 @@ from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import TokenRole
 from coach_gateway.access.tokens import UNKNOWN_TOKEN, Tokens
 from coach_gateway.service import until_first
-from coach_gateway.timing import CLOSING_S, FIRST_MESSAGE_S
+from coach_gateway.timing import CLIENT_S
 from coach_gateway.web.pages.broadcaster import PageBroadcaster
 from coach_gateway.web.pages.open_pages import Page, Pages
 from coach_gateway.web.pages.protocol import (
@@ -77,7 +77,7 @@ class SocketEndpoint:
     async def _first_with_token(self, socket: WebSocket) -> str | None:
         """The first message of a page, if it has a known token: it is admitted however many people watch."""
         with contextlib.suppress(TimeoutError, FaultError, WebSocketDisconnect):
-            async with asyncio.timeout(FIRST_MESSAGE_S):
+            async with asyncio.timeout(CLIENT_S):
                 text = await socket.receive_text()
             if self._tokens.role_of(read_request(text).token) not in (None, TokenRole.SPECTATOR):
                 return text
@@ -175,7 +175,7 @@ def _refuse(page: Page, number: int | None, why: str) -> None:
 async def _close(socket: WebSocket, why: str) -> None:
     """Send a page why it is closed, and close it, without waiting for a page that does not read."""
     with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError):
-        async with asyncio.timeout(CLOSING_S):
+        async with asyncio.timeout(CLIENT_S):
             await socket.send_text(PageRefusal(reason=why).json())
             await socket.close(_TRY_AGAIN, why)
 

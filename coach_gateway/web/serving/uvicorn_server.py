@@ -5,7 +5,7 @@ import logging
 import uvicorn
 from starlette.types import ASGIApp
 
-from coach_gateway.timing import CLOSING_S
+from coach_gateway.timing import CLIENT_S
 
 MAX_MESSAGE_BYTES = 65_536
 """A longer message of a page ends its connection."""
@@ -32,6 +32,6 @@ def web_server(app: ASGIApp, most_pages: int) -> uvicorn.Server:
             limit_concurrency=most_pages + _LOADING,
             ws_max_size=MAX_MESSAGE_BYTES,
             h11_max_incomplete_event_size=_MAX_HEADER_BYTES,
-            timeout_graceful_shutdown=CLOSING_S,
+            timeout_graceful_shutdown=CLIENT_S,
         )
     )

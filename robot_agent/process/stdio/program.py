@@ -12,7 +12,7 @@ from robot_agent.loading.brain_error import RobotError
 from robot_agent.process.stdio.answers import NOT_COMMANDS, AnswerFault, Expected, judge
 from robot_agent.process.stdio.child import Child
 from robot_agent.process.stdio.fault_counts import FaultCounts
-from robot_agent.process.timing import ACT_S, IDLE_S, PROGRAM_SILENT_S, REPORT_S
+from robot_agent.process.timing import IDLE_S, PROGRAM_S, PROGRAM_SILENT_S, REPORT_S
 from robot_agent.sdk.contract import Briefing
 from runtime.process.clock import Clock, WallClock
 from runtime.process.process_log import Level, log_line
@@ -111,19 +111,19 @@ class StdioProgram:
         """The command for a sight, which is waited for.
 
         Raises:
-            TouchlineError: the program has ended, or does not answer for `ACT_S`.
+            TouchlineError: the program has ended, or does not answer for `PROGRAM_S`.
         """
-        deadline = self._clock.now() + ACT_S
+        deadline = self._clock.now() + PROGRAM_S
         while self._clock.now() < deadline:
             try:
-                found = self.exchange(sight, patience=ACT_S)
+                found = self.exchange(sight, patience=PROGRAM_S)
             except ProgramEndedError as error:
                 raise TouchlineError(f"{self._robot}: {error}") from None
             if found.answer is not None and found.tick == sight.tick:
                 return Command.decode(found.answer)
         raise TouchlineError(
             f"{self._robot}: the program `{self._name}` does not answer the sight of tick {sight.tick} "
-            f"within {ACT_S:g} s"
+            f"within {PROGRAM_S:g} s"
         )
 
     def close(self) -> None:

@@ -7,10 +7,10 @@ import pytest
 from msgspec import Raw
 
 from recordings.recorder.batch_reader import BatchReader
-from recordings.timing import QUIET_S, REPLY_S
+from recordings.timing import QUIET_S
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus, Query
-from runtime.process.timing import GIVE_UP_S
+from runtime.process.timing import GIVE_UP_S, REPLY_S
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 from support.in_process_bus import InProcessBus, SharedState

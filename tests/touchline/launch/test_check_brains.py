@@ -86,7 +86,7 @@ def test_a_brain_that_cannot_be_built_is_reported_with_its_key_and_a_remedy(brai
 
 
 def test_a_brain_that_is_not_built_in_time_is_reported_and_its_process_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(check_brains, "BUILD_NOTICE_S", 0.0)
+    monkeypatch.setattr(check_brains, "STATUS_S", 0.0)
     monkeypatch.setattr(check_brains, "HANG_S", 0.0)
     reported: list[str] = []
     config = load_match(

@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from robot_agent.process.timing import PROGRAM_S
 from schemas.errors import TouchlineError
-from touchline.timing import PROGRAM_S
 
 NOBODY = 65534
 """Id of the user and the group that robots have in place of root. Root in bubblewrap could leave it, and what belongs

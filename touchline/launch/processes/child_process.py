@@ -14,11 +14,11 @@ from runtime.process.clock import Clock
 from runtime.process.leash import OwnConfinement, leashed
 from runtime.process.process_log import message_of
 from runtime.process.settings_file import STANDARD_INPUT, write_settings
+from runtime.process.timing import POLL_S
 from schemas.errors import TouchlineError
 from touchline.launch.confinement.bubblewrap import run_as
 from touchline.launch.processes.fork_server import ROBOTS
 from touchline.launch.processes.process_table import Process
-from touchline.timing import WATCH_S
 
 if TYPE_CHECKING:
     from robot_agent.process.forks import ForkRequest
@@ -56,7 +56,7 @@ class ChildProcess:
         """Exit status; None if it still runs after this wall time in s."""
         deadline = clock.now() + seconds
         while self.status() is None and clock.now() < deadline:
-            clock.sleep_until(clock.now() + WATCH_S)
+            clock.sleep_until(clock.now() + POLL_S)
         return self.status()
 
     def status(self) -> int | None:

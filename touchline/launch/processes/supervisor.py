@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from robot_agent.process.settings import FIRST_SIGHT_FAILED
 from runtime.process.clock import Clock
 from runtime.process.settings_file import WRONG
+from runtime.process.timing import GIVE_UP_S, PARTING_S, POLL_S, RECONNECT_S, REPLY_S
 from schemas.errors import TouchlineError
 from touchline.launch.processes.child_process import ChildProcess
 from touchline.launch.processes.process_table import Process, ProcessKind
-from touchline.timing import PROGRAM_ENDS_S, WATCH_S
+from touchline.timing import HOST_ENDS_S, PROGRAM_ENDS_S
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +43,20 @@ _ALL = frozenset(ProcessKind)
 _RECONNECTING = frozenset({ProcessKind.AGENT, ProcessKind.PAGE, ProcessKind.BRIDGES})
 """Kinds of processes that would wait for an ended host to return."""
 
+_RECORDER_S = RECONNECT_S + GIVE_UP_S
+"""A recorder takes at most this to reconnect, and to give up batches that the ended host no longer sends."""
+
 AFTER_THE_MATCH = (
     EndStep(0.0, _RECONNECTING, signal.SIGTERM),
     EndStep(PROGRAM_ENDS_S, _RECONNECTING, signal.SIGKILL),
-    EndStep(30.0, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
-    EndStep(35.0, _ALL, signal.SIGKILL),
+    EndStep(_RECORDER_S, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
+    EndStep(_RECORDER_S + PARTING_S, _ALL, signal.SIGKILL),
 )
 """The host has ended by itself: processes that would wait for its return are signalled; the recorder may finish."""
 
 ABANDONED = (
     EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
-    EndStep(1.0, frozenset({ProcessKind.RECORDER}), signal.SIGTERM, since_host=True),
+    EndStep(REPLY_S, frozenset({ProcessKind.RECORDER}), signal.SIGTERM, since_host=True),
     *AFTER_THE_MATCH,
 )
 """The match cannot go on, or its host has failed: the recorder has what the host published, and is not left to wait for
@@ -60,11 +64,11 @@ its return. The host ends after its tick, the others as after a match."""
 
 AT_ONCE = (
     EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
-    EndStep(0.2, _RECONNECTING, signal.SIGTERM),
-    EndStep(0.4, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
-    EndStep(1.8, _ALL, signal.SIGKILL),
+    EndStep(HOST_ENDS_S, _RECONNECTING, signal.SIGTERM),
+    EndStep(2 * HOST_ENDS_S, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
+    EndStep(2 * HOST_ENDS_S + PROGRAM_ENDS_S, _ALL, signal.SIGKILL),
 )
-"""Interrupted: the host ends first, the recorder has most of the time to finish its file; two seconds in all."""
+"""Interrupted: the host ends first, the recorder has most of the time to finish its file; within two seconds in all."""
 
 _LEFT_EARLY = "ended with status 0 before the match was over; a robot's program runs until it receives SIGTERM"
 
@@ -163,7 +167,7 @@ class Supervisor:
             waiting = [step for step in waiting if step not in due]
             for step in due:
                 self._signal(step, keep)
-            self._clock.sleep_until(self._clock.now() + WATCH_S)
+            self._clock.sleep_until(self._clock.now() + POLL_S)
 
     def _still_running(self, keep: frozenset[ProcessKind]) -> bool:
         for name in self._running:

@@ -7,7 +7,7 @@ from schemas.config.match_config import LOCKSTEP
 from schemas.messages.health import Health
 
 _SLOW_MS = 100.0
-"""Lockstep: longest time from sight to command that is not reported; brains that ship need a few milliseconds."""
+"""Lockstep: longest wall time from sight to command that is not reported; brains that ship need a few milliseconds."""
 _LASTING = 4
 """Reports of the host in a row, four in a second, after which slowness is no hiccup."""
 

@@ -6,6 +6,7 @@ import subprocess
 from collections.abc import Sequence
 from contextlib import suppress
 
+from robot_agent.process.timing import PROGRAM_S
 from robot_agent.sdk.contract import Briefing
 from runtime.bus.contract import PresenceKind
 from runtime.bus.endpoint import with_free_port
@@ -19,7 +20,7 @@ from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, ROBOT_CLAIM, SETUP, SIGHT
 from schemas.wire.message import BadMessageError
 from touchline.launch.processes.supervisor import ending
-from touchline.timing import POLL_S, PROGRAM_ENDS_S, PROGRAM_S, WATCH_S
+from touchline.timing import POLL_S, PROGRAM_ENDS_S
 
 
 class BusProgram:
@@ -67,7 +68,7 @@ class BusProgram:
             if self._clock.now() >= next_send:
                 self._sights.put(sight)
                 next_send = self._clock.now() + POLL_S
-            received = self._commands.receive(WATCH_S)
+            received = self._commands.receive(POLL_S)
             if received is not None:
                 try:
                     command = Command.decode(received.payload)
@@ -96,7 +97,7 @@ class BusProgram:
             if self._clock.now() >= deadline:
                 how = f"does not claim its robot within {PROGRAM_S:g} s; see docs/protocol.md"
                 raise TouchlineError(f"{self._robot}: the program {how}")
-            self._clock.sleep_until(self._clock.now() + WATCH_S)
+            self._clock.sleep_until(self._clock.now() + POLL_S)
 
     def _serve(self) -> bool:
         """Reply to queries; returns whether the robot was claimed.

@@ -216,7 +216,7 @@ async def test_software_that_knows_no_hello_is_known_by_its_world_states_or_by_i
 async def test_a_silent_base_station_is_welcomed_without_an_address_and_receives_the_game(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(server_module, "FIRST_MESSAGE_S", 0.02)
+    monkeypatch.setattr(server_module, "CLIENT_S", 0.02)
 
     async with boxed() as (bench, _, come):
         shy = await come()

@@ -10,12 +10,12 @@ from runtime.bus.find_host import find_host
 from runtime.bus.settings import ClientSettings
 from runtime.bus.zenoh.bus import open_client
 from runtime.process.clock import Clock
+from runtime.process.timing import REQUEST_S
 from schemas.errors import TouchlineError
 from touchline.commands.diagnosis.doctor.finding import Finding, Status
 from touchline.commands.diagnosis.doctor.link import examine_link
 from touchline.commands.diagnosis.doctor.machine import MachineFacts, examine_machine
 from touchline.commands.diagnosis.doctor.route import examine_route
-from touchline.timing import EXAMINE_S
 
 
 def examine(connection: ClientSettings, clock: Clock, facts: MachineFacts) -> Iterator[Finding]:
@@ -49,7 +49,7 @@ def _examine_host(
         if finding.status is Status.FAILED:
             return
     try:
-        bus = open_client(connection.match, clock, endpoint, EXAMINE_S, connection.credentials, account=Account.VIEWER)
+        bus = open_client(connection.match, clock, endpoint, REQUEST_S, connection.credentials, account=Account.VIEWER)
     except TouchlineError as error:
         yield _failed("host", error)
         return

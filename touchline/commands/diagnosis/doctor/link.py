@@ -7,7 +7,7 @@ from coach_gateway.match.host_client import HostClient
 from runtime.bus.contract import Bus
 from runtime.bus.zenoh.bus import ZenohBus
 from runtime.bus.zenoh.round_trip import round_trips_s
-from runtime.process.timing import REQUEST_S
+from runtime.process.timing import POLL_S, REQUEST_S
 from schemas.config.match_config import LOCKSTEP
 from schemas.errors import TouchlineError
 from schemas.messages.health import Health
@@ -16,11 +16,10 @@ from schemas.topics import HEALTH, WORLD
 from schemas.wire.message import VERSION, BadMessageError
 from touchline.commands.diagnosis.doctor.clock_offset import ClockOffset, clock_offset
 from touchline.commands.diagnosis.doctor.finding import Finding, Status
-from touchline.timing import EXAMINE_S, WATCH_S
 
 _ROUND_TRIPS = 50
 _OFFSET_S = 0.1
-"""A larger difference of the clocks is reported, in s."""
+"""A larger difference of the two clocks is reported, in s of wall time."""
 
 
 def examine_link(bus: ZenohBus) -> Iterator[Finding]:
@@ -99,10 +98,10 @@ def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
     """The newest report on the host's health, and times of sending and arrival of its messages, in ns."""
     subscriptions = [bus.subscribe(HEALTH, history=True), bus.subscribe(WORLD)]
     newest, stamps = None, []
-    until = bus.clock.now() + EXAMINE_S
+    until = bus.clock.now() + REQUEST_S
     while bus.clock.now() < until:
         for subscription in subscriptions:
-            received = subscription.receive(WATCH_S)
+            received = subscription.receive(POLL_S)
             if received is None:
                 continue
             if received.stamp is not None:

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import closing
 
 from runtime.bus.endpoint import ENCRYPTED, parse_endpoint
+from runtime.process.timing import REQUEST_S
 from touchline.commands.diagnosis.doctor.finding import Finding, Status
-from touchline.timing import EXAMINE_S
 
 _STREAMS = ("tcp", "tls", "ws")
 _IP_MTU, _IPV6_MTU = 14, 24
@@ -15,7 +15,7 @@ _IP_MTU, _IPV6_MTU = 14, 24
 _SMALLEST_MTU = 1280
 """Bytes that every network of IPv6 carries; a smaller one is a tunnel in a tunnel, or wrongly set."""
 _SOON_S = 7 * 86_400
-"""A certificate that expires within this time is reported, in s."""
+"""A certificate that expires within this wall time is reported, in s."""
 
 
 def examine_route(endpoint: str, root: str | None, now_s: float) -> Iterator[Finding]:
@@ -42,7 +42,7 @@ def examine_route(endpoint: str, root: str | None, now_s: float) -> Iterator[Fin
         yield Finding("port", Status.NOTE, f"{protocol} has no connection that could be examined before the handshake")
         return
     try:
-        link = socket.create_connection((host, port), timeout=EXAMINE_S)
+        link = socket.create_connection((host, port), timeout=REQUEST_S)
     except OSError as error:
         yield _unreachable(host, port, error)
         return
@@ -66,7 +66,7 @@ def _unreachable(host: str, port: int, error: OSError) -> Finding:
         return Finding(
             "port",
             Status.FAILED,
-            f"port {port} of {host} does not answer within {EXAMINE_S:g} s",
+            f"port {port} of {host} does not answer within {REQUEST_S:g} s",
             "is the machine on, in the same network? A firewall on the way must let this port through",
         )
     return Finding(

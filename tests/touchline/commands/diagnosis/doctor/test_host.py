@@ -43,7 +43,7 @@ ROBOTS = {side: [f"{side.value}{number}" for number in (1, 2)] for side in Side}
 @pytest.fixture(autouse=True)
 def short_examination(monkeypatch: pytest.MonkeyPatch) -> None:
     """The host of these tests reports its health fifty times a second."""
-    monkeypatch.setattr("touchline.commands.diagnosis.doctor.link.EXAMINE_S", 0.3)
+    monkeypatch.setattr("touchline.commands.diagnosis.doctor.link.REQUEST_S", 0.3)
 
 
 class ShiftedClock(WallClock):
