@@ -14,10 +14,13 @@ from runtime.bus.contract import Bus, NoReplyError, PendingReply, ReceivedMessag
 from runtime.process.active_clock import ActiveClock
 from runtime.process.timing import GIVE_UP_S, REPLY_S
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
+from schemas.recovery_window import KEPT_BATCHES
 from schemas.topic import Party, Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES, SIGHT, TOPICS
 from schemas.wire.message import BadMessageError
 
+_FEWER = 8
+"""A reply of 512 KiB has some 30 batches: the third request, after two seconds, is for a few."""
 _RECORDED = tuple(topic for topic in TOPICS.values() if topic.recorded or topic is SIGHT)
 
 
@@ -109,6 +112,9 @@ class BatchReader:
         self._subscription = bus.subscribe(RECORD_BATCH)
         self._active = ActiveClock(bus.clock.now())
         self._pending: PendingReply | None = None
+        self._most = KEPT_BATCHES
+        """Batches of a gap that are requested at a time: fewer after a reply that did not arrive, since a long one is
+        dropped first where the receiver is busy."""
         self._requested_stream: int | None = None
         self._requested_first = 0
         self._requested_at = self._received_at = self._progress_at = self._next_request_at = 0.0
@@ -165,6 +171,8 @@ class BatchReader:
             self._request(RecordBatchesRequest(first=sequence.expected, since_ns=since_ns), now)
 
     def _request(self, request: RecordBatchesRequest, now: float) -> None:
+        if request.last is not None:
+            request = request.replace(last=min(request.last, request.first + self._most - 1))
         self._requested_stream, self._requested_first = self._sequence.stream, request.first
         self._requested_at = now
         self._pending = self._bus.query(RECORD_BATCHES, request, REPLY_S, droppable=True)
@@ -177,8 +185,10 @@ class BatchReader:
         except NoReplyError:
             if now - self._requested_at >= REPLY_S:
                 self._pending = None
+                self._most = max(1, self._most // _FEWER)
             return
         self._pending = None
+        self._most = min(2 * self._most, KEPT_BATCHES)
         before = self._sequence.expected
         self._add_reply(payload)
         self._next_request_at = now if self._sequence.expected > before else now + REPEAT_S

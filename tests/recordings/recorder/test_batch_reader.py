@@ -113,6 +113,21 @@ def test_an_answer_that_never_came_is_asked_again(link):
     assert link.read() == [3, 4, 5]
 
 
+def test_an_answer_that_never_came_is_asked_for_in_smaller_pieces_until_one_comes(link):
+    link.publish(200)
+    link.read()
+    assert link.asked() == [(3, 199)]
+    link.wait(REPLY_S + 0.05)
+    assert link.asked() == [(3, 39)]  # 300 are kept, and an eighth of them is asked for
+    link.wait(REPLY_S + 0.05)
+    assert link.answer(3, 4, 5, 6) == [(3, 6)]
+    assert link.read() == [3, 4, 5, 6]
+    assert link.asked() == [(7, 14)]
+    link.wait(REPLY_S + 0.05)
+    assert link.answer(7) == [(7, 7)]
+    assert link.read() == [7]
+
+
 def test_an_answer_that_cannot_be_read_is_asked_again(link):
     link.publish(5)
     link.read()

@@ -11,7 +11,7 @@ from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
-from runtime.bus.contract import NoReplyError
+from runtime.bus.contract import NoReplyError, PresenceKind
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.messages.setup import SetupRequest
@@ -101,6 +101,13 @@ def test_a_recorder_that_is_silent_is_left_behind(recorded, room, monkeypatch):
     host = room.host(recorded.path, rate=None)
     host.run()
     assert host.player.status().messages == len(list(recorded.messages()))
+
+
+def test_it_is_present_as_a_host_and_as_a_replay(recorded, room):
+    watch = room.seat().watch_alive()
+    room.host(recorded.path, paused=True)
+    present = {(presence.kind, presence.name) for presence in iter(watch.receive, None)}
+    assert {(PresenceKind.HOST, "host"), (PresenceKind.REPLAY, "replay")} <= present
 
 
 def test_it_tells_how_the_match_was_set_up_under_the_name_it_is_replayed_by(recorded):

@@ -6,10 +6,10 @@ import pytest
 
 from recordings.soccer.league.event_log import SignalLine, TeamNames, read_events
 from recordings.soccer.league.game_log import GameLog
-from schemas.messages.soccer.game import GameState
+from schemas.messages.soccer.game import DisciplinaryRecord, GameState
 from schemas.messages.soccer.league.findings import Findings
 from schemas.side import Side
-from schemas.soccer.game import GameStage, Phase
+from schemas.soccer.game import GameStage, OffField, Phase
 
 NAMES = TeamNames("Tech United", "Falcons")
 
@@ -125,3 +125,11 @@ def test_a_written_line_names_its_part_of_the_game(changes: dict[str, object], p
     log.lines.clear()
     log.update(state.replace(tick=150, time=3.0, clock=62.5, effective=61.0, **changes))
     assert {tuple(line.split(",")[i] for i in (0, 2)) for line in log.lines} == {("1003000", part)}
+
+
+def test_a_robot_in_repair_before_the_game_is_a_line_of_its_part() -> None:
+    log = GameLog(1_000_000, {"cyan1": Side.CYAN})
+    state = GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
+    log.update(state)
+    log.update(state.replace(robots={"cyan1": DisciplinaryRecord(off_field=OffField.REPAIR)}))
+    assert [line.split(",")[2] for line in log.lines] == ["Pre-Game"]
