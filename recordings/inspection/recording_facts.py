@@ -1,9 +1,7 @@
 """Facts of a recording: the match, how it ended, the recorded messages and the losses."""
 
-import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 from recordings.container.manifest import EndReason, KeyCount, Result
 from recordings.inspection.contradictions import contradictions
@@ -89,10 +87,6 @@ class RecordingFacts:
     keys: list[KeyFacts]
     contradictions: list[str]
     """Sentences on where result, manifest and attachments do not fit the messages and each other."""
-
-    def to_json(self) -> dict[str, Any]:
-        """The facts as plain lists, numbers and strings."""
-        return dataclasses.asdict(self)
 
 
 def facts_of(recording: Recording) -> RecordingFacts:

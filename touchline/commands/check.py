@@ -1,8 +1,6 @@
 """`touchline check`: whether a brain or a program keeps the contract of a robot."""
 
-import json as json_text
 import shlex
-from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -12,6 +10,7 @@ from robot_agent.process.stdio.command_line import check_command_line
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
+from touchline.launch.terminal.json_text import json_text
 from touchline.matches.series.team_names import brain_of
 
 
@@ -66,6 +65,5 @@ def check(
             typer.echo(f"{'kept' if result.kept else 'broken':<7} {result.name:<12} {result.sentence}")
     is_kept = all(result.kept for result in results)
     if json:
-        rows = [asdict(result) for result in results]
-        typer.echo(json_text.dumps({"kept": is_kept, "checks": rows}, ensure_ascii=False, indent=2))
+        typer.echo(json_text({"kept": is_kept, "checks": results}, indent=2))
     raise typer.Exit(0 if is_kept else 1)

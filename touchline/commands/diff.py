@@ -1,6 +1,5 @@
 """`touchline diff`: the first difference between two recordings."""
 
-import json as json_text
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,6 +8,7 @@ import typer
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from recordings.inspection.difference import FieldDifference, RecordingComparison
@@ -43,7 +43,7 @@ def diff(
         raise TouchlineError(
             f"{first} and {second}: no message is selected; change --include, --exclude, --from or --to"
         )
-    typer.echo(json_text.dumps(_facts(found), ensure_ascii=False) if json else _sentence(found, first, second))
+    typer.echo(json_text(_facts(found)) if json else _sentence(found, first, second))
     if not found.identical:
         raise typer.Exit(FAILED)
 

@@ -1,6 +1,5 @@
 """`touchline health --doctor`: what works between this machine and a host, what does not, and what to do."""
 
-import json as json_text
 from typing import TYPE_CHECKING
 
 import typer
@@ -8,6 +7,7 @@ import typer
 from runtime.bus.settings import ClientSettings
 from runtime.process.clock import WallClock
 from touchline.commands.cli.errors import FAILED
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from touchline.commands.diagnosis.doctor.finding import Finding
@@ -26,8 +26,7 @@ def examine_and_print(connection: ClientSettings, *, json: bool) -> int:
             _print(finding)
     failed = any(finding.status is Status.FAILED for finding in findings)
     if json:
-        content = {"ok": not failed, "findings": [finding._asdict() for finding in findings]}
-        typer.echo(json_text.dumps(content, ensure_ascii=False))
+        typer.echo(json_text({"ok": not failed, "findings": [finding._asdict() for finding in findings]}))
     return FAILED if failed else 0
 
 

@@ -1,7 +1,5 @@
 """`touchline drill`: a scene played from many seeds, and its score with an interval."""
 
-import dataclasses
-import json as json_text
 import signal
 from collections import Counter
 from pathlib import Path
@@ -13,6 +11,7 @@ from schemas.config.scene import load_scene, shipped_scenes
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
+from touchline.launch.terminal.json_text import json_text
 from touchline.matches.series.seeds import seeds_of
 from touchline.matches.series.team_names import brain_of
 
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome
     from touchline.matches.engine.planned_match import PlannedMatch
     from touchline.matches.judging.judge import DrillVerdict
-    from touchline.matches.statistics.estimates import Estimate
 
 
 def drill(
@@ -109,11 +107,9 @@ def _print(scene: str, ended: "list[tuple[PlannedMatch, Outcome]]", planned: int
     estimate = share(score, len(verdicts))
     if json:
         drills = [
-            {"seed": one.seed, "verdict": _plain(_verdict(outcome)), "reason": _reason(outcome)}
-            for one, outcome in ended
+            {"seed": one.seed, "verdict": _verdict(outcome), "reason": _reason(outcome)} for one, outcome in ended
         ]
-        content = {"scene": scene, "planned": planned, "score": _plain(estimate), "drills": drills}
-        typer.echo(json_text.dumps(content))
+        typer.echo(json_text({"scene": scene, "planned": planned, "score": estimate, "drills": drills}))
         return
     if estimate is not None and estimate.low is not None and estimate.high is not None:
         interval_text = f"{100 * estimate.value:.0f} % ({100 * estimate.low:.0f} to {100 * estimate.high:.0f} %)"
@@ -128,7 +124,3 @@ def _print(scene: str, ended: "list[tuple[PlannedMatch, Outcome]]", planned: int
             typer.echo(_sentence(one, outcome), err=True)
     if len(ended) < planned:
         typer.echo(f"{planned - len(ended)} not played")
-
-
-def _plain(part: "DrillVerdict | Estimate | None") -> dict[str, object] | None:
-    return dataclasses.asdict(part) if part is not None else None

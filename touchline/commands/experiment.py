@@ -1,8 +1,6 @@
 """`touchline experiment`: studies over factors of a match, and their reproduction."""
 
-import json as json_text
 import signal
-from dataclasses import asdict
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,6 +12,7 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome
@@ -107,7 +106,7 @@ def run(
     if json:
         content = {"folder": str(folder), "seeds": result.seeds, "played": result.played, "answers": sentences}
         content["failed"] = [{"identity": one.identity, "reason": one.reason} for one in failed]
-        typer.echo(json_text.dumps(content, ensure_ascii=False))
+        typer.echo(json_text(content))
     else:
         for sentence in sentences:
             typer.echo(sentence)
@@ -156,7 +155,7 @@ def _check(
             folder, session.executor, sample, brains, session.progress, from_recordings=from_recordings
         )
     if json:
-        typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
+        typer.echo(json_text(verdict))
     else:
         for line in (*verdict.notes, *verdict.faults):
             typer.echo(line)

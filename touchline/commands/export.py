@@ -1,7 +1,5 @@
 """`touchline export`: a recording in another format."""
 
-import json as json_text
-from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +8,7 @@ import typer
 from recordings.exchange.formats import EXPORTERS
 from schemas.errors import TouchlineError, did_you_mean
 from touchline.commands.cli import options
+from touchline.launch.terminal.json_text import json_text
 
 _FORMATS = f"The format: {'; '.join(f'{name}, {row.description}' for name, row in EXPORTERS.items())}."
 
@@ -36,7 +35,7 @@ def export(
         typer.echo(f"{file}: truncated; exporting the messages before the end", err=True)
     exported = exporter.export(recording, out or file.with_name(file.stem + exporter.suffix))
     if json:
-        typer.echo(json_text.dumps({**asdict(exported), "out": str(exported.out)}))
+        typer.echo(json_text(exported))
         return
     for name, count in exported.written.items():
         typer.echo(f"{count:>9}  {name}")

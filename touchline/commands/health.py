@@ -1,6 +1,5 @@
 """`touchline health`: what became of every sight and command of each robot, live or recorded."""
 
-import json as json_text
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +13,7 @@ from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client
 from touchline.commands.cli.option_groups import with_option_groups
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -88,7 +88,7 @@ def health(
 
 def _show(ledger: "Ledger", *, json: bool) -> None:
     if json:
-        typer.echo(json_text.dumps(ledger.to_json(), ensure_ascii=False))
+        typer.echo(json_text(ledger))
         return
     from touchline.commands.diagnosis.health.tables import ledger_view
 

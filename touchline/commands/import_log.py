@@ -1,6 +1,5 @@
 """`touchline import`: converts a foreign log to a recording."""
 
-import json as json_text
 from pathlib import Path
 from typing import Annotated
 
@@ -8,6 +7,7 @@ import typer
 
 from recordings.exchange.formats import IMPORTERS
 from touchline.commands.cli import options
+from touchline.launch.terminal.json_text import json_text
 
 
 def import_log(
@@ -28,7 +28,7 @@ def import_log(
     """
     imported = IMPORTERS["msl-log"].import_log(log, out or log[0].with_suffix(".mcap"), profile, team_a)
     if json:
-        typer.echo(json_text.dumps(imported.to_json(), ensure_ascii=False))
+        typer.echo(json_text(imported.to_json()))
         return
     for side, team in imported.teams.items():
         typer.echo(f"{side.value}: {team.team or 'no name'}, {team.read} of {team.records} records read")

@@ -1,12 +1,12 @@
 """`touchline info`: the contents of a recording."""
 
-import json as json_text
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from touchline.commands.cli import options
+from touchline.launch.terminal.json_text import json_text
 
 
 def info(
@@ -23,7 +23,7 @@ def info(
 
     facts = facts_of(open_recording(file))
     if json:
-        typer.echo(json_text.dumps(facts.to_json(), ensure_ascii=False))
+        typer.echo(json_text(facts))
         return
     from rich.table import Table
 

@@ -1,6 +1,5 @@
 """`touchline coach order` and `touchline coach test`: send orders to a side and report the acknowledgements."""
 
-import json as json_text
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,6 +17,7 @@ from schemas.wire.part_faults import validated
 from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client
 from touchline.commands.cli.option_groups import from_options, with_option_groups
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from coach_gateway.match.orders import Receipt
@@ -131,6 +131,5 @@ def _in_words(side: Side, order: CoachOrder, receipt: "Receipt") -> str:
 
 def _as_json(side: Side, order: CoachOrder, receipt: "Receipt") -> str:
     fields = {"side": side, "sequence": order.sequence, "status": receipt.status}
-    return json_text.dumps(
-        {**fields, "acknowledged": receipt.acknowledged, "missing": receipt.missing, "refused": receipt.refused}
-    )
+    robots = {"acknowledged": receipt.acknowledged, "missing": receipt.missing, "refused": receipt.refused}
+    return json_text(fields | robots)

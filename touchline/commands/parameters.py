@@ -1,6 +1,6 @@
 """`touchline parameters`: reads and changes the parameters of a running match."""
 
-import json as json_text
+import json as json_values
 import math
 from typing import Annotated
 
@@ -18,6 +18,7 @@ from touchline.commands.cli import options
 from touchline.commands.cli.bus_client import bus_client
 from touchline.commands.cli.option_groups import with_option_groups
 from touchline.launch.terminal.aligned import aligned
+from touchline.launch.terminal.json_text import json_text
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -101,7 +102,7 @@ def _setting(argument: str) -> tuple[str, Value]:
 def _value(text: str) -> Value:
     """A finite number or a list of them if the text is one, else the text itself."""
     try:
-        value = json_text.loads(text)
+        value = json_values.loads(text)
     except ValueError:
         return text
     items = value if isinstance(value, list) else [value]
@@ -128,8 +129,7 @@ def _query(connection: ClientSettings, request: ParametersRequest) -> Parameters
 
 def _show(reply: ParametersReply, *, json: bool) -> None:
     if json:
-        fields = [parameter.plain() for parameter in reply.parameters]
-        typer.echo(json_text.dumps(fields, ensure_ascii=False, indent=2))
+        typer.echo(json_text(reply.parameters, indent=2))
         return
     lines = [_line(parameter) for parameter in reply.parameters]
     for line in aligned(lines):

@@ -1,7 +1,5 @@
 """`touchline recover`: repairs recordings."""
 
-import json as json_text
-from dataclasses import asdict
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from touchline.commands.cli import options
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from recordings.editing.recovery import RecoverySummary
@@ -36,11 +35,7 @@ def recover(
         if not json:
             typer.echo(_sentence(done[-1]))
     if json:
-        facts = [
-            {**asdict(one), "path": str(one.path), "original": str(one.original) if one.original else None}
-            for one in done
-        ]
-        typer.echo(json_text.dumps(facts))
+        typer.echo(json_text(done))
 
 
 def _sentence(done: "RecoverySummary") -> str:

@@ -1,6 +1,5 @@
 """`touchline replay`: a recording back onto the bus."""
 
-import json as json_text
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -23,6 +22,7 @@ from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.option_groups import from_options, with_option_groups
 from touchline.launch.processes.stop_signals import StopSignals
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from recordings.reading.recording import RecordedMessage
@@ -167,11 +167,8 @@ def replay(
         wall = clock.now() - began
     status = player.status()
     if json:
-        fields = {
-            **{name: getattr(status, name) for name in ("time", "start", "end", "messages")},
-            "wall_s": round(wall, 3),
-        }
-        typer.echo(json_text.dumps(fields))
+        fields = {name: getattr(status, name) for name in ("time", "start", "end", "messages")}
+        typer.echo(json_text(fields | {"wall_s": round(wall, 3)}))
 
 
 def _protection(opened: "Replay", match: str, credentials: Path | None) -> Protection | None:

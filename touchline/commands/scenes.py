@@ -1,6 +1,5 @@
 """`touchline scene list`: lists the built-in scenes, or shows one."""
 
-import json as json_text
 from typing import Annotated
 
 import typer
@@ -8,6 +7,7 @@ import typer
 from schemas.config.scene import load_scene, shipped_scenes
 from touchline.commands.cli import options
 from touchline.launch.terminal.aligned import aligned
+from touchline.launch.terminal.json_text import json_text
 
 
 def scenes(
@@ -23,7 +23,7 @@ def scenes(
     if name is None:
         found = {shipped: load_scene(shipped).description for shipped in shipped_scenes()}
         if json:
-            typer.echo(json_text.dumps(found, ensure_ascii=False, indent=2))
+            typer.echo(json_text(found, indent=2))
             return
         for line in aligned(list(found.items())):
             typer.echo(line)

@@ -1,7 +1,5 @@
 """`touchline series`: many matches between two teams, and their figures with intervals."""
 
-import dataclasses
-import json as json_text
 import signal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,6 +12,7 @@ from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
 from touchline.commands.cli.option_groups import FieldsOf, with_option_groups
 from touchline.launch.terminal.aligned import aligned
+from touchline.launch.terminal.json_text import json_text
 from touchline.matches.series.seeds import seeds_of
 from touchline.matches.series.team_names import brain_of
 
@@ -98,17 +97,12 @@ def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
     summary = summary_of(rows)
     if json:
         parts = {"summary": summary, "matches": rows, "failed": failed}
-        plain = {key: _plain(part) for key, part in parts.items()}
-        typer.echo(json_text.dumps({"teams": plan.teams, "planned": len(plan.matches), **plain}, ensure_ascii=False))
+        typer.echo(json_text({"teams": plan.teams, "planned": len(plan.matches), **parts}))
         return bool(failed)
     _show(plan, summary, rows, failed)
     for one in failed:
         typer.echo(sentence_of(one, plan), err=True)
     return bool(failed)
-
-
-def _plain(part: Any) -> Any:
-    return [dataclasses.asdict(one) for one in part] if isinstance(part, list) else dataclasses.asdict(part)
 
 
 def _show(plan: "SeriesPlan", summary: "Summary", rows: "list[MatchRow]", failed: "list[FailedMatch]") -> None:

@@ -1,6 +1,5 @@
 """`touchline stats`: statistics of a match, as text, JSON or an HTML page."""
 
-import json as json_text
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,6 +7,7 @@ import typer
 
 from schemas.side import Side
 from touchline.commands.cli import options
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from recordings.soccer.stats.figures import MatchFigures
@@ -35,7 +35,7 @@ def stats(
     else:
         figures = figures_of_recording(recording)
     if json:
-        typer.echo(json_text.dumps(figures.to_json(), ensure_ascii=False))
+        typer.echo(json_text(figures.to_json()))
         return
     _show(figures)
     if html is not None:

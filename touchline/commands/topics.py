@@ -1,6 +1,5 @@
 """`touchline topics`: the topic table, and the JSON Schema of a message for teams in any language."""
 
-import json as json_text
 from typing import Annotated, Any
 
 import typer
@@ -12,6 +11,7 @@ from schemas.topics import TOPICS
 from schemas.wire.message import Message
 from touchline.commands.cli import options
 from touchline.launch.terminal.aligned import aligned
+from touchline.launch.terminal.json_text import json_text
 
 _COLUMNS = ("name", "key", "message", "from", "to", "rate", "delivery", "recorded", "description")
 
@@ -29,11 +29,11 @@ def topics(
     Example: touchline topics command
     """
     if name is not None:
-        typer.echo(json_text.dumps(_schema(name), ensure_ascii=False, indent=2))
+        typer.echo(json_text(_schema(name), indent=2))
         return
     rows = [_row(name, topic) for name, topic in TOPICS.items()]
     if json:
-        typer.echo(json_text.dumps(rows, ensure_ascii=False, indent=2))
+        typer.echo(json_text(rows, indent=2))
         return
     cells = [_COLUMNS, *(tuple(_cell(row[column]) for column in _COLUMNS) for row in rows)]
     typer.echo("All keys are below touchline/{match}/.\n")

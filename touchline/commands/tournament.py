@@ -1,9 +1,7 @@
 """`touchline tournament`: a cup between many teams, its table, its pages, and its verification."""
 
-import json as json_text
 import signal
 from contextlib import closing
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,6 +12,7 @@ from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
 from touchline.launch.confinement.team_code import team_code
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from touchline.matches.cup.cup_config import CupConfig
@@ -107,7 +106,7 @@ def _print(state: "CupState", folder: Path, *, json: bool) -> None:
     from touchline.matches.cup.report import report_of, report_text
 
     if json:
-        typer.echo(json_text.dumps(report_of(state), ensure_ascii=False))
+        typer.echo(json_text(report_of(state)))
         return
     typer.echo(report_text(state))
     typer.echo(f"pages  {folder / 'index.html'}")
@@ -137,7 +136,7 @@ def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *,
     with session_of(f"verify {folder.name}", jobs, json=json) as session:
         verdict = verify_cup(folder, session.executor, sample, brains, session.progress)
     if json:
-        typer.echo(json_text.dumps(asdict(verdict), ensure_ascii=False))
+        typer.echo(json_text(verdict))
     else:
         for line in (*verdict.notes, *verdict.faults):
             typer.echo(line)

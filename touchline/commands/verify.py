@@ -1,7 +1,7 @@
 """`touchline verify`: simulates a recorded match again and compares every tick."""
 
-import json as json_text
 import os
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,6 +10,7 @@ import typer
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
+from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from touchline.verify.verdict import Detail, Discrepancy, Verdict
@@ -47,7 +48,7 @@ def verify(
         raise TouchlineError(f"--jobs is {jobs}; give a number of processes, or 0 for one per core")
     verdict = verified(file, from_kickoff, jobs or len(os.sched_getaffinity(0)), referee)
     if json:
-        typer.echo(json_text.dumps(verdict.to_json(), ensure_ascii=False))
+        typer.echo(json_text({"identical": verdict.identical, **asdict(verdict)}))
     else:
         for line in _lines(verdict):
             typer.echo(line)

@@ -1,6 +1,5 @@
 """The result of a match: as one JSON object for programs, as score and table for people."""
 
-import json
 from dataclasses import dataclass
 
 from rich.console import Group, RenderableType
@@ -14,6 +13,7 @@ from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase, Score
 from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
+from touchline.launch.terminal.json_text import json_text
 
 NOTABLE = frozenset(EventKind) - {
     *(EventKind.STOP, EventKind.RESTART, EventKind.START, EventKind.IN_PLAY),
@@ -64,10 +64,10 @@ class MatchResult:
         """One JSON object."""
         content = {
             "teams": {side.value: self.names[side] for side in Side},
-            "score": self.state.score.plain(),
+            "score": self.state.score,
             "value": self.state.value,
-            "halves": [score.plain() for score in self.halves],
-            "shoot_out": self.state.shoot_out.plain() if self.state.shoot_out is not None else None,
+            "halves": self.halves,
+            "shoot_out": self.state.shoot_out,
             "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.state.robots.items()},
             "duration_s": round(self.duration_s, 6),
             "effective_s": round(self.state.effective, 6),
@@ -75,11 +75,11 @@ class MatchResult:
             "events": [event.plain("version") for event in self.events],
             "real_time_factor": round(self.real_time_factor, 3),
             "wall_s": round(self.wall_s, 3),
-            "recording": str(self.recording.path) if self.recording.path is not None else None,
+            "recording": self.recording.path,
             "recording_fault": self.recording.fault or None,
             "losses": dict(self.recording.losses),
         }
-        return json.dumps(content, ensure_ascii=False)
+        return json_text(content)
 
     def render(self) -> RenderableType:
         """Score, events and recording, for a console."""

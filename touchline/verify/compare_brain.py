@@ -5,7 +5,7 @@ import sys
 from bdb import BdbQuit
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -70,10 +70,6 @@ class BrainComparison:
         for name, before, now in found:
             self.fields[name] = self.fields.get(name, 0) + 1
             self.first = self.first or FirstDifference(sight.tick, sight.time, name, before, now)
-
-    def to_json(self) -> dict[str, Any]:
-        """The verdict as plain JSON values."""
-        return asdict(self)
 
     def sentence(self) -> str:
         """The verdict as one line."""

@@ -1,6 +1,6 @@
 """The verdict on a recording that was simulated again."""
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 from recordings.reading.tick_index import SkippedTicks, SkipReason
@@ -71,9 +71,3 @@ class Verdict:
             and not self.contradictions
             and all(one.why is not SkipReason.MISSING for one in self.left_out)
         )
-
-    def to_json(self) -> dict[str, Any]:
-        """The verdict as plain JSON values."""
-        fields = asdict(self)
-        fields["left_out"] = [one._asdict() for one in self.left_out]
-        return {"identical": self.identical, **fields}

@@ -62,18 +62,13 @@ class ImportSummary:
     """The profile with the pitch, and how it was chosen."""
 
     def to_json(self) -> dict[str, Any]:
-        """The result as plain lists, numbers and strings."""
+        """The result for programs."""
         return {
-            "out": str(self.out),
+            "out": self.out,
             "duration": self.result.time,
-            "score": self.result.score.plain() if self.result.score is not None else None,
+            "score": self.result.score,
             "teams": {
-                side.value: {
-                    "name": log.team,
-                    "records": log.records,
-                    "read": log.read,
-                    "robots": sorted(log.robots),
-                }
+                side: {"name": log.team, "records": log.records, "read": log.read, "robots": sorted(log.robots)}
                 for side, log in self.teams.items()
             },
             "signals": self.signals,

@@ -151,10 +151,8 @@ class MatchFigures:
 
     def to_json(self) -> dict[str, Any]:
         """The figures as plain lists, numbers and strings."""
-        fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        events = [event.plain("version") for event in fields.pop("events")]
-        plain: dict[str, Any] = _plain(fields)
-        return plain | {"events": events}
+        plain: dict[str, Any] = _plain(self)
+        return plain
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,7 +278,9 @@ def _plain(value: Any) -> Any:
     """Dataclasses as dictionaries, keys as strings, numbers rounded to a millionth."""
     if isinstance(value, float):
         return round(value, 6)
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+    if isinstance(value, GameEvent):
+        return value.plain("version")
+    if dataclasses.is_dataclass(value):
         return {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
     if isinstance(value, dict):
         return {str(key): _plain(one) for key, one in value.items()}

@@ -1,5 +1,5 @@
 import json
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
 from recordings.inspection.recording_facts import CUT_OFF, facts_of
@@ -52,7 +52,7 @@ def test_the_facts_of_a_cut_off_file_are_gathered_from_what_is_left(rig):
 
 def test_the_facts_are_json_and_a_table(recorded):
     facts = facts_of(recorded)
-    assert json.loads(json.dumps(facts.to_json()))["keys"][0]["key"] == "game/event"
+    assert json.loads(json.dumps(asdict(facts)))["keys"][0]["key"] == "game/event"
     table = key_rows(facts)
     assert len(table) == 8
     assert {len(row) for row in table} == {len(HEADINGS)}

@@ -1,6 +1,5 @@
 """What `touchline replay --agent` prints: a table of differences, the verdict, and what came of a live match."""
 
-import json
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from schemas.messages.sight import Sight
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.soccer.game import Phase
 from schemas.topics import EVENT, STATE
+from touchline.launch.terminal.json_text import json_text
 from touchline.verify.command_difference import FieldDifference
 from touchline.verify.compare_brain import BrainComparison
 
@@ -50,7 +50,7 @@ class AgentReport:
     def print_verdict(self, verdict: BrainComparison) -> None:
         """Print the result of a comparison."""
         if self._is_json:
-            typer.echo(json.dumps(verdict.to_json()))
+            typer.echo(json_text(verdict))
             return
         if verdict.earlier:
             typer.echo(f"{verdict.earlier} earlier sights were given to the brain for its state, without its output")
@@ -68,14 +68,14 @@ class AgentReport:
             fields = {
                 "start": result.start,
                 "end": result.end,
-                "score": result.state.score.plain(),
-                "recorded_score": recorded.score.plain(),
-                "events": [event.plain() for event in result.events],
+                "score": result.state.score,
+                "recorded_score": recorded.score,
+                "events": result.events,
                 "notes": notes,
             }
             if result.state.value is not None:
                 fields |= {"value": result.state.value, "recorded_value": recorded.value}
-            typer.echo(json.dumps(fields))
+            typer.echo(json_text(fields))
             return
         events = [event for _, event in self._recording.decoded(EVENT.key)]
         events = [event for event in events if result.start < event.time <= result.end]

@@ -1,9 +1,8 @@
 """The ledger of each robot over a stretch of a match, computed from the host's reports at its two ends."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import zip_longest
-from typing import Any
 
 from schemas.messages.health import AccountHealth, Health, RobotHealth
 from schemas.messages.latency_counts import quantile_ms
@@ -88,10 +87,6 @@ class Ledger:
     """Command key → messages on it, for names that no robot of the match has."""
     recorders: dict[str, int]
     """Recorder → ticks that it is behind."""
-
-    def to_json(self) -> dict[str, Any]:
-        """The ledger as JSON values."""
-        return asdict(self)
 
 
 def ledger_of(last: Health, sides: Mapping[str, Side], first: Health | None = None) -> Ledger:
