@@ -5,35 +5,27 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from recordings.container.lineup import Lineup
-from recordings.soccer.stats.ball_control import BallControl
-from recordings.soccer.stats.crowding import Crowding
-from recordings.soccer.stats.dribbles import DribbleStats
 from recordings.soccer.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickRecord
-from recordings.soccer.stats.momentum import Momentum
-from recordings.soccer.stats.motion import MotionStats
-from recordings.soccer.stats.referee_calls import RefereeCalls, ScoredGoal
-from schemas.messages.setup import Setup
+from recordings.soccer.stats.referee_calls import ScoredGoal
 from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
-from schemas.soccer.game import Card
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Coverage:
     """Numbers of messages that the figures are based on; if one is 0, the figures that need them are unknown."""
 
-    worlds: int
-    touched: int
+    worlds: int = 0
+    touched: int = 0
     """Worlds in which a robot touched the ball."""
-    held: int
+    held: int = 0
     """Worlds in which a robot held the ball."""
-    kicks: int
-    states: int
-    events: int
-    missing: float
+    kicks: int = 0
+    states: int = 0
+    events: int = 0
+    missing: float = 0.0
     """Time in s without a world; it counts in no figure but the duration."""
-    unreadable: int
+    unreadable: int = 0
     """Messages that could not be decoded, and are left out."""
 
 
@@ -153,125 +145,6 @@ class MatchFigures:
         """The figures as plain lists, numbers and strings."""
         plain: dict[str, Any] = _plain(self)
         return plain
-
-
-@dataclass(frozen=True, slots=True)
-class FigureBuilder:
-    """Arranges all that was counted, by side and robot."""
-
-    setup: Setup
-    lineup: Lineup
-    extent: tuple[float, float]
-    """Times of the first and the last world, in s."""
-    coverage: Coverage
-    control: BallControl
-    crowding: Crowding
-    motions: dict[str, MotionStats]
-    dribbles: dict[str, DribbleStats]
-    kicks: list[KickRecord]
-    calls: RefereeCalls
-    momentum: Momentum
-
-    def figures(self) -> MatchFigures:
-        """The figures of the match."""
-        teams, (first, last), states = self.setup.teams, self.extent, self.coverage.states
-        duration, in_play = last - first, self.control.in_play if states else None
-        controlled = sum(self.control.seconds.values())
-        return MatchFigures(
-            match=self.setup.match,
-            start=first,
-            duration=duration,
-            in_play_s=in_play,
-            in_play=in_play / duration if in_play is not None and duration > 0 else None,
-            free_s=max(0.0, in_play - controlled) if in_play is not None and self.knows_ball else None,
-            crowded_s=self.crowding.seconds if states else None,
-            longest_crowd_s=self.crowding.longest if states else None,
-            drop_balls=sum(count for (side, _), count in self.calls.restarts.items() if side is None),
-            sides={side: self.side(side, teams[side].name if side in teams else side.value) for side in Side},
-            robots=[self.robot(name) for name in self.motions],
-            goals=self.calls.goals,
-            kicks=self.kicks,
-            momentum_width=self.momentum.width,
-            momentum=self.momentum.values(),
-            coverage=self.coverage,
-            events=self.calls.events,
-        )
-
-    @property
-    def knows_ball(self) -> bool:
-        """Whether possession is known: game states are recorded, and touches or holds of the ball."""
-        return bool(self.coverage.states and (self.coverage.touched or self.coverage.held))
-
-    @property
-    def knows_kicks(self) -> bool:
-        """Whether outcomes of kicks are known: game states and touches are recorded."""
-        return bool(self.coverage.states and self.coverage.touched)
-
-    def side(self, side: Side, team: str) -> SideFigures:
-        """The figures of one side, with the name of its team."""
-        names = [name for name in self.motions if self.lineup.side(name) is side]
-        motions = [self.motions[name] for name in names]
-        dribbles = [self.dribbles[name] for name in names if name in self.dribbles]
-        in_play = sum(motion.in_play for motion in motions)
-        in_play_distance = sum(motion.in_play_distance for motion in motions)
-        controlled, score, shoot_out = sum(self.control.seconds.values()), self.calls.score, self.calls.shoot_out
-        return SideFigures(
-            team=team,
-            goals=score.of(side) if score is not None else None,
-            shoot_out=shoot_out.of(side) if shoot_out is not None else None,
-            possession=self.control.seconds[side] / controlled if controlled > 0 else None,
-            possession_s=self.control.seconds[side] if self.knows_ball else None,
-            with_ball_s=sum(self.control.with_ball.get(name, 0.0) for name in names) if self.coverage.held else None,
-            kicks=self._kicks([kick_record for kick_record in self.kicks if kick_record.side is side]),
-            saves=self._saves(names),
-            dribbles=sum(one.count for one in dribbles) if self.coverage.held else None,
-            dribbled=sum(one.distance for one in dribbles) if self.coverage.held else None,
-            distance=sum(motion.distance for motion in motions),
-            in_play_distance=in_play_distance,
-            top_speed=max((motion.top_speed for motion in motions), default=0.0),
-            mean_speed=in_play_distance / in_play if in_play > 0 else None,
-            fouls={rule: count for (of, rule), count in self.calls.fouls.items() if of is side},
-            cards={card.value: self.calls.cards[side, card] for card in Card},
-            restarts={phase.value: count for (of, phase), count in self.calls.restarts.items() if of is side},
-        )
-
-    def robot(self, name: str) -> RobotFigures:
-        """The figures of one robot."""
-        motion, dribbles, side = (
-            self.motions[name],
-            self.dribbles.get(name, DribbleStats()),
-            self.lineup.side(name),
-        )
-        held = bool(self.coverage.held)
-        goals = sum(goal.robot == name and goal.side is side for goal in self.calls.goals)
-        return RobotFigures(
-            name=name,
-            side=side.value if side is not None else None,
-            keeper=self.lineup.is_keeper(name),
-            distance=motion.distance,
-            clock_distance=motion.clock_distance,
-            in_play_distance=motion.in_play_distance,
-            top_speed=motion.top_speed,
-            mean_speed=motion.mean_speed if motion.in_play > 0 else None,
-            longest_stuck_s=motion.longest_stuck,
-            with_ball_s=self.control.with_ball.get(name, 0.0) if held else None,
-            kicks=self._kicks([kick_record for kick_record in self.kicks if kick_record.robot == name]),
-            saves=self._saves([name]),
-            dribbles=dribbles.count if held else None,
-            dribbled=dribbles.distance if held else None,
-            longest_dribble=dribbles.longest if held else None,
-            goals=goals if self.coverage.events else None,
-            fouls=self.calls.fouls_of[name],
-            cards={card.value: self.calls.cards_of[name, card] for card in Card},
-        )
-
-    def _kicks(self, kicks: list[KickRecord]) -> KickCounts | None:
-        return KickCounts.of(kicks) if self.knows_kicks else None
-
-    def _saves(self, names: Sequence[str]) -> int | None:
-        if not self.knows_kicks:
-            return None
-        return sum(kick_record.outcome is KickOutcome.SAVED and kick_record.by in names for kick_record in self.kicks)
 
 
 def _plain(value: Any) -> Any:
