@@ -1,6 +1,6 @@
-"""The tables of exporters and importers: a new format is a module and a row.
+"""The table of exporters, in which a new format is a module and a row, and the importer.
 
-A module is imported when it is used, so that the command line reads the tables at no cost.
+A module is imported when it is used, so that the command line reads the table at no cost.
 """
 
 from collections.abc import Callable
@@ -33,26 +33,6 @@ class Exporter(NamedTuple):
         return export(recording, out)
 
 
-class Importer(NamedTuple):
-    """One format of logs that can be converted to recordings."""
-
-    module: str
-    """Its module, with a function `import_log(log, out, profile, team_a)`."""
-
-    def import_log(self, log: list[Path], out: Path, profile: str | None, team_a: str | None) -> "ImportSummary":
-        """Convert the files of a log to the recording `out`.
-
-        `profile` is the pitch's, recognised if None, `team_a` the name of team A in the log.
-
-        Raises:
-            TouchlineError: the log cannot be read, or the recording cannot be written.
-        """
-        convert: Callable[[list[Path], Path, str | None, str | None], ImportSummary] = import_module(
-            self.module
-        ).import_log
-        return convert(log, out, profile, team_a)
-
-
 EXPORTERS = {
     "csv": Exporter("recordings.exchange.csv_files", "-csv", "tables of robots, ball, events, states and commands"),
     "msl-log": Exporter("recordings.soccer.league.export", ".msl.zip", "the log of the league's referee box"),
@@ -60,5 +40,15 @@ EXPORTERS = {
 }
 """Format → its exporter."""
 
-IMPORTERS = {"msl-log": Importer("recordings.soccer.league.import_log")}
-"""Format → its importer."""
+
+def import_log(log: list[Path], out: Path, profile: str | None, team_a: str | None) -> "ImportSummary":
+    """Convert the files of a log of the league's referee box to the recording `out`.
+
+    `profile` is the pitch's, recognised if None, `team_a` the name of team A in the log.
+
+    Raises:
+        TouchlineError: the log cannot be read, or the recording cannot be written.
+    """
+    from recordings.soccer.league.import_log import import_log as convert
+
+    return convert(log, out, profile, team_a)

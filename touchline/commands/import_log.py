@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from recordings.exchange.formats import IMPORTERS
+from recordings.exchange import formats
 from touchline.commands.cli import options
 from touchline.launch.terminal.json_text import json_text
 
@@ -26,7 +26,7 @@ def import_log(
 
     Example: touchline import 20160703_120000.TeamA-TeamB.zip --out final.mcap
     """
-    imported = IMPORTERS["msl-log"].import_log(log, out or log[0].with_suffix(".mcap"), profile, team_a)
+    imported = formats.import_log(log, out or log[0].with_suffix(".mcap"), profile, team_a)
     if json:
         typer.echo(json_text(imported.to_json()))
         return

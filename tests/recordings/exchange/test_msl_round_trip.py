@@ -11,7 +11,7 @@ from zipfile import ZipFile
 import pytest
 from typer.testing import CliRunner
 
-from recordings.exchange.formats import EXPORTERS, IMPORTERS
+from recordings.exchange.formats import EXPORTERS, import_log
 from recordings.reading.recording import Recording, open_recording
 from recordings.soccer.league import LOG_PERIOD
 from recordings.soccer.stats.match_statistics import figures_of_recording
@@ -34,7 +34,7 @@ def log(real: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def back(log: Path) -> Recording:
-    imported = IMPORTERS["msl-log"].import_log([log], log.with_name("back.mcap"), "msl", None)
+    imported = import_log([log], log.with_name("back.mcap"), "msl", None)
     assert imported.lost == []
     assert [one.what for one in imported.left_out] == ["obstacles that a team sees"]
     placed = [finding.what for finding in imported.coped]
