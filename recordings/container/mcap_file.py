@@ -22,7 +22,7 @@ from recordings.container.sealed_metadata import is_sealed
 from schemas.errors import TouchlineError
 
 DAMAGED = "damaged inside ({}); use another copy of it, or leave out the damaged parts with `touchline recover`"
-_END_NS = 1 << 64
+END_NS = 1 << 64
 """Later than the time of any message."""
 _FOOTER = struct.Struct("<BQQQI")
 """Opcode, length, start of the summary, start of its offsets, checksum of the summary."""
@@ -83,9 +83,7 @@ class McapFile:
         if record.name not in self.metadata or is_sealed(record.metadata):
             self.metadata[record.name] = record.metadata
 
-    def messages(
-        self, keys: set[str], start_ns: int | None = None, end_ns: int | None = None
-    ) -> Iterator[tuple[str, Message]]:
+    def messages(self, keys: set[str], start_ns: int = 0, end_ns: int = END_NS) -> Iterator[tuple[str, Message]]:
         """Yield key and message, in the order of the file, from `start_ns` up to but not including `end_ns`.
 
         Raises:
@@ -96,7 +94,7 @@ class McapFile:
                 yield from self._streamed(file, keys, start_ns, end_ns)
                 return
             try:
-                yield from self._indexed(file, keys, start_ns or 0, _END_NS if end_ns is None else end_ns)
+                yield from self._indexed(file, keys, start_ns, end_ns)
             except BROKEN as error:
                 raise TouchlineError(f"{self.path}: {DAMAGED.format(error)}") from None
 
@@ -117,19 +115,15 @@ class McapFile:
                         payload = data[begin + MESSAGE.size : end]
                         yield wanted[channel], Message(channel, log_ns, payload, sent_ns, sequence)
 
-    def _streamed(
-        self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None
-    ) -> Iterator[tuple[str, Message]]:
+    def _streamed(self, file: IO[bytes], keys: set[str], start_ns: int, end_ns: int) -> Iterator[tuple[str, Message]]:
         known: dict[int, str] = {}  # a growing file has more channels than when it was opened
         for record in _records(file, self.path.stat().st_size):
             if isinstance(record, Channel):
                 known.setdefault(record.id, record.topic)
-            if not isinstance(record, Message):
-                continue
-            key = known[record.channel_id]
-            late_enough = start_ns is None or record.log_time >= start_ns
-            if key in keys and late_enough and (end_ns is None or record.log_time < end_ns):
-                yield key, record
+            elif isinstance(record, Message) and start_ns <= record.log_time < end_ns:
+                key = known[record.channel_id]
+                if key in keys:
+                    yield key, record
 
 
 def open_mcap_file(path: Path) -> McapFile:

@@ -3,13 +3,12 @@
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import chain
 from pathlib import Path
 
 from mcap.records import Message
 
 from recordings.container.manifest import DAMAGED_RECORDS, MANIFEST, RECOVERED, RESULT, Manifest
-from recordings.container.mcap_file import ChannelRecord, McapFile, open_mcap_file
+from recordings.container.mcap_file import END_NS, ChannelRecord, McapFile, open_mcap_file
 from recordings.container.parts import parts_of
 from recordings.container.sealed_metadata import from_metadata, is_sealed, sealed
 from schemas.errors import TouchlineError
@@ -20,35 +19,32 @@ class PartedFile(McapFile):
     """The parts in their order. Each has the messages from where it begins up to where the next one begins."""
 
     files: list[McapFile] = field(default_factory=list)
-    begins_ns: list[int | None] = field(default_factory=list)
-    """Simulated time in ns at which each file begins; None for the first, all of which is read."""
+    begins_ns: list[int] = field(default_factory=list)
+    """Simulated time in ns at which each file begins; 0 for the first, all of which is read."""
 
     @property
     def size(self) -> int:
         """Bytes of all files."""
         return sum(file.size for file in self.files)
 
-    def messages(
-        self, keys: set[str], start_ns: int | None = None, end_ns: int | None = None
-    ) -> Iterator[tuple[str, Message]]:
+    def messages(self, keys: set[str], start_ns: int = 0, end_ns: int = END_NS) -> Iterator[tuple[str, Message]]:
         """Yield key and message, in order, from `start_ns` up to but not including `end_ns`.
 
         Raises:
             TouchlineError: a file is damaged.
         """
         for file, begin_ns, stop_ns in self._spans():
-            begins = [ns for ns in (begin_ns, start_ns) if ns is not None]
-            stops = [ns for ns in (stop_ns, end_ns) if ns is not None]
-            yield from file.messages(keys, max(begins, default=None), min(stops, default=None))
+            yield from file.messages(keys, max(begin_ns, start_ns), min(stop_ns, end_ns))
 
     def add_channels(self) -> None:
         """Sum up the channels of the files, without messages that another file has."""
         found: dict[str, ChannelRecord] = {}
         for file, begin_ns, stop_ns in self._spans():
             keys = {channel.key for channel in file.channels.values()}
-            before = file.messages(keys, None, begin_ns) if begin_ns is not None else ()
-            after = file.messages(keys, stop_ns, None) if stop_ns is not None else ()
-            elsewhere = Counter(key for key, _ in chain(before, after))
+            others = ((0, begin_ns), (stop_ns, END_NS))
+            elsewhere = Counter(
+                key for first, end in others if first < end for key, _ in file.messages(keys, first, end)
+            )
             for channel in file.channels.values():
                 messages = channel.messages - elsewhere[channel.key]
                 known = found.get(channel.key)
@@ -59,9 +55,9 @@ class PartedFile(McapFile):
                     known.last_ns = channel.last_ns
         self.channels = dict(enumerate(found.values(), start=1))
 
-    def _spans(self) -> Iterator[tuple[McapFile, int | None, int | None]]:
+    def _spans(self) -> Iterator[tuple[McapFile, int, int]]:
         """Each file, with the times from which and up to which its messages count."""
-        yield from zip(self.files, self.begins_ns, [*self.begins_ns[1:], None], strict=True)
+        yield from zip(self.files, self.begins_ns, [*self.begins_ns[1:], END_NS], strict=True)
 
 
 def open_parts(path: Path) -> McapFile:
@@ -82,7 +78,7 @@ def open_parts(path: Path) -> McapFile:
             raise TouchlineError(f"{file.path}: is a part of another recording than {path}; move it away")
     parted = PartedFile(path, last.complete, files=files)
     parted.attachments = {**last.attachments, **first.attachments}
-    parted.begins_ns = [None, *(manifest.begins_ns for manifest in manifests[1:])]
+    parted.begins_ns = [0, *(manifest.begins_ns for manifest in manifests[1:])]
     parted.metadata = {**first.metadata, **last.metadata, MANIFEST: first.metadata[MANIFEST]}
     if RESULT not in last.metadata:
         parted.metadata.pop(RESULT, None)

@@ -31,8 +31,8 @@ class Cursor:
         """Part → simulated time in ns at which the next one begins."""
         self._chunk = self._next = 0
         self._messages: list[RecordedMessage] = []
-        for number, part in enumerate(parts_of(path) or [path], start=1):
-            self._add(GrowingPart(part, keep), number)
+        for part in parts_of(path) or [path]:
+            self._add(GrowingPart(part, keep))
         self._load_chunk(0)
 
     @property
@@ -69,13 +69,12 @@ class Cursor:
         before = len(self._chunks)
         next_part = part_path(self._path, len(self._parts) + 1)
         goes_on = next_part.exists()  # what was written before that is read first
-        self._grow(self._parts[-1])
+        newest = self._parts[-1]
+        known = len(newest.chunks)
+        newest.grow()
+        self._add_chunks(newest, known)
         if goes_on:
-            part = GrowingPart(next_part, self._keep)
-            if part.begins_ns is None:
-                part.close()  # its manifest is not written yet
-            else:
-                self._add(part, len(self._parts) + 1)
+            self._add(GrowingPart(next_part, self._keep))
         return len(self._chunks) > before
 
     def peek(self) -> RecordedMessage | None:
@@ -124,19 +123,15 @@ class Cursor:
                 found |= newest
         return [message for _, _, message in sorted(found.values())]
 
-    def _add(self, part: GrowingPart, number: int) -> None:
-        """Take in the next part; one that its recorder has not begun is left out."""
-        if self._parts and number > 1:
+    def _add(self, part: GrowingPart) -> None:
+        """Take in the next part; one whose manifest is not written yet is left out."""
+        if self._parts:
             if part.begins_ns is None:
+                part.close()
                 return
             self._stops[self._parts[-1]] = part.begins_ns
         self._parts.append(part)
         self._add_chunks(part, 0)
-
-    def _grow(self, part: GrowingPart) -> None:
-        known = len(part.chunks)
-        part.grow()
-        self._add_chunks(part, known)
 
     def _add_chunks(self, part: GrowingPart, known: int) -> None:
         for chunk in part.chunks[known:]:

@@ -3,21 +3,20 @@
 Only the offsets of the chunks are read when the file is opened. `grow` reads those that were written since.
 """
 
+import os
 import struct
 import weakref
 from collections.abc import Callable, Iterator
-from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Channel, Metadata
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, is_known, read_chunk, records_in
 from recordings.container.manifest import MANIFEST, RESULT, EndReason
-from recordings.container.mcap_file import DAMAGED
+from recordings.container.mcap_file import DAMAGED, stream_of
 from recordings.reading.recording import RecordedMessage
 from schemas.errors import TouchlineError
 from schemas.topic import Topic
@@ -82,7 +81,7 @@ class GrowingPart:
         Raises:
             TouchlineError: the file is damaged there.
         """
-        before, size = len(self.chunks), self._size()
+        before, size = len(self.chunks), self._file.seek(0, os.SEEK_END)
         while not self.finished:
             self._file.seek(self._scanned_to)
             head = self._file.read(RECORD_HEADER.size)
@@ -121,10 +120,6 @@ class GrowingPart:
             raise self._damaged("times of a chunk")
         return found
 
-    def _size(self) -> int:
-        self._file.seek(0, 2)
-        return self._file.tell()
-
     def _index_record(self, opcode: int, length: int) -> None:
         """Take in a complete record, at whose content the file is positioned."""
         if opcode == Opcode.CHUNK and length >= _CHUNK.size:
@@ -137,17 +132,15 @@ class GrowingPart:
                 self._indexed.add(channel)
                 self._introducing.append(len(self.chunks) - 1)
         elif opcode == Opcode.CHANNEL:
-            self._add_channel(Channel.read(ReadDataStream(BytesIO(self._file.read(length)))))
+            self._add_channel(Channel.read(stream_of(self._file.read(length))))
         elif opcode == Opcode.METADATA:
-            self._read_metadata(Metadata.read(ReadDataStream(BytesIO(self._file.read(length)))))
+            record = Metadata.read(stream_of(self._file.read(length)))
+            if record.name == MANIFEST:
+                self.begins_ns = int(record.metadata.get("begins_ns", "0"))
+            elif record.name == RESULT:
+                self.continues = record.metadata.get("ended") == EndReason.CONTINUED
         elif opcode == Opcode.FOOTER:
             self.finished = True
-
-    def _read_metadata(self, record: Metadata) -> None:
-        if record.name == MANIFEST:
-            self.begins_ns = int(record.metadata.get("begins_ns", "0"))
-        elif record.name == RESULT:
-            self.continues = record.metadata.get("ended") == EndReason.CONTINUED
 
     def _channels_in(self, chunk: IndexedChunk) -> set[int]:
         """The channels of a chunk's messages."""
@@ -164,7 +157,7 @@ class GrowingPart:
                 channel, *numbers = MESSAGE.unpack_from(data, begin)
                 yield channel, tuple(numbers), data[begin + MESSAGE.size : end]
             elif opcode == Opcode.CHANNEL:
-                self._add_channel(Channel.read(ReadDataStream(BytesIO(data[begin:end]))))
+                self._add_channel(Channel.read(stream_of(data[begin:end])))
 
     def _damaged(self, why: object) -> TouchlineError:
         return TouchlineError(f"{self._path}: {DAMAGED.format(why)}")

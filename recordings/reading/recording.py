@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from recordings.container.applied_changes import changes_in
 from recordings.container.lineup import Lineup
 from recordings.container.manifest import DAMAGED_RECORDS, MANIFEST, RECOVERED, RESULT, Manifest, Result
-from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived
+from recordings.container.mcap_file import END_NS, ChannelRecord, McapFile, is_derived
 from recordings.container.parted_file import open_parts
 from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
 from runtime.bus.contract import ReceivedMessage, Stamp
@@ -146,7 +146,7 @@ class Recording:
             TouchlineError: the file is damaged inside.
         """
         wanted = {key for key, topic in self._topics.items() if topic is not None and _wanted(key, keys)}
-        for key, message in self.mcap_file.messages(wanted, nanoseconds(start), nanoseconds(end)):
+        for key, message in self.mcap_file.messages(wanted, nanoseconds(start, 0), nanoseconds(end, END_NS)):
             topic = self._topics[key]
             if topic is not None:
                 yield RecordedMessage(
@@ -209,6 +209,6 @@ def _wanted(key: str, patterns: tuple[str, ...]) -> bool:
     return not patterns or any(fnmatchcase(key, pattern) for pattern in patterns)
 
 
-def nanoseconds(seconds: float | None) -> int | None:
-    """A simulated time in s as messages are filed under it, in ns."""
-    return round(seconds * 1e9) if seconds is not None else None
+def nanoseconds(seconds: float | None, otherwise: int) -> int:
+    """A simulated time in s as messages are filed under it, in ns; `otherwise` without one."""
+    return round(seconds * 1e9) if seconds is not None else otherwise

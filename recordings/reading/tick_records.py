@@ -53,12 +53,9 @@ def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
 
 def manually_driven(recording: Recording) -> set[str]:
     """The robots that were under manual control at any time."""
-    events = (event for _, event in recording.decoded(EVENT.key) if _is_manual_control(event))
-    return {event.robot for event in events if event.robot is not None}
-
-
-def _is_manual_control(event: GameEvent) -> bool:
-    return event.kind is EventKind.AGENT and event.rule == "manual_control"
+    events: Iterator[GameEvent] = (event for _, event in recording.decoded(EVENT.key))
+    changes = (event for event in events if event.kind is EventKind.AGENT and event.rule == "manual_control")
+    return {event.robot for event in changes if event.robot is not None}
 
 
 def _none_missing(count: KeyCount | None) -> bool:
