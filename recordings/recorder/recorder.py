@@ -4,6 +4,7 @@ It needs a bus and a sink, no process: `recordings.recorder.record` opens both.
 """
 
 from collections.abc import Callable, Iterable
+from functools import cache
 
 from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -59,8 +60,7 @@ class Recorder:
         """Messages that are not written yet, in order."""
         self._tick = -1
         """The newest tick of which all messages were read."""
-        self._included: dict[str, bool] = {}
-        """Key → whether it is recorded."""
+        self._includes = cache(selection.includes)
         self._roster = RosterMetadata()
         self._setup: Setup | None = None
         self._begun = False
@@ -164,11 +164,7 @@ class Recorder:
         self._host.update()
         if self._host.is_reachable():
             return False
-        return self._is_complete() or self._host.is_given_up(RECONNECT_S)
-
-    def _is_complete(self) -> bool:
-        """Whether the match is over and no batch is known to be missing."""
-        return self._match.finished and self._batches.is_complete
+        return (self._match.finished and self._batches.is_complete) or self._host.is_given_up(RECONNECT_S)
 
     def _read(self, batches: Iterable[RecordBatch]) -> int:
         """Extract the messages of batches; returns their number."""
@@ -197,13 +193,6 @@ class Recorder:
         if self._match.goals > self._synced_goals and any(received.key == EVENT.key for _, received in batch):
             self._synced_goals = self._match.goals
             self._sink.sync()
-
-    def _includes(self, key: str) -> bool:
-        """Whether the messages of a key are recorded."""
-        included = self._included.get(key)
-        if included is None:
-            included = self._included[key] = self._selection.includes(key)
-        return included
 
     def _report(self, idle: bool) -> None:
         """Report progress after a number of ticks, after `REPORT_S`, and when no more messages arrive."""
@@ -258,11 +247,7 @@ class Recorder:
     def _make_result(self, ended: EndReason) -> Result:
         """The result of the recording so far."""
         result = self._match.result(ended, timestamp(self._clock), self._sink.loss_counts.counts())
-        return result.replace(unreadable=self._unreadable(), lost_batches=self._batches.lost)
-
-    def _unreadable(self) -> dict[str, int]:
-        """Key → payloads that could not be read."""
-        counts = self._match.unreadable.copy()
+        unreadable = self._match.unreadable.copy()
         if self._batches.unreadable:
-            counts[RECORD_BATCH.key] += self._batches.unreadable
-        return dict(counts)
+            unreadable[RECORD_BATCH.key] += self._batches.unreadable
+        return result.replace(unreadable=dict(unreadable), lost_batches=self._batches.lost)

@@ -74,16 +74,14 @@ class ReplayHost:
         published = self.player.pump()
         self._batches.send_if_due()
         now = self._clock.now()
+        stands_still = self.player.paused and self.player.published > 0
+        is_due = has_newcomers or now - self._published_at > LATCHED_S
         if published:
             self._published_at = now
-        elif self._may_repeat() and (has_newcomers or now - self._published_at > LATCHED_S):
+        elif stands_still and is_due and not self._listeners.recorders:  # which would record them twice
             self._published_at = now
             self.player.republish_latched()
         return published
-
-    def _may_repeat(self) -> bool:
-        """Whether latched messages may be published again; a recorder would record them twice."""
-        return self.player.paused and self.player.published > 0 and not self._listeners.recorders
 
     def wait_for_recorders(self) -> None:
         """Give recorders time to receive the last messages."""

@@ -6,8 +6,7 @@ The only module that uses foxglove-sdk. Its server has threads of its own; their
 import importlib.util
 import json
 from queue import SimpleQueue
-from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 from recordings.container.json_schema import flat_schema
 from recordings.container.lineup import Lineup
@@ -104,12 +103,8 @@ class LiveView:
         self._server.broadcast_time(player.position_ns)
         self._announce(player)
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
+        """End the server."""
         self._server.stop()
 
     def _open(self, topic: str, encoding: str, schema: "Schema") -> None:

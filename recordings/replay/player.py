@@ -76,7 +76,8 @@ class Player:
         self._open_ns: int | None = None
         self._steps = 0
         self._checked_at = -math.inf
-        self._published = 0
+        self.published = 0
+        """Messages published so far."""
         self._has_begun = self._is_at_start = False
         self.ended = False
         """Whether the replay has ended."""
@@ -102,11 +103,6 @@ class Player:
         """Whether the replay is paused."""
         return self._playback.paused
 
-    @property
-    def published(self) -> int:
-        """Messages published so far."""
-        return self._published
-
     def pump(self) -> int:
         """Publish due messages; returns their number.
 
@@ -117,8 +113,8 @@ class Player:
             self._has_begun = True
             for latched in self._cursor.latched(self._span.start_ns, is_latched):
                 self._emit(latched)
-        before = self._published
-        while self._published - before < _MAX_AT_ONCE and not self.ended:
+        before = self.published
+        while self.published - before < _MAX_AT_ONCE and not self.ended:
             message = self._next()
             if message is None:
                 self._at_end()
@@ -129,7 +125,7 @@ class Player:
             self._emit(message)
             self._cursor.skip()
             self._is_at_start = False
-        return self._published - before
+        return self.published - before
 
     def wait(self) -> float:
         """Wall time in s until a message is due; infinite while paused."""
@@ -165,12 +161,12 @@ class Player:
             rate=None if math.isinf(rate) else rate,
             paused=self.paused,
             loop=self._loop,
-            messages=self._published,
+            messages=self.published,
         )
 
     def _emit(self, message: RecordedMessage) -> None:
         self._publish(message)
-        self._published += 1
+        self.published += 1
 
     def _next(self) -> RecordedMessage | None:
         """The next message; None at the end of the range."""

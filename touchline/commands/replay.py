@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -161,7 +161,7 @@ def replay(
             look_after = stack.enter_context(
                 serve_page_beside(name, local_endpoint(bus.endpoint), opened_page, clock, log, operator)
             )
-        view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
+        view = stack.enter_context(closing(_live_view(opened, foxglove_port))) if foxglove else None
         began = clock.now()
         player = _play(opened, bus, clock, stop, look_after, view, quiet=json)
         wall = clock.now() - began

@@ -4,6 +4,7 @@ import importlib.util
 import json
 import struct
 from collections.abc import Callable, Iterator
+from contextlib import closing
 
 import pytest
 from foxglove_schemas_protobuf import FrameTransforms_pb2, SceneUpdate_pb2
@@ -85,7 +86,8 @@ class Viewer:
 def viewer(recorded) -> Iterator[Viewer]:
     """A viewer of a recording of four seconds, of which the first half second has been played."""
     replay, clock = Replay(ReplaySettings(recorded.path, stay=True)), SteppedClock()
-    with LiveView("a match", recorded.manifest.setup, (replay.cursor.start_ns, replay.cursor.end_ns), 0) as view:
+    extent = replay.cursor.start_ns, replay.cursor.end_ns
+    with closing(LiveView("a match", recorded.manifest.setup, extent, 0)) as view:
         player = replay.player(clock, publish=view.publish)
         with connect(view.address, subprotocols=["foxglove.sdk.v1"], close_timeout=0.5) as socket:
             viewer = Viewer(socket, view, player, clock)
@@ -167,7 +169,7 @@ def test_without_its_extra_the_error_names_the_remedy(monkeypatch, recorded):
 
 
 def test_a_recording_without_a_setup_is_shown_without_a_drawing(recorded):
-    with LiveView("bare", None, None, 0) as view:
+    with closing(LiveView("bare", None, None, 0)) as view:
         view.publish(next(recorded.messages("world")))
         with connect(view.address, subprotocols=["foxglove.sdk.v1"]) as socket:
             told = [json.loads(socket.recv(timeout=PATIENCE_S)) for _ in range(2)]
