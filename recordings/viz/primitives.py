@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 from foxglove_schemas_protobuf.ArrowPrimitive_pb2 import ArrowPrimitive
 from foxglove_schemas_protobuf.Color_pb2 import Color
@@ -76,31 +77,13 @@ def text(position: Triple, string: str, size: float, colour: Colour) -> TextPrim
     return TextPrimitive(pose=pose(position), billboard=True, font_size=size, color=_color(colour), text=string)
 
 
-def entity(
-    name: str,
-    frame: str,
-    *,
-    facts: dict[str, str] | None = None,
-    cubes: Iterable[CubePrimitive] = (),
-    cylinders: Iterable[CylinderPrimitive] = (),
-    spheres: Iterable[SpherePrimitive] = (),
-    arrows: Iterable[ArrowPrimitive] = (),
-    lines: Iterable[LinePrimitive] = (),
-    texts: Iterable[TextPrimitive] = (),
-) -> SceneEntity:
-    """An entity that moves with its frame; viewers show `facts` when it is selected."""
-    return SceneEntity(
-        frame_id=frame,
-        id=name,
-        frame_locked=True,
-        metadata=[KeyValuePair(key=key, value=value) for key, value in (facts or {}).items()],
-        cubes=cubes,
-        cylinders=cylinders,
-        spheres=spheres,
-        arrows=arrows,
-        lines=lines,
-        texts=texts,
-    )
+def entity(name: str, frame: str, facts: dict[str, str] | None = None, **shapes: Any) -> SceneEntity:
+    """An entity that moves with its frame; viewers show `facts` when it is selected.
+
+    `shapes` are fields of `SceneEntity`: cubes, cylinders, spheres, arrows, lines and texts, each of its primitive.
+    """
+    metadata = [KeyValuePair(key=key, value=value) for key, value in (facts or {}).items()]
+    return SceneEntity(frame_id=frame, id=name, frame_locked=True, metadata=metadata, **shapes)
 
 
 def scene_update(entities: Iterable[SceneEntity], deleted: Iterable[str] = ()) -> SceneUpdate:
