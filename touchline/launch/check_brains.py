@@ -8,6 +8,7 @@ import signal
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 from robot_agent.loading.build_check import BuildCheckSettings
@@ -19,8 +20,7 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.launch.confinement.robot_confinement import Confinement, team_confinements
 from touchline.launch.processes.child_process import ChildProcess
-from touchline.launch.processes.process_table import Process, ProcessKind
-from touchline.launch.processes.python_process import PYTHON, module_path_environment
+from touchline.launch.processes.process_table import ProcessKind, library_process
 from touchline.launch.processes.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.processes.supervisor import ending
 from touchline.launch.run_folder import RUNS
@@ -97,21 +97,10 @@ class _BuildCheck:
         self._patience = max(config.patience.attendance, HANG_S) * max(len(config.robots(side)), 1)
         beside = brain_folder.absolute() if brain_folder is not None else None
         settings = BuildCheckSettings(config=config, side=side, brain_folder=beside, launch_folder=Path.cwd())
-        file = folder / f"{side.value}.json"
-        process = Process(
-            name="build_check",
-            kind=ProcessKind.AGENT,
-            command=(*PYTHON, "-m", "robot_agent.loading.build_check", "--settings", str(file)),
-            environment={
-                **ROBOT_ENVIRONMENT,
-                **module_path_environment(),
-                "TOUCHLINE_SIDE": side.value,
-                "TOUCHLINE_MATCH": config.name,
-            },
-            settings=settings,
-            settings_file=file,
-            confinement=confinement.in_folder(folder / side.value),
-        )
+        environment = {**ROBOT_ENVIRONMENT, "TOUCHLINE_SIDE": side.value, "TOUCHLINE_MATCH": config.name}
+        module = "robot_agent.loading.build_check"
+        process = library_process(side.value, ProcessKind.AGENT, settings, folder, environment, module=module)
+        process = replace(process, confinement=confinement.in_folder(folder / side.value))
         self._process, self._clock = ChildProcess(process, folder / f"{side.value}.log"), WallClock()
 
     def wait(self, report: Callable[[str], None]) -> None:

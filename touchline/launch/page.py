@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from coach_gateway.access.tokens import page_address, read_or_make
+from coach_gateway.access.tokens import page_address, tokens_of
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.serving.listener import listen, origin_of
 from coach_gateway.web.settings import WebSettings, need_web
@@ -37,7 +37,7 @@ def address_lines(web: WebSettings, tokens: Path) -> list[str]:
     """
     origin = origin_of(web.listen_web, web.port)
     return [
-        f"page: {page_address(origin, read_or_make(tokens).referee)}",
+        f"page: {page_address(origin, tokens_of(tokens).referee)}",
         f"      that is the referee's; spectators: {origin}/; the coaches' tokens: {tokens}",
     ]
 

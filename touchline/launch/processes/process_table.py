@@ -88,9 +88,13 @@ def library_process(
     folder: Path,
     environment: Mapping[str, str] = MappingProxyType({}),
     sockets: tuple[socket.socket, ...] = (),
+    module: str | None = None,
 ) -> Process:
-    """A program of this library, with the settings that it reads from its file in `folder`."""
+    """A program of this library, with the settings that it reads from its file in `folder`.
+
+    `module` is another one than that of its kind.
+    """
     row, file = PROCESSES[kind], folder / f"{name}.json"
-    command = (*PYTHON, "-m", row.module, "--settings", str(file))
+    command = (*PYTHON, "-m", module or row.module, "--settings", str(file))
     whole = {**COMMON_ENVIRONMENT, **module_path_environment(), **environment}
     return Process(name, kind, command, whole, row.restarts, settings, file, sockets)

@@ -89,8 +89,7 @@ class Supervisor:
 
     def start(self) -> None:
         """Launch all processes, in their order."""
-        for name, process in self._processes.items():
-            self._running[name] = self._launch(process)
+        self.add([*self._processes.values()])
 
     def add(self, processes: Sequence[Process]) -> None:
         """Launch further processes, in their order."""
@@ -188,7 +187,8 @@ class Supervisor:
     def _crashed(self, process: Process, status: int) -> Notice:
         log = tuple(self._running[process.name].last_lines())
         breach = self._running[process.name].breach()
-        how = f"was ended: {breach}" if breach else _ending(process, status)
+        how = "failed at its first sight" if _failed_at_first_sight(process, status) else ending(status)
+        how = f"was ended: {breach}" if breach else how
         return Notice(process.name, f"{process.name} {how}; {self._restart(process, status)}", log)
 
     def _restart(self, process: Process, status: int) -> str:
@@ -216,10 +216,6 @@ def _failed_at_first_sight(process: Process, status: int | None) -> bool:
 def _cannot_begin(process: Process, status: int) -> bool:
     """Whether a robot cannot begin: its host refuses it, or its brain cannot be built."""
     return process.settings is not None and process.kind is ProcessKind.AGENT and status == WRONG
-
-
-def _ending(process: Process, status: int) -> str:
-    return "failed at its first sight" if _failed_at_first_sight(process, status) else ending(status)
 
 
 def ending(status: int) -> str:
