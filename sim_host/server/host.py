@@ -149,8 +149,12 @@ class Host:
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
         requested = self._services.requests.actions
+        # the end of the game for a side whose robots go on above the limit of messages
+        ends = [
+            RefereeAction(action=ActionName.END_GAME, side=one, source="host") for one in self.accounts.forfeiting()
+        ]
         tick = self.simulation.step(
-            commands, [*requested, *self._forfeits()], self._send_sight, silent, self.presence.has_referee_box()
+            commands, [*requested, *ends], self._send_sight, silent, self.presence.has_referee_box()
         )
         self._outbox.publish_tick(tick, self.simulation.state)
         self._active_orders.publish(tick.tick, tick.time, self.simulation.roster)
@@ -216,12 +220,6 @@ class Host:
             self.accounts.pass_time(now - self._accounts_updated_at)
             self._accounts_updated_at = now
 
-    def _forfeits(self) -> list[RefereeAction]:
-        """The end of the game for a side whose robots go on above the limit of messages."""
-        return [
-            RefereeAction(action=ActionName.END_GAME, side=side, source="host") for side in self.accounts.forfeiting()
-        ]
-
     def _send_sight(self, robot: str, sight: bytes) -> None:
         """Send a sight, before any other message of its tick: robots wait for sights, watchers do not."""
         if robot == self.simulation.roster.names[0]:
@@ -267,18 +265,9 @@ class Host:
             self._publish_health(tick)
 
     def _publish_health(self, tick: TickResult) -> None:
-        simulation, late = self.simulation, self.pace.late_ticks
-        budget = simulation.profile.radio.budget
-        report = self._health.report(
-            tick.tick,
-            tick.time,
-            late,
-            self.inbox,
-            self.presence,
-            self._admission,
-            simulation.radio_use,
-            budget,
-        )
+        clients = self.inbox, self.presence, self._admission
+        radio = self.simulation.radio_use, self.simulation.profile.radio.budget
+        report = self._health.report(tick.tick, tick.time, self.pace.late_ticks, *clients, *radio)
         self._outbox.health.put(report)
 
 

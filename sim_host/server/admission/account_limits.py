@@ -51,10 +51,6 @@ class AccountTraffic:
         """Count dropped messages."""
         self.dropped[reason] = self.dropped.get(reason, 0) + messages
 
-    def health(self) -> AccountHealth:
-        """The counts as they are published."""
-        return AccountHealth(messages=self.messages, size=self.size, dropped=dict(self.dropped))
-
 
 class AccountLimits:
     """All accounts of a match."""
@@ -101,7 +97,10 @@ class AccountLimits:
 
     def health(self) -> dict[str, AccountHealth]:
         """The counts of all accounts that have sent anything."""
-        return {name: account.health() for name, account in self._accounts.items()}
+        return {
+            name: AccountHealth(messages=one.messages, size=one.size, dropped=dict(one.dropped))
+            for name, one in self._accounts.items()
+        }
 
     def _learn(self, key: str) -> AccountTraffic:
         name = self._name(key)

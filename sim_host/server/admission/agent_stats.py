@@ -17,6 +17,11 @@ LATENCY_SAMPLES = 50
 """Commands that the median latency is taken over: one second of ticks."""
 _REPEATED_COMMANDS = 100
 """Most commands that an agent sends in addition to one for each tick: a larger gap is another agent's numbering."""
+_PUBLISHED = (
+    *("alive", "answering", "removed", "still", "answers", "missed", "missed_in_a_row", "duplicates", "invalid"),
+    *("refused", "sights", "unanswered", "late", "lost_commands"),
+)
+"""Fields of an agent's statistics that are published as they are."""
 
 
 @dataclass(slots=True)
@@ -146,21 +151,8 @@ class AgentStats:
     def health(self, tick: int, radio: RobotRadio = NO_RADIO) -> RobotHealth:
         """The statistics as they are published at this tick, with the use of its robot's radio."""
         return RobotHealth(
-            alive=self.alive,
-            answering=self.answering,
-            answers=self.answers,
-            missed=self.missed,
-            missed_in_a_row=self.missed_in_a_row,
-            duplicates=self.duplicates,
-            invalid=self.invalid,
-            refused=self.refused,
-            removed=self.removed,
-            still=self.still,
+            **{name: getattr(self, name) for name in _PUBLISHED},
             latency_ms=round(self.latency_s * 1e3, 3) if self.latencies else None,
-            sights=self.sights,
-            unanswered=self.unanswered,
-            late=self.late,
-            lost_commands=self.lost_commands,
             radio_bytes=radio.bytes,
             radio_refused=radio.refused,
             latencies=without_empty_end(self.latency_counts),

@@ -42,5 +42,5 @@ class Admission:
 
     def add_robots(self, sides: Mapping[str, Side]) -> None:
         """Admit robots that an operator has added to the match."""
-        self._eligibility.add_robots(sides)
+        self._eligibility.sides.update(sides)
         self.accounts.sides = {**self.accounts.sides, **sides}

@@ -1,7 +1,6 @@
 """What the claim of an agent has to fit: match, robots, sides, and the secret of the launch. Knows no bus."""
 
 import hmac
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from schemas.config.match_config import MatchConfig
@@ -28,10 +27,6 @@ class Eligibility:
         """The claims that fit the match of a config."""
         sides = {robot: side for side in Side for robot in config.robots(side)}
         return cls(config.name, sides, launch_token, frozenset(config.remote_sides))
-
-    def add_robots(self, sides: Mapping[str, Side]) -> None:
-        """Add robots that an operator has added to the match."""
-        self.sides.update(sides)
 
     def needs_token(self, robot: str) -> bool:
         """Whether the agent of this robot must know the secret of the launch."""
