@@ -19,7 +19,7 @@ from touchline.matches.engine.play_list import play_list
 from touchline.matches.series.match_row import FailedMatch, MatchRow, rows_of
 from touchline.matches.series.plan import SeriesPlan, plan_series
 from touchline.matches.series.summary import summary_of
-from touchline.matches.series.table import figure_rows, longest_lines
+from touchline.matches.series.table import figure_rows, longest_line
 from touchline.matches.series.team_names import brain_of
 
 LADDER = ("reference", "simple", "nubot", "random")
@@ -68,7 +68,7 @@ def tables_of(name: str, pairing: Pairing, rows: list[MatchRow]) -> str:
     lines += [f"| {' | '.join(cells)} |" for cells in figure_rows(summary.teams)]
     lines += ["", f"| {name} | match |", "| --- | --- |"]
     lines += [f"| {' | '.join(cells)} |" for cells in figure_rows(summary.match)]
-    return "\n".join([*lines, "", *longest_lines(summary), ""])
+    return "\n".join([*lines, "", *map(longest_line, summary.longest), ""])
 
 
 def main() -> int:

@@ -63,14 +63,11 @@ def refusal(
     allowed = RIGHTS[deed]
     if role not in allowed:
         need = "the referee's token" if allowed == _REFEREE else "the token of that side's coach or the referee's"
-        return f"{deed.replace('_', ' ')} needs {need}; this page has {_token_of(role)}"
+        has = "none" if role is TokenRole.SPECTATOR else f"that of {role.value}'s coach"
+        return f"{deed.replace('_', ' ')} needs {need}; this page has {has}"
     if role in COACHES and deed in _FOR_A_SIDE:
         return _refusal_of_other_side(COACHES[role], robots, side, robot)
     return None
-
-
-def _token_of(role: TokenRole) -> str:
-    return "none" if role is TokenRole.SPECTATOR else f"that of {role.value}'s coach"
 
 
 def _refusal_of_other_side(own: Side, robots: Mapping[str, Side], side: Side | None, robot: str | None) -> str | None:

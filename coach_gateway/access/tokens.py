@@ -60,20 +60,15 @@ def page_address(origin: str, token: str) -> str:
 
 
 def tokens_of(path: Path | None) -> Tokens:
-    """The tokens of a file; without one, new tokens that last as long as the process.
-
-    Raises:
-        TouchlineError: as `read_or_make`.
-    """
-    return read_or_make(path) if path is not None else Tokens.random()
-
-
-def read_or_make(path: Path) -> Tokens:
     """The tokens of a file; a missing file is created, readable by its owner alone.
+
+    Without a file they are new, and last as long as the process.
 
     Raises:
         TouchlineError: others may read the file, or its content is invalid.
     """
+    if path is None:
+        return Tokens.random()
     try:
         return _make(path)
     except FileExistsError:

@@ -125,7 +125,9 @@ class MatchFollower:
             self._set_state(message, received)
             news.states.append(message)
         for message, received in self._messages(self._healths, news):
-            self._set_health(message, received)
+            self.health = message
+            self._payloads[received.key] = received.payload
+            self._note_time(message, received)
             news.healths.append(message)
         for received in iter(self._progress.receive, None):
             progress = self._decoded(received)
@@ -272,11 +274,6 @@ class MatchFollower:
         self.state = state
         self._payloads[received.key] = received.payload
         self._note_time(state, received)
-
-    def _set_health(self, health: Health, received: ReceivedMessage) -> None:
-        self.health = health
-        self._payloads[received.key] = received.payload
-        self._note_time(health, received)
 
     def _note_time(self, message: GameEvent | GameState | Health, received: ReceivedMessage) -> None:
         if message.tick == 0 or received.stamp is None:

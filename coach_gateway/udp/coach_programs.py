@@ -11,7 +11,7 @@ from typing import Any
 from coach_gateway.access import rights
 from coach_gateway.access.refusals import Refusals
 from coach_gateway.access.roles import COACHES, TokenRole
-from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, for_coach, for_referee
+from coach_gateway.udp.coach_record import BY_NUMBER, TEST_MODES, MatchMode, for_coach, for_referee
 from coach_gateway.udp.protocol import (
     MAX_BYTES,
     Ack,
@@ -228,9 +228,8 @@ def _order(pending: _Pending, session: Session, ask: ProgramOrder, robots: Mappi
 def _match_mode(
     pending: _Pending, session: Session, ask: ProgramMatchMode, robots: Mapping[str, Side]
 ) -> PendingRequest | str:
-    try:
-        mode = ask.mode if isinstance(ask.mode, MatchMode) else MatchMode.of_number(ask.mode)
-    except KeyError:
+    mode = ask.mode if isinstance(ask.mode, MatchMode) else BY_NUMBER.get(ask.mode)
+    if mode is None:
         return f"mode is {ask.mode}; known: {', '.join(str(known.number) for known in MatchMode)}"
     if mode is MatchMode.TEST:
         return "a test is an order, which names the test"

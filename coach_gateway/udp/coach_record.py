@@ -39,15 +39,6 @@ class MatchMode(StrEnum):
         return _NUMBERS[self]
 
     @classmethod
-    def of_number(cls, number: int) -> "MatchMode":
-        """The mode of a number.
-
-        Raises:
-            KeyError: no mode has this number.
-        """
-        return _BY_NUMBER[number]
-
-    @classmethod
     def of_game(cls, phase: TeamPhase, *, running: bool) -> "MatchMode":
         """The mode of a game in that phase; before, between and after the halves it is `stop`."""
         if running or phase is TeamPhase.PLAY:
@@ -62,7 +53,8 @@ _NUMBERS: dict[MatchMode, int] = {mode: number for number, mode in enumerate(Mat
     MatchMode.PARK: 25,
     MatchMode.TEST: 27,
 }
-_BY_NUMBER = {number: mode for mode, number in _NUMBERS.items()}
+BY_NUMBER = {number: mode for mode, number in _NUMBERS.items()}
+"""Number in the record → its mode."""
 
 
 class RecordedTest(NamedTuple):

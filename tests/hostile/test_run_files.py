@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from coach_gateway.access.tokens import read_or_make
+from coach_gateway.access.tokens import tokens_of
 from runtime.access.accounts import Account
 from runtime.access.credentials import account_file
 from runtime.process.clock import WallClock
@@ -45,7 +45,7 @@ def test_no_file_of_a_run_that_holds_a_secret_can_be_read_by_others(folder: Path
             assert file is None or mode(file) == 0o600
     assert protected.credentials is not None
     secrets = [json.loads(account_file(protected.credentials, one).read_text())["password"] for one in Account]
-    secrets += astuple(read_or_make(plan.tokens))
+    secrets += astuple(tokens_of(plan.tokens))
     holders = [
         path
         for path in plan.folder.rglob("*")

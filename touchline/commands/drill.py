@@ -94,9 +94,9 @@ def _reason(outcome: "Outcome") -> str:
 def _sentence(planned: "PlannedMatch", outcome: "Outcome") -> str:
     verdict = _verdict(outcome)
     if verdict is None:
-        return f"seed {planned.seed}: not played: {_reason(outcome)}"
+        return f"seed {planned.config.seed}: not played: {_reason(outcome)}"
     kind = "success" if verdict.success else "failure"
-    return f"seed {planned.seed}: {kind}, {verdict.because} after {verdict.time:.1f} s"
+    return f"seed {planned.config.seed}: {kind}, {verdict.because} after {verdict.time:.1f} s"
 
 
 def _print(scene: str, ended: "list[tuple[PlannedMatch, Outcome]]", planned: int, *, json: bool) -> None:
@@ -107,7 +107,8 @@ def _print(scene: str, ended: "list[tuple[PlannedMatch, Outcome]]", planned: int
     estimate = share(score, len(verdicts))
     if json:
         drills = [
-            {"seed": one.seed, "verdict": _verdict(outcome), "reason": _reason(outcome)} for one, outcome in ended
+            {"seed": one.config.seed, "verdict": _verdict(outcome), "reason": _reason(outcome)}
+            for one, outcome in ended
         ]
         typer.echo(json_text({"scene": scene, "planned": planned, "score": estimate, "drills": drills}))
         return

@@ -106,7 +106,7 @@ def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
 
 
 def _show(plan: "SeriesPlan", summary: "Summary", rows: "list[MatchRow]", failed: "list[FailedMatch]") -> None:
-    from touchline.matches.series.table import figure_rows, headline, longest_lines
+    from touchline.matches.series.table import figure_rows, headline, longest_line
 
     typer.echo(headline(plan, rows, failed))
     if not rows:
@@ -116,5 +116,5 @@ def _show(plan: "SeriesPlan", summary: "Summary", rows: "list[MatchRow]", failed
         for line in aligned([("", *heading), *figure_rows(figures)]):
             typer.echo(line)
     typer.echo()
-    for line in longest_lines(summary):
-        typer.echo(line)
+    for one in summary.longest:
+        typer.echo(longest_line(one))

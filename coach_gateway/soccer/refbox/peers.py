@@ -70,10 +70,6 @@ class Peers:
         if peer in self._open:
             self._open.remove(peer)
 
-    def to_make_room(self) -> Peer | None:
-        """The base station that gives way to a further one: the oldest without an identity; None where all have one."""
-        return next((peer for peer in self._open if peer.side is None), None)
-
     def of(self, side: Side, but: Peer) -> list[Peer]:
         """The other base stations of a side."""
         return [other for other in self._open if other is not but and other.side is side]

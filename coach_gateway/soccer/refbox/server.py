@@ -156,8 +156,8 @@ class RefBoxServer:
             self._forget(peer)
 
     def _make_room(self, newcomer: Peer) -> bool:
-        """Drop a base station that has not identified itself; returns whether there was one."""
-        unidentified = self._peers.to_make_room()
+        """Drop the oldest base station that has not identified itself; returns whether there was one."""
+        unidentified = next((peer for peer in self._peers if peer.side is None), None)
         if unidentified is None:
             self._refuse(newcomer, "connection", f"{MOST} base stations are connected")
             return False

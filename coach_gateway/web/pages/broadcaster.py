@@ -112,10 +112,6 @@ class PageBroadcaster:
             return f'there is no robot "{request.robot}"'
         return None
 
-    def send_replay(self, reply: ReplayReply) -> None:
-        """Send all pages the status of the replay."""
-        self._pages.send(ReplayUpdate(replay=reply).json())
-
     def _beliefs_of(self, role: TokenRole) -> list[Side]:
         """The sides whose robots' beliefs a role is shown."""
         wanted = self._beliefs
@@ -197,7 +193,8 @@ class PageBroadcaster:
         while True:
             if self.feed.host_present and not self.feed.live and len(self._pages):
                 try:
-                    self.send_replay(await asyncio.to_thread(self._ask_replay))
+                    status = await asyncio.to_thread(self._ask_replay)
+                    self._pages.send(ReplayUpdate(replay=status).json())
                 except TouchlineError:
                     await asyncio.sleep(HOST_RETRY_S)  # the follower is about to notice that the host has left
             await asyncio.sleep(STATUS_S)

@@ -35,12 +35,7 @@ def listen(address: str, port: int) -> socket.socket:
     return listener
 
 
-def listening_address(address: str) -> str:
-    """The address at which a program on this machine reaches what listens there."""
-    return _HERE.get(address, address)
-
-
 def origin_of(address: str, port: int) -> str:
     """The origin of what is served there, for a browser on this machine."""
-    near = listening_address(address)
+    near = _HERE.get(address, address)
     return f"http://[{near}]:{port}" if ":" in near else f"http://{near}:{port}"

@@ -11,14 +11,14 @@ from typing import Any
 import pytest
 
 from coach_gateway.access.roles import TokenRole
-from coach_gateway.access.tokens import Tokens, page_address, read_or_make
+from coach_gateway.access.tokens import Tokens, page_address, tokens_of
 from schemas.errors import TouchlineError
 
 
 def test_tokens_that_were_made_once_are_the_same_when_they_are_read(tmp_path: Path) -> None:
     file = tmp_path / "tokens.json"
-    made = read_or_make(file)
-    assert read_or_make(file) == made
+    made = tokens_of(file)
+    assert tokens_of(file) == made
     assert stat.S_IMODE(file.stat().st_mode) == 0o600
 
 
@@ -29,7 +29,7 @@ def test_two_that_make_the_same_file_at_once_have_the_same_tokens(tmp_path: Path
 
     def make(_: int) -> Tokens:
         start.wait()
-        return read_or_make(file)
+        return tokens_of(file)
 
     for _ in range(20):
         with ThreadPoolExecutor(8) as threads:
@@ -78,17 +78,17 @@ def test_a_file_that_holds_no_tokens_is_refused_with_what_to_do(content: Any, wh
     file.touch(0o600)
     file.write_text(content if isinstance(content, str) else json.dumps(content))
     with pytest.raises(TouchlineError, match=why):
-        read_or_make(file)
+        tokens_of(file)
 
 
 def test_a_file_that_others_may_read_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "tokens.json"
-    read_or_make(file)
+    tokens_of(file)
     file.chmod(0o644)
     with pytest.raises(TouchlineError, match=r"may be read by others \(mode 644\); chmod 600"):
-        read_or_make(file)
+        tokens_of(file)
 
 
 def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
     with pytest.raises(TouchlineError, match=r"nowhere/tokens.json cannot be written \(No such file or directory\)"):
-        read_or_make(tmp_path / "nowhere" / "tokens.json")
+        tokens_of(tmp_path / "nowhere" / "tokens.json")

@@ -3,6 +3,7 @@
 import pytest
 
 from coach_gateway.udp.coach_record import (
+    BY_NUMBER,
     TEST_MODES,
     MatchMode,
     Meaning,
@@ -29,10 +30,9 @@ TESTS = {
 def test_every_match_mode_has_its_number_and_every_number_its_match_mode() -> None:
     assert {mode.number: mode.value for mode in MatchMode} == RECORD
     for number, word in RECORD.items():
-        assert MatchMode.of_number(number) is MatchMode(word)
-        assert MatchMode.of_number(number).number == number
-    with pytest.raises(KeyError):
-        MatchMode.of_number(14)
+        assert BY_NUMBER[number] is MatchMode(word)
+        assert BY_NUMBER[number].number == number
+    assert 14 not in BY_NUMBER
 
 
 def test_every_test_mode_has_its_number_and_every_number_its_test_mode() -> None:

@@ -46,11 +46,6 @@ class PlannedMatch:
     label: str = ""
     """Its name for people."""
 
-    @property
-    def seed(self) -> int:
-        """Seed of all random numbers of the match."""
-        return self.config.seed
-
     @cached_property
     def identity(self) -> str:
         """A digest of configuration and code: equal for matches with equal results."""

@@ -30,7 +30,7 @@ class SeedMatch:
     @property
     def seed(self) -> int:
         """Seed of all random numbers of the match."""
-        return self.planned.seed
+        return self.planned.config.seed
 
     @property
     def sides(self) -> tuple[Side, Side]:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
 from touchline.matches.series.plan import SeriesPlan
-from touchline.matches.series.summary import Figure, Longest, Summary, Value
+from touchline.matches.series.summary import Figure, Longest, Value
 from touchline.matches.statistics.estimates import Estimate
 
 UNKNOWN = "–"
@@ -27,11 +27,6 @@ def figure_rows(figures: Sequence[Figure]) -> list[Cells]:
     return [(one.name, *(_cell(value, percent=one.percent) for value in one.values)) for one in figures]
 
 
-def longest_lines(summary: Summary) -> list[str]:
-    """One line for each longest time, with the match that it was in."""
-    return [_longest(one) for one in summary.longest]
-
-
 def headline(plan: SeriesPlan, played: Sequence[MatchRow], failed: Sequence[FailedMatch]) -> str:
     """The teams and the number of matches."""
     total, missing = len(plan.matches), len(plan.matches) - len(played) - len(failed)
@@ -41,7 +36,8 @@ def headline(plan: SeriesPlan, played: Sequence[MatchRow], failed: Sequence[Fail
     return f"{plan.teams[0]} – {plan.teams[1]}   {', '.join(parts)}; in brackets: intervals of 95 %"
 
 
-def _longest(one: Longest) -> str:
+def longest_line(one: Longest) -> str:
+    """A longest time, with the match that it was in."""
     swapped = ", sides swapped" if one.row.swapped else ""
     where = f" (seed {one.row.seed}{swapped})" if one.seconds > 0 else ""
     return f"{one.name}: {one.seconds:.1f} s{where}"

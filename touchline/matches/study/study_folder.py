@@ -30,7 +30,6 @@ class StoredStudy:
     seeds: list[int]
     """The seeds that were played in each cell."""
     table: pd.DataFrame
-    versions: Mapping[str, Any]
     digests: Mapping[str, Any]
 
 
@@ -101,7 +100,7 @@ def read_study(folder: Path) -> StoredStudy:
         table = pd.read_csv(folder / CSV)
     except (OSError, ValueError) as error:
         raise TouchlineError(f"{folder / CSV}: {error}; the study has no results yet: run it to its end") from None
-    return StoredStudy(folder, plan, digests["seeds"], table, _json(folder / VERSIONS), digests)
+    return StoredStudy(folder, plan, digests["seeds"], table, digests)
 
 
 def _json(path: Path) -> dict[str, Any]:
