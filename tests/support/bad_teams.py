@@ -1,4 +1,4 @@
-"""Four teams that a cup must survive, as the source of a module beside its file."""
+"""Teams that a cup must survive, as the source of a module beside its file."""
 
 SOURCE = '''
 """Teams that fail, each in its own way."""
@@ -11,7 +11,7 @@ from pathlib import Path
 from runtime.bus.zenoh.bus import open_client
 from runtime.process.clock import WallClock
 from schemas.topics import COMMAND
-from touchline import Briefing, Command, Sight
+from touchline import Briefing, Command, Drive, Kick, KickMode, Sight
 
 
 class Sound:
@@ -37,6 +37,14 @@ class Hangs(Sound):
 class NeverStarts(Sound):
     def __init__(self, briefing: Briefing) -> None:
         raise RuntimeError("no camera")
+
+
+class Cheats(Sound):
+    """Kicks a ball that it does not have, in turn at once and long after the sight that it answers."""
+
+    def act(self, sight: Sight) -> Command:
+        kick = Kick(mode=KickMode.GROUND, speed=10.0)
+        return Command(answers_tick=max(0, sight.tick - 200 * (sight.tick % 2)), drive=Drive(vx=20.0), kick=kick)
 
 
 class Floods(Sound):

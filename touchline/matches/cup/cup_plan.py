@@ -22,6 +22,8 @@ from touchline.matches.series.team_names import brain_of
 
 RECORDINGS, LOGS = "recordings", "logs"
 """Folders in a cup's folder: a recording of each match; logs of processes, and tracebacks."""
+ADMISSION_S = 60.0
+"""The longest playing time of the match that a team plays before the cup, in s."""
 _DOCUMENT = "cup"
 """Name of the document of a run that has its cup."""
 _FORFEITS = {
@@ -91,13 +93,14 @@ class CupPlan:
         return self._forfeited(slot, outcome)
 
     def _forfeited(self, slot: Slot, failed: Failed) -> Ended:
-        if failed.culprit is None or failed.kind not in _FORFEITS:
+        if not failed.culprits or failed.kind not in _FORFEITS:
             return Ended(None, failed.identity, failed.reason, evidence=failed.evidence)
-        culprit = slot.sides[tuple(Side).index(failed.culprit)]
-        first, second = slot.fixture.teams
-        goals = (0, self.forfeit_goals) if culprit == first else (self.forfeit_goals, 0)
-        result = MatchResult((first, second), goals, forfeited_by=culprit)
-        reason = f"{culprit} {_FORFEITS[failed.kind]}: {failed.reason}"
+        teams = slot.fixture.teams
+        culprits = tuple(dict.fromkeys(slot.sides[tuple(Side).index(side)] for side in failed.culprits))
+        others = set(teams) - set(culprits)
+        first, second = (self.forfeit_goals if team in others else 0 for team in teams)
+        result = MatchResult(teams, (first, second), forfeited_by=culprits)
+        reason = f"{' and '.join(culprits)} {_FORFEITS[failed.kind]}: {failed.reason}"
         return Ended(result, failed.identity, reason, evidence=failed.evidence)
 
 
@@ -160,6 +163,8 @@ def match_config(cup: CupConfig, slot: Slot) -> MatchConfig:
     changes: dict[str, object] = {"teams": TeamConfigs(cyan=cyan, magenta=magenta)}
     if slot.fixture.decisive:
         changes["referee"] = config.referee.model_copy(update={"winner": True})
+    if slot.is_admission:
+        changes["duration"] = min(config.duration or ADMISSION_S, ADMISSION_S)
     return MatchConfig.model_validate(config.model_copy(update=changes).model_dump())
 
 

@@ -2,7 +2,7 @@
 
 import hashlib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -10,6 +10,9 @@ from touchline.matches.cup.cup_config import CupConfig
 from touchline.matches.cup.formats.knock_out import Vacancy
 from touchline.matches.cup.match_result import Fixture, FixtureResult, MatchResult
 from touchline.matches.cup.schedule import Schedule, schedule_of
+
+ADMISSION = "admission"
+"""The stage before the cup: each team plays a short match against itself, and who fails in it is refused."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +32,11 @@ class Slot:
     def file_name(self) -> str:
         """The name for files and addresses: `final_match_2`."""
         return re.sub(r"\W+", "_", self.name.lower())
+
+    @property
+    def is_admission(self) -> bool:
+        """Whether a team plays against itself, before the cup."""
+        return self.fixture.stage == ADMISSION
 
     @property
     def sides(self) -> tuple[str, str]:
@@ -73,7 +81,7 @@ class Ended:
         """How far the match is."""
         if self.result is None:
             return MatchState.FAILED
-        return MatchState.PLAYED if self.result.forfeited_by is None else MatchState.FORFEITED
+        return MatchState.PLAYED if not self.result.forfeited_by else MatchState.FORFEITED
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,8 +119,14 @@ class CupState:
 
     @property
     def due(self) -> list[Slot]:
-        """Matches that can be played now."""
-        return [one.slot for one in self.matches if one.state is MatchState.DUE]
+        """Matches that can be played now: those of the cup when all admissions are over."""
+        due = [one.slot for one in self.matches if one.state is MatchState.DUE]
+        return [slot for slot in due if slot.is_admission] or due
+
+    @property
+    def refused(self) -> set[str]:
+        """Teams that failed in their admission."""
+        return _refused(self.matches)
 
     @property
     def failed(self) -> list[CupMatch]:
@@ -126,31 +140,39 @@ class CupState:
 
     @property
     def results(self) -> list[MatchResult]:
-        """Results of all matches that are over."""
-        return [one.result for one in self.matches if one.result is not None]
+        """Results of all matches between two teams that are over."""
+        return [one.result for one in self.matches if one.result is not None and not one.slot.is_admission]
 
     @property
     def winner(self) -> str | None:
-        """The winner of the cup; None before it is known."""
+        """The winner of the cup; None before it is known, and where no team was admitted."""
         if not self.is_complete:
             return None
         bracket = self.schedule.bracket
         if bracket is not None:
             return None if isinstance(bracket.winner, Vacancy) else bracket.winner
         ((row, *_),) = self.schedule.tables.values()
-        return row.team
+        return None if row.team in self.refused else row.team
 
 
 def state_of(cup: CupConfig, ended_of: EndedOf) -> CupState:
     """The state of a cup, from how its matches have ended: a pure function of it."""
+    first = [
+        Slot(Fixture(f"{ADMISSION} {place}", ADMISSION, 1, (name, name)), 0) for place, name in enumerate(cup.names, 1)
+    ]
+    admissions = [CupMatch(slot, ended_of(slot)) for slot in first]
     fixtures: dict[str, FixtureResult] = {}
     while True:
-        schedule = schedule_of(cup, fixtures)
+        schedule = schedule_of(cup, fixtures, _refused(admissions))
         new = [one for one in schedule.fixtures if one.name not in fixtures]
         if not new:
             matches = [match for one in schedule.fixtures for match in _matches_of(fixtures[one.name], ended_of)]
-            return CupState(cup, schedule, fixtures, tuple(matches))
+            return CupState(cup, schedule, fixtures, (*admissions, *matches))
         fixtures |= {one.name: _result_of(one, ended_of) for one in new}
+
+
+def _refused(matches: Iterable[CupMatch]) -> set[str]:
+    return {one.slot.sides[0] for one in matches if one.slot.is_admission and one.state is MatchState.FORFEITED}
 
 
 def _result_of(fixture: Fixture, ended_of: EndedOf) -> FixtureResult:

@@ -22,8 +22,8 @@ class MatchResult:
     """Yellow cards."""
     reds: Pair = (0, 0)
     """Red cards."""
-    forfeited_by: str | None = None
-    """The team that forfeited the match."""
+    forfeited_by: tuple[str, ...] = ()
+    """The team that forfeited the match; both where neither could play it."""
 
     @property
     def winner(self) -> str | None:
@@ -36,7 +36,7 @@ class MatchResult:
 
 def scored(results: Iterable[MatchResult]) -> list[Scored]:
     """What ratings count: the goals of all matches without a forfeit."""
-    return [Scored(one.teams, one.goals) for one in results if one.forfeited_by is None]
+    return [Scored(one.teams, one.goals) for one in results if not one.forfeited_by]
 
 
 def score_text(result: MatchResult, of: str | None = None) -> str:
@@ -109,6 +109,11 @@ class FixtureResult:
     def is_over(self) -> bool:
         """Whether no further match is to be played."""
         return not self.legs_to_play
+
+    @property
+    def is_lost_by_both(self) -> bool:
+        """Whether both teams have forfeited all matches."""
+        return bool(self.matches) and all(len(one.forfeited_by) == 2 for one in self.matches)
 
     @property
     def leader(self) -> str | None:

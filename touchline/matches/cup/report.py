@@ -34,10 +34,13 @@ def report_text(state: CupState) -> str:
     for stage, rows in state.schedule.tables.items():
         cells = [(str(row.place), row.team, *_numbers(row)) for row in rows]
         lines += [stage, *aligned([("", "team", "P", "W", "D", "L", "goals", "points"), *cells]), ""]
-    if state.schedule.bracket is not None:
-        names = {one.name for one in state.schedule.bracket.fixtures}
+    bracket = state.schedule.bracket
+    if bracket is not None:
+        names = {one.name for one in bracket.fixtures}
         played = [one for one in state.matches if one.slot.fixture.name in names and one.result is not None]
-        lines += [*(_line(one) for one in played), ""]
+        lines += [_line(one) for one in played]
+        lines += [f"{name} is level, and decided by {criterion}" for name, criterion in bracket.decided_by.items()]
+        lines.append("")
     for one in state.matches:
         if one.state in (MatchState.FORFEITED, MatchState.FAILED) and one.ended is not None:
             lines.append(f"{one.slot.name} {one.state}: {one.ended.reason}")
@@ -45,7 +48,8 @@ def report_text(state: CupState) -> str:
     cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]
     sentence = "the order is significant" if rated.significant else "the order is not significant"
     lines += [*aligned([("", "rating", "interval of 95 %"), *cells]), sentence, ""]
-    lines.append(f"winner  {state.winner}" if state.winner is not None else "the cup is not complete")
+    nobody = "no team was admitted" if state.is_complete else "the cup is not complete"
+    lines.append(f"winner  {state.winner}" if state.winner is not None else nobody)
     return "\n".join(lines)
 
 

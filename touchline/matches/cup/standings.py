@@ -56,9 +56,10 @@ def sums(
             row = rows[team]
             row.played += 1
             row.won += leader == team
-            row.drawn += leader is None
-            row.lost += leader not in (team, None)
-            row.points += points.win if leader == team else points.draw if leader is None else points.loss
+            is_drawn = leader is None and not result.is_lost_by_both
+            row.drawn += is_drawn
+            row.lost += leader != team and not is_drawn
+            row.points += points.win if leader == team else points.draw if is_drawn else points.loss
             row.goals_for += result.goals[place]
             row.goals_against += result.goals[1 - place]
             row.reds += reds_and_yellows[0][place]

@@ -1,7 +1,7 @@
 """Tie-breaks: the criteria that rank teams with as many points, in the order of a rule book."""
 
 import hashlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 
@@ -69,28 +69,39 @@ CRITERIA: Mapping[str, Key] = {
 
 
 def table(
-    teams: Sequence[str], results: Sequence[FixtureResult], ranking: Ranking, byes: Sequence[str] = ()
+    teams: Sequence[str],
+    results: Sequence[FixtureResult],
+    ranking: Ranking,
+    byes: Sequence[str] = (),
+    refused: Collection[str] = (),
 ) -> list[Standing]:
-    """The ranked table of these teams."""
+    """The ranked table of these teams; refused ones have played nothing, and are last."""
     rows = sums(teams, results, ranking.points, byes)
-    by_points = sorted(teams, key=lambda team: -rows[team].points)
+
+    def first_of_all(team: str) -> tuple[bool, int]:
+        return team in refused, -rows[team].points
+
     ranked: list[Standing] = []
-    for _, level in groupby(by_points, key=lambda team: rows[team].points):
+    for _, level in groupby(sorted(teams, key=first_of_all), key=first_of_all):
         ranked += _separated(_Tied(tuple(level), rows, results, ranking), ranking.order)
     for place, row in enumerate(ranked, start=1):
         row.place = place
     return ranked
 
 
-def winner_of_level(result: FixtureResult, earlier: Sequence[FixtureResult], ranking: Ranking) -> str:
-    """The winner of a decisive fixture; if it is level, by what both teams have done in the cup, and then by lot."""
+def winner_of(result: FixtureResult, earlier: Sequence[FixtureResult], ranking: Ranking) -> tuple[str, str | None]:
+    """The winner of a decisive fixture, and the criterion that decided if it is level.
+
+    A level fixture is decided by what both teams have done in the cup, and then by lot.
+    """
     if result.leader is not None:
-        return result.leader
+        return result.leader, None
     teams = result.fixture.teams
     known = (*earlier, result)
     rows = sums([team for one in known for team in one.fixture.teams], known, ranking.points)
     order = tuple(name for name in ranking.order if name not in (FEWEST_MATCHES, DIRECT))
-    return _separated(_Tied(teams, rows, (), ranking), order)[0].team
+    first = _separated(_Tied(teams, rows, (), ranking), order)[0]
+    return first.team, first.decided_by
 
 
 def _separated(tied: _Tied, order: Sequence[str]) -> list[Standing]:

@@ -64,16 +64,16 @@ def play_in_process(planned: PlannedMatch, watch: HangWatch) -> Outcome:
         match = _WatchedMatch(planned, watch)
     except RobotNotStartedError as error:
         evidence = written_traceback(planned, "".join(traceback.format_exception(error)))
-        side = side_of(planned, error.robot)
-        return Failed(planned.identity, FailureKind.DID_NOT_START, str(error), side, evidence)
+        sides = sides_of(planned, error.robot)
+        return Failed(planned.identity, FailureKind.DID_NOT_START, str(error), sides, evidence)
     except TouchlineError as error:
         return Failed(planned.identity, FailureKind.WORKER, str(error))
     try:
         return _measured(planned, match)
     except (Exception, SystemExit) as error:
         evidence = written_traceback(planned, "".join(traceback.format_exception(error)))
-        side = side_of(planned, match.acting)
-        return Failed(planned.identity, FailureKind.CRASHED, reason_of(match, error), side, evidence)
+        sides = sides_of(planned, match.acting)
+        return Failed(planned.identity, FailureKind.CRASHED, reason_of(match, error), sides, evidence)
     finally:
         match.close()
 
@@ -102,9 +102,9 @@ def outcome_of_death(planned: PlannedMatch, error: DiedProcessError) -> Failed:
     from outside, or that was slow while no brain had control, is nobody's fault: the match can be played again.
     """
     robot, stack = error.note.robot, error.note.stack
-    side = side_of(planned, robot)
+    sides = sides_of(planned, robot)
     ended_itself = 0 < error.status < _UNKNOWN_STATUS or -error.status in _OWN_SIGNALS
-    if side is None or not (stack or ended_itself):
+    if not sides or not (stack or ended_itself):
         return Failed(planned.identity, FailureKind.WORKER, str(error))
     if not stack:
         kind, reason = FailureKind.CRASHED, f"{robot}: {error}"
@@ -112,7 +112,7 @@ def outcome_of_death(planned: PlannedMatch, error: DiedProcessError) -> Failed:
         kind, reason = FailureKind.HUNG, f"{robot}: no answer within {planned.hang_s:g} s"
     else:
         kind, reason = FailureKind.DID_NOT_START, f"{robot} is not built: no answer within {planned.hang_s:g} s"
-    return Failed(planned.identity, kind, reason, side, written_traceback(planned, stack or reason))
+    return Failed(planned.identity, kind, reason, sides, written_traceback(planned, stack or reason))
 
 
 def written_traceback(planned: PlannedMatch, text: str) -> str | None:
@@ -125,9 +125,9 @@ def written_traceback(planned: PlannedMatch, text: str) -> str | None:
     return str(path)
 
 
-def side_of(planned: PlannedMatch, robot: str | None) -> Side | None:
-    """The side of a robot; None without one."""
-    return next((side for side in Side if robot in planned.config.robots(side)), None)
+def sides_of(planned: PlannedMatch, robot: str | None) -> tuple[Side, ...]:
+    """The side of a robot; none without one."""
+    return tuple(side for side in Side if robot in planned.config.robots(side))
 
 
 def _measured(planned: PlannedMatch, match: _WatchedMatch) -> Played:

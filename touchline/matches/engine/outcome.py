@@ -73,8 +73,8 @@ class Failed:
     kind: FailureKind
     reason: str
     """One line that names robot, tick, file and line where they are known."""
-    culprit: Side | None = None
-    """The side whose program is the reason; None if neither is, or nobody knows."""
+    culprits: tuple[Side, ...] = ()
+    """The sides whose programs are the reason; none if neither is, or nobody knows."""
     evidence: str | None = None
     """The file or folder that shows it, as the recording's."""
 

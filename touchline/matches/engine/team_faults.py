@@ -16,13 +16,12 @@ _SILENT_TICKS = 50
 """Sights in a row that no robot of a side has answered after which the side counts as hung."""
 
 
-def fault_of(health: Health | None, config: MatchConfig) -> tuple[FailureKind, Side, str] | None:
-    """The fault, the side and the reason for which a match does not count; None if both sides played on."""
+def fault_of(health: Health | None, config: MatchConfig) -> tuple[FailureKind, tuple[Side, ...], str] | None:
+    """The fault, the sides that have it and the reason, for a match that does not count; None if both played on."""
     for kind, reason_of in ((FailureKind.BROKE_ACCESS_RULES, breach_of), (FailureKind.HUNG, silence_of)):
-        for side in Side:
-            reason = reason_of(health, config, side)
-            if reason is not None:
-                return kind, side, reason
+        reasons = {side: reason for side in Side if (reason := reason_of(health, config, side)) is not None}
+        if reasons:
+            return kind, tuple(reasons), "; ".join(reasons.values())
     return None
 
 

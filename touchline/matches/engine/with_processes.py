@@ -77,23 +77,23 @@ def _outcome(planned: PlannedMatch, folder: Path) -> Outcome:
         check = partial(check_teams, config, plan.brain_folder, confinements=confinements)
         result = MatchRun(plan, Screen(sys.stderr, clock), clock, check).play()
     except TeamError as error:
-        return Failed(identity, FailureKind.DID_NOT_START, str(error), error.side, logs)
+        return Failed(identity, FailureKind.DID_NOT_START, str(error), (error.side,), logs)
     except TeamLeftError as error:
         kind = FailureKind.CRASHED if error.has_begun else FailureKind.DID_NOT_START
-        return Failed(identity, kind, str(error), error.side, logs)
+        return Failed(identity, kind, str(error), (error.side,), logs)
     except (TouchlineError, MatchFailedError) as error:
-        return Failed(identity, FailureKind.WORKER, str(error), None, logs)
+        return Failed(identity, FailureKind.WORKER, str(error), (), logs)
     except InterruptedMatchError as error:
         reason = f"it was interrupted by {signal.Signals(error.number).name}"
-        return Failed(identity, FailureKind.WORKER, reason, None, logs)
+        return Failed(identity, FailureKind.WORKER, reason, (), logs)
     finally:
         _keep_logs_alone(folder)
     if result.recording.fault:
-        return Failed(identity, FailureKind.WORKER, result.recording.fault, None, logs)
+        return Failed(identity, FailureKind.WORKER, result.recording.fault, (), logs)
     found = fault_of(last_health(open_recording(whole)), config)
     if found is not None:
-        kind, culprit, reason = found
-        return Failed(identity, kind, reason, culprit, logs)
+        kind, culprits, reason = found
+        return Failed(identity, kind, reason, culprits, logs)
     return _kept(measured(whole, identity), whole, wanted)
 
 

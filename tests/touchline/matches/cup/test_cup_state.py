@@ -1,11 +1,15 @@
 """The state of a cup is a function of how its matches ended."""
 
+from collections.abc import Callable
+
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from touchline.matches.cup.cup_config import CupConfig, FormatConfig, FormatKind, TeamEntry
+from touchline.matches.cup.cup_config import CupConfig, FormatConfig, FormatKind, SignificanceConfig, TeamEntry
 from touchline.matches.cup.cup_state import CupState, Ended, MatchState, Slot, state_of
 from touchline.matches.cup.match_result import MatchResult
+from touchline.matches.cup.report import report_text
 
 TEAMS = [TeamEntry(name=name, brain="simple") for name in "ABCDEF"]
 
@@ -42,8 +46,8 @@ def test_the_order_in_which_matches_end_changes_nothing(data: st.DataObject, kin
 
 def test_each_match_has_a_seed_of_its_own_that_depends_on_its_name_and_the_seed_of_the_cup() -> None:
     cup = cup_of(FormatKind.ROUND_ROBIN, 3)
-    slots = state_of(cup, lambda _: None).due
-    assert len({slot.seed(cup) for slot in slots}) == len(slots) == 45
+    slots = [one.slot for one in state_of(cup, lambda _: None).matches]
+    assert len({slot.seed(cup) for slot in slots}) == len(slots) == 6 + 45
     assert slots[0].seed(cup) == slots[0].seed(cup.model_copy(update={"title": "another"}))
     assert slots[0].seed(cup) != slots[0].seed(cup.model_copy(update={"seed": 2}))
 
@@ -57,14 +61,60 @@ def test_a_match_that_failed_is_not_due_again_and_leaves_the_cup_incomplete() ->
     assert sum(row.played for row in state.schedule.tables["league"]) == 28
 
 
+def refused(*teams: str) -> Callable[[Slot], Ended]:
+    """These teams fail in their admission."""
+
+    def ended(slot: Slot) -> Ended:
+        culprits = tuple({*slot.fixture.teams} & {*teams})
+        if not culprits:
+            return by_name(slot)
+        assert slot.is_admission, "a team that was refused plays no match"
+        return Ended(MatchResult(slot.fixture.teams, (0, 0), forfeited_by=culprits), reason=f"{culprits[0]} crashed")
+
+    return ended
+
+
+def test_no_match_of_the_cup_is_due_before_all_teams_have_played_for_their_admission() -> None:
+    cup = cup_of(FormatKind.ROUND_ROBIN)
+    assert [slot.sides for slot in state_of(cup, lambda _: None).due] == [(name, name) for name in "ABCDEF"]
+    all_but_one = state_of(cup, lambda slot: by_name(slot) if slot.is_admission and "F" not in slot.sides else None)
+    assert [slot.name for slot in all_but_one.due] == ["admission 6"]
+
+
+@pytest.mark.parametrize("kind", FormatKind)
+@pytest.mark.parametrize("bad", ["A", "ABC", "ABDEF", "BCDEF"])
+def test_a_team_that_was_refused_plays_nothing_gains_nothing_and_is_last(kind: FormatKind, bad: str) -> None:
+    state = state_of(cup_of(kind), refused(*bad))
+    assert state.is_complete and not state.due
+    assert state.refused == set(bad)
+    assert state.winner == min(set("ABCDEF") - set(bad))
+    for rows in state.schedule.tables.values():
+        gained = [(row.team in bad, row.points if row.team in bad else 0, row.played) for row in rows]
+        assert [is_bad for is_bad, _, _ in gained] == sorted(is_bad for is_bad, _, _ in gained)
+        assert all(points == 0 for _, points, _ in gained)
+
+
+@pytest.mark.parametrize("kind", FormatKind)
+def test_a_cup_in_which_no_team_was_admitted_is_over_and_has_no_winner(kind: FormatKind) -> None:
+    state = state_of(cup_of(kind), refused(*"ABCDEF"))
+    assert state.is_complete and state.winner is None
+    assert "no team was admitted" in report_text(state)
+
+
+def test_until_significant_leaves_out_who_was_refused() -> None:
+    cup = CupConfig(teams=TEAMS, until_significant=SignificanceConfig(budget=40))
+    assert len(state_of(cup, refused(*"ABCDE")).matches) == 6
+    assert len(state_of(cup, refused(*"ABCD")).matches) < 6 + 40
+
+
 def test_a_forfeit_is_a_result() -> None:
     cup = cup_of(FormatKind.KNOCK_OUT)
 
     def ended(slot: Slot) -> Ended:
         teams = slot.fixture.teams
-        if "A" in teams:
+        if "A" in teams and not slot.is_admission:
             goals = (0, 3) if teams[0] == "A" else (3, 0)
-            return Ended(MatchResult(teams, goals, forfeited_by="A"), reason="A did not start")
+            return Ended(MatchResult(teams, goals, forfeited_by=("A",)), reason="A did not start")
         return by_name(slot)
 
     state = state_of(cup, ended)
@@ -76,6 +126,6 @@ def test_a_forfeit_is_a_result() -> None:
 
 
 def test_files_of_matches_have_plain_and_different_names() -> None:
-    slots = state_of(cup_of(FormatKind.GROUPS, 3), lambda _: None).due
+    slots = [one.slot for one in state_of(cup_of(FormatKind.GROUPS, 3), lambda _: None).matches]
     names = {slot.file_name for slot in slots}
     assert len(names) == len(slots) and all(name.isascii() and " " not in name for name in names)

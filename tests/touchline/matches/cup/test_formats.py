@@ -15,16 +15,16 @@ from touchline.matches.cup.formats.knock_out import Vacancy, knock_out, seeded_p
 from touchline.matches.cup.formats.round_robin import round_robin
 from touchline.matches.cup.formats.swiss import most_rounds, swiss
 from touchline.matches.cup.match_result import Fixture, FixtureResult, MatchResult
-from touchline.matches.cup.tie_breaks import Ranking, table, winner_of_level
+from touchline.matches.cup.tie_breaks import Ranking, table, winner_of
 
 
 def names(number: int) -> list[str]:
     return [f"team {place:02}" for place in range(number)]
 
 
-def by_leader(result: FixtureResult, _: object) -> str:
+def by_leader(result: FixtureResult, _: object) -> tuple[str, None]:
     assert result.leader is not None
-    return result.leader
+    return result.leader, None
 
 
 @given(st.integers(2, 20))
@@ -119,17 +119,45 @@ def test_a_level_knock_out_is_decided_by_earlier_results_that_later_ones_do_not_
     first = knock_out(names(4), {}, by_leader).fixtures
     results = {first[0].name: result_of(first[0], (5, 0)), first[1].name: result_of(first[1], (1, 0))}
 
-    def winner_of(result: FixtureResult, earlier: Iterable[FixtureResult]) -> str:
-        return winner_of_level(result, list(earlier), ranking)
+    def winner(result: FixtureResult, earlier: Iterable[FixtureResult]) -> tuple[str, str | None]:
+        return winner_of(result, list(earlier), ranking)
 
-    final = knock_out(names(4), results, winner_of, third_place=True).fixtures[-1]
+    final = knock_out(names(4), results, winner, third_place=True).fixtures[-1]
     results[final.name] = result_of(final, (2, 2))
-    bracket = knock_out(names(4), results, winner_of, third_place=True)
+    bracket = knock_out(names(4), results, winner, third_place=True)
     assert bracket.winner == "team 00", "five goals more than its opponent of the semi-final"
     third = bracket.third_place
     assert third is not None
     results[third.name] = result_of(third, (0, 9))
-    assert knock_out(names(4), results, winner_of, third_place=True).winner == "team 00"
+    assert knock_out(names(4), results, winner, third_place=True).winner == "team 00"
+
+
+@pytest.mark.parametrize(
+    ("semi_final", "criterion"), [((5, 0), "goal difference"), ((1, 0), "lot")], ids=["by goals", "by lot"]
+)
+def test_a_level_final_names_the_criterion_that_decided_it(semi_final: tuple[int, int], criterion: str) -> None:
+    results: dict[str, FixtureResult] = {}
+    for goals in (semi_final, (1, 0), (2, 2)):
+        bracket = knock_out(names(4), results, lambda one, earlier: winner_of(one, list(earlier), Ranking()))
+        due = next(one for one in bracket.fixtures if one.name not in results)
+        results[due.name] = result_of(due, goals)
+    bracket = knock_out(names(4), results, lambda one, earlier: winner_of(one, list(earlier), Ranking()))
+    assert bracket.decided_by == {"final": criterion}
+
+
+def forfeited_by_both(fixture: Fixture) -> FixtureResult:
+    return FixtureResult(fixture, (MatchResult(fixture.teams, (0, 0), forfeited_by=fixture.teams),))
+
+
+def test_where_both_teams_of_a_knock_out_forfeit_neither_goes_on() -> None:
+    first, second = knock_out(names(4), {}, by_leader).fixtures
+    results = {first.name: forfeited_by_both(first), second.name: stronger_wins(second, names(4))}
+    bracket = knock_out(names(4), results, by_leader, third_place=True)
+    assert [one.name for one in bracket.fixtures] == [first.name, second.name]
+    assert bracket.winner == second.teams[0] == "team 01"
+    assert bracket.third == "team 02"
+    results[second.name] = forfeited_by_both(second)
+    assert knock_out(names(4), results, by_leader).winner is Vacancy.BYE
 
 
 def test_groups_are_divided_forth_and_back() -> None:

@@ -46,7 +46,7 @@ def test_ctrl_c_ends_a_cup_tidily_and_resume_finishes_it(undisturbed: Path, tmp_
 
 def test_pages_and_recordings_of_all_matches_are_in_the_folder(undisturbed: Path) -> None:
     out = undisturbed / "out"
-    names = {"league_1", "league_2", "league_3"}
+    names = {f"{stage}_{number}" for stage in ("admission", "league") for number in (1, 2, 3)}
     assert {file.stem for file in (out / "recordings").iterdir()} == names
     assert {file.stem for file in (out / "matches").iterdir()} == names
     assert list((out / "logs").iterdir()) == []
@@ -62,7 +62,7 @@ def test_the_place_of_a_match_in_the_cup_and_the_folder_are_no_part_of_its_ident
         identities = {run.plan.match(slot).identity for slot in slots}
         moved = replace(run.plan, folder=tmp_path / "elsewhere")
         assert identities == {moved.match(slot).identity for slot in slots}
-        assert len(identities) == 3
+        assert len(identities) == 6
 
 
 def test_a_folder_with_a_cup_is_not_played_again_without_resume(undisturbed: Path) -> None:
@@ -108,7 +108,7 @@ def test_the_command_reports_a_finished_cup_as_json_and_plays_nothing(undisturbe
     assert result.exit_code == 0
     content = json.loads(result.stdout)
     assert content["complete"] is True and content["winner"] in ("One", "Two", "Three")
-    assert len(content["matches"]) == 3
+    assert len(content["matches"]) == 6
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,7 @@ class Links(HTMLParser):
 def ended(slot: Slot) -> Ended | None:
     teams = slot.fixture.teams
     if slot.name == "group A 1":
-        forfeit = MatchResult(teams, (3, 0), forfeited_by=teams[1])
+        forfeit = MatchResult(teams, (3, 0), forfeited_by=(teams[1],))
         return Ended(forfeit, "id", f"{teams[1]} did not start: no <module>", evidence="evidence/group_a_1")
     if slot.name == "final":
         return Ended(MatchResult(teams, (1, 1), (3, 4)), "id")

@@ -128,8 +128,20 @@ def test_the_order_of_a_table_depends_neither_on_the_order_of_teams_nor_on_that_
     assert sum(row.goal_difference for row in expected) == 0
 
 
+def test_a_match_that_both_teams_forfeit_is_lost_by_both() -> None:
+    fixture = Fixture("league 1", "league", 1, ("a", "b"))
+    result = FixtureResult(fixture, (MatchResult(("a", "b"), (0, 0), forfeited_by=("a", "b")),))
+    assert [(row.points, row.drawn, row.lost) for row in table("ab", [result], Ranking())] == [(0, 0, 1)] * 2
+
+
+def test_a_team_that_was_refused_is_last_whatever_the_others_have() -> None:
+    results = [played("a", "b", (9, 0)), played("b", "a", (0, 9))]
+    assert places(table("abcd", results, Ranking(), refused=("c",)))[-1] == "c"
+    assert places(table("abc", results, Ranking(), refused=("c",))) == "abc"
+
+
 def test_a_forfeit_counts_like_three_goals() -> None:
     fixture = Fixture("league 1", "league", 1, ("a", "b"))
-    result = FixtureResult(fixture, (MatchResult(("a", "b"), (3, 0), forfeited_by="b"),))
+    result = FixtureResult(fixture, (MatchResult(("a", "b"), (3, 0), forfeited_by=("b",)),))
     rows = table("ab", [result], Ranking())
     assert (rows[0].team, rows[0].points, rows[0].goals_for) == ("a", 3, 3)

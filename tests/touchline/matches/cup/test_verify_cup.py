@@ -40,7 +40,7 @@ def identity_of(folder: Path, name: str, undisturbed: Path) -> str:
 
 def test_a_cup_whose_folder_was_moved_is_verified(cup: Path) -> None:
     whole = verified(cup, None)
-    assert (whole.faults, whole.notes, whole.simulated) == ([], [], 3)
+    assert (whole.faults, whole.notes, whole.simulated) == ([], [], 6)
     part = verified(cup, 1)
     assert (part.faults, part.simulated) == ([], 1)
     assert 0 < part.ticks < whole.ticks
@@ -98,5 +98,7 @@ def test_a_failed_match_whose_evidence_is_gone_is_named(tmp_path: Path) -> None:
     with closing(mini_cup(tmp_path)) as run:
         (first, *_) = run.plan.due({})
     with closing(RunStore(tmp_path / "out")) as store:
-        store.add(Failed(first.identity, FailureKind.CRASHED, "no ball", Side.CYAN, "logs/league_1/traceback.txt"))
-    assert "league 1: its evidence logs/league_1/traceback.txt is gone" in verified(tmp_path / "out").faults
+        store.add(
+            Failed(first.identity, FailureKind.CRASHED, "no ball", (Side.CYAN,), "logs/admission_1/traceback.txt")
+        )
+    assert "admission 1: its evidence logs/admission_1/traceback.txt is gone" in verified(tmp_path / "out").faults

@@ -65,7 +65,7 @@ def test_a_match_that_a_team_cannot_play_has_failed_by_its_fault(
 ) -> None:
     outcome = play(PlannedMatch(match_of(magenta=brain), brain_folder=folder, logs=tmp_path / "logs"))
     assert isinstance(outcome, Failed)
-    assert (outcome.kind, outcome.culprit) == (kind, Side.MAGENTA)
+    assert (outcome.kind, outcome.culprits) == (kind, (Side.MAGENTA,))
     assert words in outcome.reason
     assert outcome.evidence is not None
     assert "planned_brains.py" in Path(outcome.evidence).read_text()
@@ -88,7 +88,7 @@ def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf,
     for one in planned:
         outcome = outcomes[one.identity]
         assert isinstance(outcome, Failed)
-        assert (outcome.kind, outcome.reason, outcome.culprit) == (*ends[one.label], Side.CYAN)
+        assert (outcome.kind, outcome.reason, outcome.culprits) == (*ends[one.label], (Side.CYAN,))
         assert outcome.evidence is not None
         assert "planned_brains.py" in Path(outcome.evidence).read_text()
 
@@ -96,7 +96,7 @@ def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf,
 def test_a_process_that_is_slow_while_no_brain_has_control_is_nobodys_fault(match_of: MatchOf) -> None:
     error = DiedProcessError("its process ended with status 1", 1, Note(robot="", stack="in step"))
     outcome = outcome_of_death(PlannedMatch(match_of()), error)
-    assert (outcome.kind, outcome.culprit) == (FailureKind.WORKER, None)
+    assert (outcome.kind, outcome.culprits) == (FailureKind.WORKER, ())
 
 
 def test_what_an_earlier_attempt_has_left_is_removed(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
@@ -145,7 +145,7 @@ def test_changed_files_of_a_team_are_not_played(match_of: MatchOf, folder: Path,
     outcome = play(PlannedMatch(config, {Side.CYAN: digest}, brain_folder=tmp_path))
     assert isinstance(outcome, Failed)
     assert "the files of Forward are not those of the plan" in outcome.reason
-    assert (outcome.kind, outcome.culprit) == (FailureKind.WORKER, None)
+    assert (outcome.kind, outcome.culprits) == (FailureKind.WORKER, ())
 
 
 def test_what_tools_leave_in_the_folder_of_a_team_is_no_part_of_its_digest(match_of: MatchOf, tmp_path: Path) -> None:
@@ -200,6 +200,6 @@ def test_a_match_whose_score_fails_has_failed_by_nobody_s_fault(folder: Path, tm
         tmp_path, "def count(now):\n    return now.nothing\n", **{"teams.cyan.brain": "planned_brains:Forward"}
     )
     outcome = play(PlannedMatch(config, brain_folder=folder, logs=tmp_path / "logs"))
-    assert isinstance(outcome, Failed) and outcome.culprit is None
+    assert isinstance(outcome, Failed) and not outcome.culprits
     line = """free.score is "tally:count"; it raised AttributeError: .*'nothing' \\(tally.py, line 2\\) at tick 1"""
     assert re.fullmatch(line, outcome.reason)

@@ -162,14 +162,20 @@ def test_a_finished_match_is_not_played_again(match_of: MatchOf, folder: Path, t
 
 
 @pytest.mark.parametrize(
-    ("brain", "kind", "culprit", "reason"),
+    ("brain", "kind", "culprits", "reason"),
     [
-        ("Dies", FailureKind.CRASHED, Side.MAGENTA, "magenta1: its process ended with status 7"),
-        ("IsKilled", FailureKind.WORKER, None, "its process was ended by SIGKILL"),
+        ("Dies", FailureKind.CRASHED, (Side.MAGENTA,), "magenta1: its process ended with status 7"),
+        ("IsKilled", FailureKind.WORKER, (), "its process was ended by SIGKILL"),
     ],
 )
 def test_a_match_whose_process_ends_costs_itself_alone(
-    match_of: MatchOf, folder: Path, tmp_path: Path, brain: str, kind: FailureKind, culprit: Side | None, reason: str
+    match_of: MatchOf,
+    folder: Path,
+    tmp_path: Path,
+    brain: str,
+    kind: FailureKind,
+    culprits: tuple[Side, ...],
+    reason: str,
 ) -> None:
     lost = PlannedMatch(match_of(magenta=brain), brain_folder=folder, label="lost")
     with FreshProcesses(2) as executor:
@@ -177,7 +183,7 @@ def test_a_match_whose_process_ends_costs_itself_alone(
     assert [isinstance(one, Played) for one in outcomes.values()].count(True) == 2
     failed = outcomes[lost.identity]
     assert isinstance(failed, Failed)
-    assert (failed.kind, failed.culprit, failed.reason) == (kind, culprit, reason)
+    assert (failed.kind, failed.culprits, failed.reason) == (kind, culprits, reason)
 
 
 def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
@@ -186,7 +192,7 @@ def test_a_match_whose_worker_was_lost_is_played_when_the_run_goes_on(
     one, other = matches(match_of, folder, 2)
     with closing(RunStore(tmp_path)) as store:
         store.add(Failed(one.identity, FailureKind.WORKER, "no disk"))
-        store.add(Failed(other.identity, FailureKind.CRASHED, "no idea", Side.CYAN))
+        store.add(Failed(other.identity, FailureKind.CRASHED, "no idea", (Side.CYAN,)))
         log = Log()
         with ThreadPoolExecutor(1) as executor:
             outcomes = run_plan(ListPlan((one, other)), executor, store, log)
@@ -246,7 +252,7 @@ def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(
         outcomes = run_plan(plan, executor, None, Log())
     assert len(outcomes) == 2
     for outcome in outcomes.values():
-        assert isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER and outcome.culprit is None
+        assert isinstance(outcome, Failed) and outcome.kind is FailureKind.WORKER and not outcome.culprits
         assert outcome.reason == "its worker failed: KilledWorkerError: lost three times"
 
 

@@ -30,15 +30,21 @@ def test_a_side_of_which_no_robot_answers_has_hung(match_of: MatchOf) -> None:
     silent = health({"cyan1": 0, "magenta1": 900, "magenta2": 70})
     assert fault_of(silent, config) == (
         FailureKind.HUNG,
-        Side.MAGENTA,
+        (Side.MAGENTA,),
         "none of its robots has answered the last 70 sights",
     )
+
+
+def test_where_neither_side_answers_both_have_hung(match_of: MatchOf) -> None:
+    found = fault_of(health({"cyan1": 80, "magenta1": 900}), match_of())
+    assert found is not None
+    assert found[:2] == (FailureKind.HUNG, (Side.CYAN, Side.MAGENTA))
 
 
 def test_dropped_messages_above_the_limits_break_the_access_rules(match_of: MatchOf) -> None:
     config = match_of()
     found = fault_of(health({"cyan1": 900, "magenta1": 0}, {OVER_LIMIT: 12}), config)
     assert found is not None
-    kind, side, reason = found
-    assert (kind, side) == (FailureKind.BROKE_ACCESS_RULES, Side.MAGENTA)
+    kind, sides, reason = found
+    assert (kind, sides) == (FailureKind.BROKE_ACCESS_RULES, (Side.MAGENTA,))
     assert reason == f"account magenta: 12 messages were dropped: {OVER_LIMIT}"

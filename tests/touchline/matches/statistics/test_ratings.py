@@ -48,7 +48,7 @@ def test_draws_bring_teams_together() -> None:
 
 
 def test_forfeits_and_shoot_outs_decide_nothing_on_strength() -> None:
-    forfeit = MatchResult(("a", "b"), (3, 0), forfeited_by="b")
+    forfeit = MatchResult(("a", "b"), (3, 0), forfeited_by=("b",))
     assert rate(["a", "b"], scored([forfeit] * 9)).teams[0].matches == 0
     level = MatchResult(("a", "b"), (1, 1), penalties=(5, 0))
     assert rate(["a", "b"], scored([level] * 9)).order[0].difference == pytest.approx(0, abs=1e-6)

@@ -6,8 +6,11 @@ from enum import Enum
 
 from touchline.matches.cup.match_result import Fixture, FixtureResult
 
-WinnerOf = Callable[[FixtureResult, Iterable[FixtureResult]], str]
-"""The winner of a decisive fixture that is over, also if it is level; gets the results of all earlier rounds."""
+WinnerOf = Callable[[FixtureResult, Iterable[FixtureResult]], tuple[str, str | None]]
+"""The winner of a decisive fixture that is over, and the criterion that decided if it is level.
+
+Gets the results of all earlier rounds.
+"""
 THIRD_PLACE = "third place"
 _STAGES = {2: "final", 4: "semi-final", 8: "quarter-final"}
 
@@ -36,6 +39,8 @@ class Bracket:
     third: Place = Vacancy.OPEN
     """The winner of the match for third place."""
     winner: Place = Vacancy.OPEN
+    decided_by: dict[str, str] = field(default_factory=dict)
+    """Name of a level fixture → the criterion that decided it."""
 
 
 def stage_of(size: int) -> str:
@@ -61,7 +66,7 @@ def seeded_places(number: int) -> list[int | None]:
 
 
 def knock_out(
-    seeded: Sequence[str],
+    seeded: Sequence[Place],
     results: Mapping[str, FixtureResult],
     winner_of: WinnerOf,
     *,
@@ -69,11 +74,14 @@ def knock_out(
     third_place: bool = False,
     before: Iterable[FixtureResult] = (),
 ) -> Bracket:
-    """The bracket; `seeded` begins with the strongest team, `before` are results of an earlier part of the cup."""
+    """The bracket; `seeded` begins with the strongest team, `before` are results of an earlier part of the cup.
+
+    Where both teams have forfeited, neither goes on.
+    """
     bracket, earlier = Bracket(), list(before)
     line: list[Place] = [Vacancy.BYE if seed is None else seeded[seed] for seed in seeded_places(len(seeded))]
     while len(line) > 1:
-        size, winners, losers = len(line), list[Place](), list[str]()
+        size, winners, losers = len(line), list[Place](), list[Place]()
         played: list[FixtureResult] = []
         bracket.rounds.append([(line[place], line[place + 1]) for place in range(0, size, 2)])
         number = len(bracket.rounds)
@@ -88,21 +96,39 @@ def knock_out(
             if result is None or not result.is_over:
                 winners.append(Vacancy.OPEN)
                 continue
-            winner = winner_of(result, earlier)
-            winners.append(winner)
-            losers.append(second if winner == first else first)
             played.append(result)
+            winner, loser = _ended(bracket, result, winner_of, earlier)
+            winners.append(winner)
+            losers.append(loser)
         earlier += played
         if size == 4 and third_place and len(losers) == 2:
-            bracket.third_place = Fixture(
-                THIRD_PLACE, THIRD_PLACE, number + 1, (losers[0], losers[1]), best_of, decisive=True
-            )
-            bracket.fixtures.append(bracket.third_place)
-            result = results.get(THIRD_PLACE)
-            bracket.third = winner_of(result, earlier) if result is not None and result.is_over else Vacancy.OPEN
+            one, other = losers
+            if isinstance(one, Vacancy) or isinstance(other, Vacancy):
+                bracket.third = _unopposed(one, other)
+            else:
+                bracket.third_place = Fixture(
+                    THIRD_PLACE, THIRD_PLACE, number + 1, (one, other), best_of, decisive=True
+                )
+                bracket.fixtures.append(bracket.third_place)
+                result = results.get(THIRD_PLACE)
+                if result is not None and result.is_over:
+                    bracket.third, _ = _ended(bracket, result, winner_of, earlier)
         line = winners
     bracket.winner = line[0]
     return bracket
+
+
+def _ended(
+    bracket: Bracket, result: FixtureResult, winner_of: WinnerOf, earlier: Iterable[FixtureResult]
+) -> tuple[Place, Place]:
+    """The winner and the loser of a fixture that is over; no team where both have forfeited."""
+    if result.is_lost_by_both:
+        return Vacancy.BYE, Vacancy.BYE
+    first, second = result.fixture.teams
+    winner, criterion = winner_of(result, earlier)
+    if criterion is not None:
+        bracket.decided_by[result.fixture.name] = criterion
+    return winner, second if winner == first else first
 
 
 def _unopposed(first: Place, second: Place) -> Place:
