@@ -162,11 +162,12 @@ class RecordingConfig(RecordOptions):
 class Patience(ConfigModel):
     """How long the host waits, in s of wall time."""
 
-    attendance: Annotated[float, Field(ge=0, le=86_400)] = 30.0
+    attendance: Annotated[float, Field(ge=0, le=86_400)] = 60.0
     """Longest wait for all robots before the first tick, in s."""
     remote: Annotated[float, Field(ge=0, le=86_400)] = 86_400.0
     """Longest wait for the robots of a remote team before the first tick, in s."""
-    answer: Annotated[float, Field(gt=0, le=60)] = 1.0
-    """Lockstep: longest wait for a robot's answer to one tick, in s."""
-    recorder: Annotated[float, Field(gt=0, le=600)] = 5.0
+    answer: Annotated[float, Field(gt=0, le=60)] = 10.0
+    """Lockstep: longest wait for a robot's answer to one tick, in s. A robot that misses it makes the match depend on
+    more than its seed."""
+    recorder: Annotated[float, Field(gt=0, le=600)] = 30.0
     """Lockstep: longest wait for a recorder that makes no progress or has lost its connection, in s."""

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Protocol
 
+from runtime.process.active_clock import ActiveClock
 from runtime.process.clock import Clock
 from runtime.process.timing import POLL_S
 from schemas.config.match_parts import Patience
@@ -70,7 +71,10 @@ class Realtime:
 
 
 class Lockstep:
-    """Waits for a command from every live agent in each tick, and never for wall time."""
+    """Waits for a command from every live agent in each tick, and never for wall time.
+
+    Time in which this process had no processor does not count as patience: a busy machine delays robots as well.
+    """
 
     def __init__(
         self,
@@ -106,6 +110,7 @@ class Lockstep:
         self._wait_for_recorders(tick)
         commands: dict[str, Command] = {}
         start = self._clock.now()
+        waited = ActiveClock(start)
         next_check, next_resend = start, start + RESEND_S
         missing = self._missing(tick)
         while missing:
@@ -117,7 +122,7 @@ class Lockstep:
                     missing.pop(name, None)
                 continue
             now = self._clock.now()
-            if self._stopped_waiting or now - start > self._patience:
+            if self._stopped_waiting or waited.look(now) > self._patience:
                 self.late_ticks += 1
                 break
             if now >= next_check:

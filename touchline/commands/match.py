@@ -164,6 +164,7 @@ def _play(plan: "MatchPlan", clock: Clock, *, quiet: bool) -> None:
     With a page it returns when the page with the result is closed.
     """
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
+    from touchline.launch.terminal.agent_faults import disturbance
     from touchline.launch.terminal.screen import screen_for
 
     try:
@@ -179,8 +180,8 @@ def _play(plan: "MatchPlan", clock: Clock, *, quiet: bool) -> None:
         from touchline.launch.match_page import result_parts
 
         run.stay(result_parts(plan))
-    if result.recording.fault:
-        raise MatchFailedError(result.recording.fault)
+    if faults := [fault for fault in (disturbance(result.missed), result.recording.fault) if fault]:
+        raise MatchFailedError("\ntouchline: ".join(faults))
 
 
 def _print_result(result: "MatchResult", *, json: bool) -> None:

@@ -1,6 +1,7 @@
 """The result of a match: as one JSON object for programs, as score and table for people."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -13,6 +14,7 @@ from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase, Score
 from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
+from touchline.launch.terminal.agent_faults import missed_sights
 from touchline.launch.terminal.json_text import json_text
 
 NOTABLE = frozenset(EventKind) - {
@@ -39,6 +41,8 @@ class MatchResult:
     recording: RecordingOutcome = NO_RECORDING
     names: TeamNames = SIDES_ALONE
     """The teams' names."""
+    missed: Mapping[str, int] = field(default_factory=dict)
+    """Robot → sights that it did not answer, in lockstep."""
 
     @classmethod
     def of(cls, follower: MatchFollower, recording: RecordingOutcome, names: TeamNames) -> "MatchResult":
@@ -52,6 +56,7 @@ class MatchResult:
             wall_s=follower.wall_s,
             recording=recording,
             names=names,
+            missed=missed_sights(follower.health),
         )
 
     @property
@@ -78,6 +83,7 @@ class MatchResult:
             "recording": self.recording.path,
             "recording_fault": self.recording.fault or None,
             "losses": dict(self.recording.losses),
+            "missed": dict(self.missed),
         }
         return json_text(content)
 

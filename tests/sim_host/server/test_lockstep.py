@@ -9,7 +9,7 @@ from schemas.topics import APPLIED, COMMAND, SCENE, WORLD
 from sim_host.server.admission.agent_stats import SILENT_TICKS
 from support.host_rig import TEAMS
 
-PATIENCE_S = 1.0
+PATIENCE_S = 10.0
 """How long the host waits for an answer; the match file's default."""
 REST = AppliedInput(drive=Drive(), dribble=False)
 HELD_TICKS = 2
@@ -84,6 +84,15 @@ def test_a_silent_robot_rests_and_is_waited_for_when_it_answers_again(rig):
     assert None not in answered(rig.inputs("cyan2")[2:])
     assert rig.health().robots["cyan2"].answering
     assert rig.silences() == ["cyan2 answers"]
+
+
+def test_time_without_a_processor_is_not_waited_for_an_answer(rig):
+    rig.agents["cyan2"].thinks_s = 6 * PATIENCE_S
+    rig.idle.append(lambda: rig.pass_time(5.0))  # the host is not scheduled for 5 s at a time, nor is the robot
+    rig.ticks(3)
+    assert rig.clock.now() > 18 * PATIENCE_S
+    assert rig.host.inbox.agent_stats["cyan2"].missed == 0
+    assert rig.host.pace.late_ticks == 0
 
 
 def test_a_robot_that_always_answers_too_late_does_not_hold_the_match_at_every_tick(rig):

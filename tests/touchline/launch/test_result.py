@@ -6,11 +6,13 @@ from pathlib import Path
 from rich.console import Console
 
 from coach_gateway.match.team_names import TeamNames
+from schemas.messages.health import Health, RobotHealth
 from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent, GameState
 from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase, Score
 from touchline.launch.recording_outcome import RecordingOutcome
 from touchline.launch.result import MatchResult
+from touchline.launch.terminal.agent_faults import disturbance, missed_sights
 
 
 def event(kind: EventKind, text: str) -> GameEvent:
@@ -64,6 +66,7 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
         "recording": "runs/a/match.mcap",
         "recording_fault": None,
         "losses": {},
+        "missed": {},
     }
 
 
@@ -103,6 +106,16 @@ def test_the_json_says_what_a_recording_misses() -> None:
     content = json.loads(shown.json())
     assert (content["recording"], content["recording_fault"]) == (None, "the recording is lost")
     assert content["score"] == {"cyan": 2, "magenta": 1}
+
+
+def test_sights_without_an_answer_are_counted_in_lockstep_alone() -> None:
+    robots = {"cyan1": RobotHealth(missed=3), "cyan2": RobotHealth(), "magenta1": RobotHealth(missed=1)}
+    health = Health(tick=9, time=0.18, pace="lockstep", real_time_factor=1.0, robots=robots)
+    assert missed_sights(health) == {"cyan1": 3, "magenta1": 1}
+    assert missed_sights(health.replace(pace="realtime")) == missed_sights(None) == {}
+    assert json.loads(replace(result(), missed=missed_sights(health)).json())["missed"] == {"cyan1": 3, "magenta1": 1}
+    assert disturbance(missed_sights(health)).endswith("sights without an answer: cyan1 3, magenta1 1")
+    assert not disturbance({})
 
 
 def test_what_people_have_written_into_an_event_is_shown_as_it_is() -> None:

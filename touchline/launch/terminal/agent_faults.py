@@ -1,6 +1,7 @@
 """Agents that do not keep up, or whose messages are no answers: each with its figure, and with a remedy."""
 
 from collections import Counter
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from schemas.config.match_config import LOCKSTEP
@@ -33,6 +34,21 @@ def agent_faults(health: Health) -> list[AgentFault]:
     slow = [(robot.latency_ms, name) for name, robot in robots if robot.latency_ms is not None and not robot.fault]
     late = sorted(((took, name) for took, name in slow if took > limit), reverse=True)
     return faulty + [AgentFault(name, f"takes {took:.0f} ms a tick", is_slow=True) for took, name in late]
+
+
+def missed_sights(health: Health | None) -> dict[str, int]:
+    """Robot → sights that it did not answer in a match in lockstep, by the host's last report on it."""
+    if health is None or health.pace != LOCKSTEP:
+        return {}
+    return {name: robot.missed for name, robot in health.robots.items() if robot.missed}
+
+
+def disturbance(missed: Mapping[str, int]) -> str:
+    """Why a match in lockstep depends on more than its seed and its inputs, in one sentence; empty if it does not."""
+    if not missed:
+        return ""
+    counts = ", ".join(f"{name} {count}" for name, count in missed.items())
+    return f"the match does not depend on its seed alone: sights without an answer: {counts}"
 
 
 class SlowAgents:

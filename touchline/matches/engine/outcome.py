@@ -1,6 +1,6 @@
 """How a match of a plan ended. An outcome holds no wall time: equal matches have equal outcomes, byte by byte."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 
@@ -46,6 +46,8 @@ class Played:
     """How a drill ended; None for a match, and for a drill that was over without a verdict."""
     value: float | None = None
     """The score of a game without goals."""
+    missed: dict[str, int] = field(default_factory=dict)
+    """Robot → sights that it did not answer, in lockstep: the match does not depend on its seed alone."""
 
     @property
     def of_soccer(self) -> MatchFigures:

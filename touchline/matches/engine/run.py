@@ -9,10 +9,11 @@ from typing import Any
 
 from schemas.errors import TouchlineError
 from touchline.launch.processes.stop_signals import StopSignals
+from touchline.launch.terminal.agent_faults import disturbance
 from touchline.matches.engine.completions import Completions
 from touchline.matches.engine.fresh_process import DiedProcessError
 from touchline.matches.engine.in_process import outcome_of_death
-from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, relative_to
+from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played, relative_to
 from touchline.matches.engine.plan import Plan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play import play
@@ -83,6 +84,8 @@ def run_plan(
                 store.add(outcome)
             outcomes[planned.identity] = outcome
             sentence = sentence_of(planned, outcome)
+            if isinstance(outcome, Played) and outcome.missed:
+                sentence += f"; {disturbance(outcome.missed)}"
             if progress is not None:
                 progress.ended(sentence, failed=isinstance(outcome, Failed))
 

@@ -26,6 +26,7 @@ from touchline.launch.match_run import InterruptedMatchError, MatchRun
 from touchline.launch.processes.programs import CREDENTIALS, MatchPlan, check_robot_names
 from touchline.launch.run_folder import RECORDING, prepare_credentials
 from touchline.launch.team_error import TeamError, TeamLeftError
+from touchline.launch.terminal.agent_faults import missed_sights
 from touchline.launch.terminal.screen import Screen
 from touchline.matches.engine.inputs_only import KEYS, has_inputs_only
 from touchline.matches.engine.measurement import measured
@@ -90,11 +91,12 @@ def _outcome(planned: PlannedMatch, folder: Path) -> Outcome:
         _keep_logs_alone(folder)
     if result.recording.fault:
         return Failed(identity, FailureKind.WORKER, result.recording.fault, (), logs)
-    found = fault_of(last_health(open_recording(whole)), config)
+    health = last_health(open_recording(whole))
+    found = fault_of(health, config)
     if found is not None:
         kind, culprits, reason = found
         return Failed(identity, kind, reason, culprits, logs)
-    return _kept(measured(whole, identity), whole, wanted)
+    return _kept(replace(measured(whole, identity), missed=missed_sights(health)), whole, wanted)
 
 
 def _plan(planned: PlannedMatch, folder: Path, whole: Path) -> MatchPlan:

@@ -1,0 +1,56 @@
+"""A match in lockstep on a machine that is busy otherwise: it lasts longer, and nothing else."""
+
+import json
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from recordings.reading.recording import open_recording
+
+pytestmark = [pytest.mark.processes, pytest.mark.long, pytest.mark.timeout(300)]
+
+LOAD = 20
+"""Processes that compute all the time."""
+MATCH = """
+name = "busy"
+duration = 3
+
+[teams.cyan]
+size = 2
+
+[teams.magenta]
+size = 2
+"""
+
+
+@contextmanager
+def load() -> Iterator[None]:
+    busy = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(LOAD)]
+    try:
+        yield
+    finally:
+        for one in busy:
+            one.kill()
+            one.wait()
+
+
+def chain(start, folder: Path) -> str:
+    folder.mkdir()
+    (folder / "match.toml").write_text(MATCH)
+    words = ("--seed", "4", "--record", "m.mcap", "--json", "--listen", "tcp/127.0.0.1:0")
+    program = start("touchline", "match", "match.toml", *words, folder=folder)
+    assert program.status() == 0, program.err
+    assert json.loads(program.out)["missed"] == {}
+    recording = open_recording(folder / "m.mcap", whole=True)
+    assert recording.result.lost == 0
+    return [applied.chain for _, applied in recording.decoded("host/applied")][-1]
+
+
+def test_one_seed_gives_one_match_alone_and_beside_twenty_busy_processes(start, tmp_path) -> None:
+    alone = chain(start, tmp_path / "alone")
+    with load():
+        busy = chain(start, tmp_path / "busy")
+    assert busy == alone
