@@ -74,9 +74,9 @@ def run(
     _need_packages()
     from touchline.matches.engine.session import session_of
     from touchline.matches.study.cells import cells_of
-    from touchline.matches.study.comparisons import answers
+    from touchline.matches.study.comparisons import answers, compared, unread_factors
     from touchline.matches.study.run_study import run_study
-    from touchline.matches.study.sentences import sentence_of
+    from touchline.matches.study.sentences import sentence_of, sentence_of_unread
     from touchline.matches.study.study_config import load_study
     from touchline.matches.study.study_folder import REPORT, read_study
     from touchline.matches.study.study_plan import StudyPlan
@@ -101,8 +101,10 @@ def run(
         raise typer.Exit(128 + signal.SIGINT)
     failed = result.failed
     stored = read_study(folder)
-    responses = [name for name in study.responses if name in stored.table]
-    sentences = [sentence_of(one, name) for name in responses for one in answers(plan, stored.table, name)]
+    sentences = [sentence_of_unread(key) for key in unread_factors(plan, stored.table)]
+    sentences += [
+        sentence_of(one, name) for name, groups in compared(plan, stored.table).items() for one in answers(groups)
+    ]
     if json:
         content = {"folder": str(folder), "seeds": result.seeds, "played": result.played, "answers": sentences}
         content["failed"] = [{"identity": one.identity, "reason": one.reason} for one in failed]

@@ -6,7 +6,7 @@ numbers. Cells are compared seed by seed.
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pandas as pd
 from scipy import stats
@@ -36,6 +36,13 @@ class Comparison:
     """Probability of a difference at least as large without any effect, by the paired t-test."""
     matches: int
     """Matches that were compared."""
+    adjusted_p: float | None = None
+    """p, adjusted for the number of comparisons; None before, and without a p."""
+
+    @property
+    def is_found(self) -> bool:
+        """Whether there is a difference by the adjusted p, which few comparisons without an effect ever pass."""
+        return self.adjusted_p is not None and self.adjusted_p < 1 - LEVEL
 
 
 def estimate_of(values: "pd.Series[float]") -> MeanEstimate:
@@ -72,11 +79,11 @@ def comparison_of(difference: "pd.Series[float]", label: str, reference: str, ma
     return Comparison(label, reference, estimate, effect_size, p, matches * len(difference))
 
 
-def adjusted(comparisons: Sequence[Comparison]) -> list[float | None]:
-    """The p-values, adjusted for their number by Benjamini and Hochberg's procedure."""
+def adjusted(comparisons: Sequence[Comparison]) -> list[Comparison]:
+    """The comparisons with their p-values adjusted for their number by Benjamini and Hochberg's procedure."""
     known = [one.p for one in comparisons if one.p is not None]
     each = iter(stats.false_discovery_control(known).tolist() if known else [])
-    return [None if one.p is None else next(each) for one in comparisons]
+    return [one if one.p is None else replace(one, adjusted_p=next(each)) for one in comparisons]
 
 
 def widest(table: pd.DataFrame, response: str, matches: int) -> float | None:

@@ -1,12 +1,13 @@
 """Which comparisons a study makes of a response: levels of factors, cells, and the two teams."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
 
 import pandas as pd
 
 from touchline.matches.series.plan import team_names
-from touchline.matches.statistics.paired import Comparison, comparison_of, seed_means
+from touchline.matches.statistics.paired import Comparison, adjusted, comparison_of, seed_means
 from touchline.matches.study.cells import level_text
 from touchline.matches.study.match_figures import DIFFERENCE
 from touchline.matches.study.study_plan import StudyPlan
@@ -22,6 +23,31 @@ class ComparisonGroup:
     """Whether they answer the question of the study; the others are details."""
 
 
+def compared(plan: StudyPlan, table: pd.DataFrame) -> dict[str, list[ComparisonGroup]]:
+    """Response → its comparisons, for all that the table has; p is adjusted for all of these together."""
+    names = [name for name in (*plan.study.responses, *plan.study.functions) if name in table]
+    groups = {name: comparison_groups(plan, table, name) for name in names}
+    each = iter(adjusted([one for of_name in groups.values() for group in of_name for one in group.comparisons]))
+    return {
+        name: [replace(group, comparisons=list(islice(each, len(group.comparisons)))) for group in of_name]
+        for name, of_name in groups.items()
+    }
+
+
+def unread_factors(plan: StudyPlan, table: pd.DataFrame) -> list[str]:
+    """Keys that change nothing: matches that differ in the level alone are the same match, by their hash chains."""
+    found = []
+    for key in plan.cells[0].levels:
+        chains: dict[str, list[str]] = {}
+        for row in table.itertuples():
+            levels = {**plan.cells[int(row.cell) - 1].levels, key: None}
+            chains.setdefault(f"{levels} {row.seed} {row.swapped}", []).append(row.chain)
+        compared = [same for same in chains.values() if len(same) > 1]
+        if compared and all(len(set(same)) == 1 for same in compared):
+            found.append(key)
+    return found
+
+
 def comparison_groups(plan: StudyPlan, table: pd.DataFrame, response: str) -> list[ComparisonGroup]:
     """All comparisons of a response; groups without one are left out."""
     means = seed_means(table, response, plan.study.matches_of_seed)
@@ -34,9 +60,9 @@ def comparison_groups(plan: StudyPlan, table: pd.DataFrame, response: str) -> li
     return [group for group in groups if group.comparisons]
 
 
-def answers(plan: StudyPlan, table: pd.DataFrame, response: str) -> list[Comparison]:
+def answers(groups: Sequence[ComparisonGroup]) -> list[Comparison]:
     """The comparisons of a response that answer the question of the study."""
-    return [one for group in comparison_groups(plan, table, response) if group.is_answer for one in group.comparisons]
+    return [one for group in groups if group.is_answer for one in group.comparisons]
 
 
 def _cells_with_first(plan: StudyPlan, means: pd.DataFrame) -> list[Comparison]:

@@ -66,7 +66,7 @@ def plot_of_comparisons(comparisons: Sequence[Comparison], response: str) -> str
         axes.axvline(0, color="#666", linewidth=0.8)
         for place, one in enumerate(reversed(comparisons)):
             estimate = one.estimate
-            colour = _COLOURS[0] if estimate.contains_zero is not False else _COLOURS[1]
+            colour = _COLOURS[1] if one.is_found else _COLOURS[0]
             if estimate.low is not None and estimate.high is not None:
                 axes.plot([estimate.low, estimate.high], [place, place], color=colour, linewidth=2)
             axes.plot([estimate.value], [place], "o", color=colour, markersize=6)

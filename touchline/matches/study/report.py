@@ -7,11 +7,11 @@ import pandas as pd
 
 from touchline.matches.engine.outcome import Failed
 from touchline.matches.report import page_of
-from touchline.matches.statistics.paired import adjusted, estimate_of, seed_means, widest
-from touchline.matches.study.comparisons import ComparisonGroup, answers, comparison_groups
+from touchline.matches.statistics.paired import estimate_of, seed_means, widest
+from touchline.matches.study.comparisons import ComparisonGroup, answers, compared, unread_factors
 from touchline.matches.study.digests import as_text
 from touchline.matches.study.plots import plot_of_comparisons, plot_of_means
-from touchline.matches.study.sentences import UNKNOWN, number, response_text, sentence_of
+from touchline.matches.study.sentences import UNKNOWN, number, response_text, sentence_of, sentence_of_unread
 from touchline.matches.study.study_plan import StudyPlan
 
 
@@ -23,11 +23,7 @@ def report_of(
     versions: Mapping[str, object],
 ) -> str:
     """The report as one page."""
-    study = plan.study
-    responses = [name for name in (*study.responses, *study.functions) if name in table]
-    groups = {name: comparison_groups(plan, table, name) for name in responses}
-    compared = [one for each in groups.values() for group in each for one in group.comparisons]
-    p_values = dict(zip(map(id, compared), adjusted(compared), strict=True))
+    study, groups = plan.study, compared(plan, table)
     return page_of(
         "study/report.html",
         title=study.title or study.name,
@@ -38,12 +34,9 @@ def report_of(
         interval=_interval_text(plan, table),
         failed=failed,
         missing=[name for name in study.responses if name not in table],
-        answers=[
-            (one.estimate.contains_zero is False, sentence_of(one, name))
-            for name in responses
-            for one in answers(plan, table, name)
-        ],
-        responses=[_response(plan, table, name, groups[name], p_values) for name in responses],
+        unread=map(sentence_of_unread, unread_factors(plan, table)),
+        answers=[(one.is_found, sentence_of(one, name)) for name in groups for one in answers(groups[name])],
+        responses=[_response(plan, table, name, groups[name]) for name in groups],
         versions=as_text(versions),
     )
 
@@ -53,7 +46,6 @@ def _response(
     table: pd.DataFrame,
     response: str,
     groups: Sequence[ComparisonGroup],
-    p_values: Mapping[int, float | None],
 ) -> dict[str, Any]:
     """Plots and rows of the tables of a response."""
     means = seed_means(table, response, plan.study.matches_of_seed)
@@ -73,7 +65,7 @@ def _response(
                 _interval(one.estimate.low, one.estimate.high),
                 number(one.effect_size),
                 number(one.p),
-                number(p_values[id(one)]),
+                number(one.adjusted_p),
                 one.estimate.seeds,
             )
             for group in groups

@@ -9,7 +9,7 @@ UNKNOWN = "–"
 
 
 def sentence_of(comparison: Comparison, response: str) -> str:
-    """The result of a comparison; where the interval contains 0, the largest difference that it leaves possible."""
+    """The result of a comparison: a difference where the adjusted p shows one, otherwise what is possible."""
     one, name = comparison.estimate, response_text(response)
     between = f"between {comparison.label} and {comparison.reference}"
     matches = f"{comparison.matches} matches" if comparison.matches != 1 else "one match"
@@ -20,15 +20,20 @@ def sentence_of(comparison: Comparison, response: str) -> str:
     if one.low is None or one.high is None:
         how = f"the same difference, {number(one.value)}," if one.value else "no difference"
         return f"{name}: {how} {between} in all {one.seeds} seeds; without any variation there is no interval."
-    if one.contains_zero:
-        most = rounded_up(max(-one.low, one.high))
-        return f"{name}: no difference of more than {most} {between} can be told from {matches}."
-    more = "more" if one.value > 0 else "less"
-    low, high = sorted((abs(one.low), abs(one.high)))
-    return (
-        f"{name}: {number(abs(one.value))} {more} (95 % interval {number(low)} to {number(high)}) "
-        f"with {comparison.label} than with {comparison.reference}, from {matches}."
-    )
+    versus = f"with {comparison.label} than with {comparison.reference}"
+    if comparison.is_found:
+        low, high = sorted((abs(one.low), abs(one.high)))
+        interval = f"95 % interval {number(low)} to {number(high)}"
+        return f"{name}: {_amount(one.value)} ({interval}) {versus}, from {matches}."
+    shown = "these matches do not show whether there is a difference"
+    if not one.contains_zero:
+        shown = f"for so many comparisons this does not show a difference (adjusted p {number(comparison.adjusted_p)})"
+    return f"{name}: between {_amount(one.low)} and {_amount(one.high)} {versus} (95 % interval, {matches}); {shown}."
+
+
+def sentence_of_unread(key: str) -> str:
+    """That a factor changes nothing."""
+    return f"{key}: all matches are equal to the byte at each of its levels; does the team read it?"
 
 
 def response_text(response: str) -> str:
@@ -43,9 +48,5 @@ def number(value: float | None) -> str:
     return UNKNOWN if value is None or math.isnan(value) else f"{value:.3g}"
 
 
-def rounded_up(value: float) -> str:
-    """Two significant digits, never less than the value: a bound."""
-    if value == 0:
-        return "0"
-    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
-    return f"{math.ceil(round(value / unit, 9)) * unit:.2g}"
+def _amount(difference: float) -> str:
+    return f"{number(abs(difference))} {'more' if difference > 0 else 'less'}" if difference else "0"

@@ -9,15 +9,20 @@ import pytest
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.matches.statistics.paired import adjusted, estimate_of, is_narrow, seed_means  # noqa: E402
-from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
-from touchline.matches.study.sentences import rounded_up, sentence_of  # noqa: E402
+from touchline.matches.statistics.paired import Comparison, adjusted, estimate_of, is_narrow, seed_means  # noqa: E402
+from touchline.matches.study.comparisons import answers, compared, comparison_groups, unread_factors  # noqa: E402
+from touchline.matches.study.sentences import sentence_of, sentence_of_unread  # noqa: E402
 from touchline.matches.study.study_plan import StudyPlan  # noqa: E402
 
 MakePlan = Callable[[str], StudyPlan]
 MakeTable = Callable[..., Any]
 TWO_LEVELS = 'both_sides = false\nresponses = ["goals"]\n[factors]\nradio.loss = [0, 0.4]'
 REPETITIONS = 200
+
+
+def goals_of(plan: StudyPlan, results: Any) -> list[Comparison]:
+    """What a study answers about goals."""
+    return answers(compared(plan, results)["goals"])
 
 
 def test_intervals_of_paired_differences_cover_the_truth_in_95_percent_of_200_studies(
@@ -28,7 +33,7 @@ def test_intervals_of_paired_differences_cover_the_truth_in_95_percent_of_200_st
     for _ in range(REPETITIONS):
         shared = rng.normal(3.0, 2.0, 12)  # what the seed does to both cells
         second = shared + effect + rng.normal(0.0, 1.0, 12)
-        (found,) = answers(plan, table("goals", {1: shared, 2: second}), "goals")
+        (found,) = goals_of(plan, table("goals", {1: shared, 2: second}))
         assert found.estimate.low is not None
         assert found.estimate.high is not None
         covered += found.estimate.low <= effect <= found.estimate.high
@@ -45,8 +50,7 @@ def test_intervals_of_means_of_goals_cover_the_truth_in_95_percent_of_200_studie
 def test_without_an_effect_one_comparison_in_twenty_leaves_0_out(bare_plan: MakePlan, table: MakeTable) -> None:
     plan, rng = bare_plan(TWO_LEVELS), np.random.default_rng(3)
     found = [
-        answers(plan, table("goals", {1: rng.poisson(2, 15), 2: rng.poisson(2, 15)}), "goals")[0]
-        for _ in range(REPETITIONS)
+        goals_of(plan, table("goals", {1: rng.poisson(2, 15), 2: rng.poisson(2, 15)}))[0] for _ in range(REPETITIONS)
     ]
     assert sum(one.estimate.contains_zero is False for one in found) / REPETITIONS <= 0.09
 
@@ -56,7 +60,7 @@ def test_the_same_seeds_in_each_cell_show_an_effect_that_independent_samples_hid
 ) -> None:
     seeds = [0.0, 10.0, 20.0, 30.0, 40.0]
     lower = [value - 1.0 + wobble for value, wobble in zip(seeds, (0.1, -0.1, 0.0, 0.2, -0.2), strict=True)]
-    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", {1: seeds, 2: lower}), "goals")
+    (found,) = goals_of(bare_plan(TWO_LEVELS), table("goals", {1: seeds, 2: lower}))
     assert found.estimate.contains_zero is False
     assert found.effect_size is not None
     assert found.effect_size < -5
@@ -65,33 +69,48 @@ def test_the_same_seeds_in_each_cell_show_an_effect_that_independent_samples_hid
     )
 
 
-def test_an_interval_with_0_states_the_largest_difference_that_is_possible(
-    bare_plan: MakePlan, table: MakeTable
-) -> None:
+def test_an_interval_with_0_is_said_with_both_its_ends_and_shows_nothing(bare_plan: MakePlan, table: MakeTable) -> None:
     values = {1: [1, 2, 0, 1, 3, 2], 2: [2, 1, 1, 0, 3, 2]}
-    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", values), "goals")
-    assert found.estimate.high is not None
-    most = float(sentence_of(found, "goals").split("more than ")[1].split()[0])
-    assert found.estimate.low is not None
-    assert most >= max(-found.estimate.low, found.estimate.high)
-    assert sentence_of(found, "goals").endswith(
-        "between radio.loss = 0.4 and radio.loss = 0 can be told from 12 matches."
+    (found,) = goals_of(bare_plan(TWO_LEVELS), table("goals", values))
+    assert sentence_of(found, "goals") == (
+        "Goals: between 0.939 less and 0.939 more with radio.loss = 0.4 than with radio.loss = 0 "
+        "(95 % interval, 12 matches); these matches do not show whether there is a difference."
     )
 
 
-@pytest.mark.parametrize(("value", "text"), [(0.291, "0.3"), (1.96, "2"), (0.30000000000000004, "0.3"), (12.1, "13")])
-def test_a_bound_is_rounded_up(value: float, text: str) -> None:
-    assert rounded_up(value) == text
+def test_a_difference_that_the_adjusted_p_does_not_support_is_no_finding(bare_plan: MakePlan, table: MakeTable) -> None:
+    """One interval of six leaves 0 out, as one in twenty does without any effect."""
+    names = ["goals", "shots", "fouls", "passes", "saves", "cards"]
+    plan = bare_plan(TWO_LEVELS.replace('["goals"]', str(names)))
+    results = table("goals", {1: [4, 4, 5, 3], 2: [2, 1, 4, 1]})
+    for place, name in enumerate(names[1:]):
+        results[name] = table(name, {1: [1, 2, 3, place], 2: [2, 1, 3, 1 + place % 2]})[name]
+    (found,) = goals_of(plan, results)
+    assert found.estimate.contains_zero is False and not found.is_found
+    text = sentence_of(found, "goals")
+    assert "between 3.3 less and 0.701 less" in text and "this does not show a difference (adjusted p 0.0977)" in text
+
+
+def test_a_factor_that_changes_no_match_is_named(bare_plan: MakePlan) -> None:
+    plan = bare_plan("both_sides = false\n[factors]\nradio.loss = [0, 0.4]\nteams.cyan.parameters.range = [1, 2]")
+    rows = [(cell, seed, False, f"{seed} {(cell - 1) // 2}") for seed in (1, 2) for cell in (1, 2, 3, 4)]
+    results = pd.DataFrame(rows, columns=["cell", "seed", "swapped", "chain"])
+    assert unread_factors(plan, results) == ["teams.cyan.parameters.range"]
+    assert sentence_of_unread("range") == (
+        "range: all matches are equal to the byte at each of its levels; does the team read it?"
+    )
+    results.loc[0, "chain"] = "another"
+    assert unread_factors(plan, results) == []
 
 
 def test_equal_values_in_all_seeds_give_no_interval_and_no_warning(bare_plan: MakePlan, table: MakeTable) -> None:
-    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", {1: [2, 2, 2], 2: [2, 2, 2]}), "goals")
+    (found,) = goals_of(bare_plan(TWO_LEVELS), table("goals", {1: [2, 2, 2], 2: [2, 2, 2]}))
     assert (found.estimate.low, found.p, found.effect_size) == (None, None, None)
     assert "no difference" in sentence_of(found, "goals")
 
 
 def test_a_seed_that_failed_in_one_cell_is_left_out_of_the_pairs(bare_plan: MakePlan, table: MakeTable) -> None:
-    (found,) = answers(bare_plan(TWO_LEVELS), table("goals", {1: [1, 2, 3, 9], 2: [2, 3, 5, None]}), "goals")
+    (found,) = goals_of(bare_plan(TWO_LEVELS), table("goals", {1: [1, 2, 3, 9], 2: [2, 3, 5, None]}))
     assert (found.estimate.seeds, found.matches) == (3, 6)
 
 
@@ -118,11 +137,8 @@ def test_a_main_effect_is_averaged_over_the_other_factors(bare_plan: MakePlan, t
 
 def test_p_values_are_adjusted_for_their_number(bare_plan: MakePlan, table: MakeTable) -> None:
     plan = bare_plan("both_sides = false\n[factors]\nradio.loss = [0, 0.2, 0.4]")
-    found = answers(plan, table("goals", {1: [1, 2, 3, 2], 2: [2, 3, 4, 4], 3: [1, 3, 3, 1]}), "goals")
-    assert all(
-        after is not None and one.p is not None and after >= one.p
-        for one, after in zip(found, adjusted(found), strict=True)
-    )
+    found = goals_of(plan, table("goals", {1: [1, 2, 3, 2], 2: [2, 3, 4, 4], 3: [1, 3, 3, 1]}))
+    assert all(one.adjusted_p is not None and one.p is not None and one.adjusted_p >= one.p for one in adjusted(found))
 
 
 def test_an_interval_is_narrow_once_seeds_suffice(table: MakeTable) -> None:

@@ -14,7 +14,7 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
-from touchline.matches.study.comparisons import answers, comparison_groups  # noqa: E402
+from touchline.matches.study.comparisons import answers, compared  # noqa: E402
 from touchline.matches.study.study_folder import read_study  # noqa: E402
 from touchline.matches.study.verify_study import verify_study  # noqa: E402
 
@@ -96,8 +96,8 @@ def test_a_team_against_itself_shows_no_effect_and_one_robot_less_shows_one(run:
     )
     stored = read_study(home)
     response = "possession_s.difference"
-    (effect,) = answers(stored.plan, stored.table, response)
-    groups = comparison_groups(stored.plan, stored.table, response)
+    groups = compared(stored.plan, stored.table)[response]
+    (effect,) = answers(groups)
     itself, one_less = groups[-1].comparisons
     assert itself.estimate.value == pytest.approx(0.0)
     assert itself.estimate.contains_zero is not False
