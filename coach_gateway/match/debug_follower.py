@@ -6,7 +6,7 @@ from runtime.bus.contract import Bus, ReceivedMessage
 from schemas.messages.debug import SHOWN_S, RobotDebug
 from schemas.side import Side
 from schemas.topics import DEBUG
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import valid
 
 
 class DebugFollower:
@@ -15,7 +15,8 @@ class DebugFollower:
     def __init__(self, bus: Bus) -> None:
         self._drawings = bus.subscribe(DEBUG, newest=True)
         self._newest: dict[str, ReceivedMessage] = {}
-        self._read: dict[str, RobotDebug] = {}
+        self._read: dict[str, RobotDebug | None] = {}
+        """Robot → its newest drawing, if it was asked for; None for an invalid one."""
 
     def update(self) -> None:
         """Take in the drawings received since the last call, without waiting."""
@@ -33,14 +34,6 @@ class DebugFollower:
         """Robot → its drawing at this simulated time in s, of robots of these sides, in the field frame."""
         wanted = {side.value for side in sides}
         robots = [name for name, received in self._newest.items() if received.chunks["side"] in wanted]
-        drawings = {robot: drawing for robot in robots if (drawing := self._decoded(robot)) is not None}
+        self._read |= {robot: valid(self._newest[robot].message) for robot in robots if robot not in self._read}
+        drawings = {robot: drawing for robot in robots if (drawing := self._read[robot]) is not None}
         return {robot: drawing for robot, drawing in drawings.items() if abs(time - drawing.time) <= SHOWN_S}
-
-    def _decoded(self, robot: str) -> RobotDebug | None:
-        if robot not in self._read:
-            try:
-                self._read[robot] = self._newest[robot].message()
-            except BadMessageError:
-                del self._newest[robot]
-                return None
-        return self._read[robot]

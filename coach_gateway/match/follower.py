@@ -21,7 +21,7 @@ from schemas.messages.world import World
 from schemas.side import Side
 from schemas.soccer.game import Phase
 from schemas.topics import BELIEF, EVENT, HEALTH, RECORDER_PROGRESS, STATE, WORLD
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import valid
 
 _LATE_TICKS = 50
 """Ticks that a state may be older than one before it. An even older one means that a replay has jumped back."""
@@ -130,8 +130,7 @@ class MatchFollower:
             self._note_time(message, received)
             news.healths.append(message)
         for received in iter(self._progress.receive, None):
-            progress = self._decoded(received)
-            if progress is not None:
+            if (progress := valid(received.message)) is not None:
                 self.recorders[received.chunks["name"]] = progress
         if self._details is not None:
             self._update_details(self._details, news)
@@ -164,7 +163,7 @@ class MatchFollower:
         """Merge recorded events and states, of which some were not received; returns the new ones, in their order."""
         fresh: list[GameEvent | GameState] = []
         for received in messages:
-            message = self._decoded(received)
+            message = valid(received.message)
             if isinstance(message, GameEvent) and message not in self.events:
                 self._add_event(message, received)
                 fresh.append(message)
@@ -228,7 +227,7 @@ class MatchFollower:
         """Read the newest worlds and beliefs, of which most are replaced before they are used."""
         unread, self._unread = self._unread, {}
         for received in unread.values():
-            message = self._decoded(received)
+            message = valid(received.message)
             if message is None:
                 continue
             self._payloads[received.key] = received.payload
@@ -239,8 +238,7 @@ class MatchFollower:
 
     def _messages(self, subscription: Subscription, news: MatchNews) -> Iterator[tuple[Any, ReceivedMessage]]:
         for received in iter(subscription.receive, None):
-            message = self._decoded(received)
-            if message is not None:
+            if (message := valid(received.message)) is not None:
                 self._check_host(received, news)
                 yield message, received
 
@@ -283,10 +281,3 @@ class MatchFollower:
             self.first = time
         if self.last is None or time.tick >= self.last.tick:
             self.last = time
-
-    def _decoded(self, received: ReceivedMessage) -> Any:
-        """The valid message; None when it is not one."""
-        try:
-            return received.message()
-        except BadMessageError:
-            return None

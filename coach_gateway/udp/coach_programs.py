@@ -1,7 +1,6 @@
 """The sessions of all coach programs: which datagrams are acknowledged at once, and which become requests. Pure."""
 
 import hmac
-import json
 import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -29,6 +28,7 @@ from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import ActionName
 from schemas.wire.faults import FaultError
+from schemas.wire.part import json_object
 from schemas.wire.part_faults import decoded
 
 MOST_WAITING = 8
@@ -178,7 +178,7 @@ def _read(data: bytes) -> Any:
     try:
         return decoded(ProgramRequest, data)
     except FaultError as error:
-        said = _object(data)
+        said = json_object(data)
         number, kind = said.get("sequence"), said.get("kind")
         return Ack(
             sequence=number if isinstance(number, int) and not isinstance(number, bool) else None,
@@ -186,14 +186,6 @@ def _read(data: bytes) -> Any:
             accepted=False,
             reason=str(error)[:300],
         )
-
-
-def _object(data: bytes) -> dict[str, Any]:
-    try:
-        said = json.loads(data)
-    except (ValueError, RecursionError):
-        return {}
-    return said if isinstance(said, dict) else {}
 
 
 def _refused(ask: Any, reason: str) -> Ack:

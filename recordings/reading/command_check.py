@@ -1,7 +1,6 @@
 """Checks that the inputs a host reports in `host/applied` are the recorded commands of the robots' programs."""
 
 from collections.abc import Container, Iterable
-from contextlib import suppress
 from itertools import islice
 from operator import attrgetter
 from typing import Any, NamedTuple
@@ -11,7 +10,7 @@ from pydantic_core import from_json
 from recordings.reading.recording import RecordedMessage
 from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Command
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import valid
 
 _KEPT = 1000
 """Ticks whose commands are kept for each robot: longer than any command stays in force."""
@@ -110,14 +109,11 @@ class CommandCheck:
         radios = []
         for one in [one for commands in self._sent.get(robot, {}).values() for one in commands]:
             if one.fields.get("radio") is not None:
-                with suppress(BadMessageError):
-                    radios.append(one.recorded.message().radio)
+                command = valid(one.recorded.message)
+                radios += [] if command is None else [command.radio]
         for belief in self._unsent.pop(robot, []):
-            try:
-                was_sent = belief.recorded.message().radio in radios
-            except BadMessageError:
-                was_sent = False
-            if not was_sent:
+            published = valid(belief.recorded.message)
+            if published is None or published.radio not in radios:
                 self._mismatches.append(CommandMismatch(belief.tick, robot, "belief", belief.radio, None))
 
     def mismatches(self) -> list[CommandMismatch]:
@@ -141,10 +137,10 @@ def _compare(tick: int, robot: str, input_: AppliedInput, sent: Iterable[_SentCo
     mismatches: list[CommandMismatch] = []
     applied = _fields(input_)
     for candidate in sent:
-        try:
-            claimed = _fields(candidate.recorded.message())
-        except BadMessageError:
+        command = valid(candidate.recorded.message)
+        if command is None:
             continue
+        claimed = _fields(command)
         if claimed == applied:
             return []
         mismatches = mismatches or [

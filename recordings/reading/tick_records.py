@@ -3,8 +3,6 @@
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from pydantic_core import from_json
-
 from recordings.container.manifest import KeyCount
 from recordings.reading.command_check import CommandCheck
 from recordings.reading.record_order import RecordOrder
@@ -14,7 +12,8 @@ from schemas.messages.applied import Applied
 from schemas.messages.soccer.game import GameEvent
 from schemas.soccer.game import EventKind
 from schemas.topics import APPLIED, BELIEF, COMMAND, EVENT, STATE, WORLD
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import valid
+from schemas.wire.part import json_object
 
 _BEFORE_S = 0.5
 _AFTER_S = 2.0
@@ -93,7 +92,7 @@ def tick_records(
                 order.add(recorded, record.tick)
                 held.append(record)
         else:
-            fields = _fields(recorded.payload)
+            fields = json_object(recorded.payload)
             tick = fields.get("tick")
             if not isinstance(tick, int):
                 order.add_unreadable(recorded)
@@ -114,18 +113,6 @@ def tick_records(
 
 
 def _tick_record(recorded: RecordedMessage) -> TickRecord:
-    try:
-        applied: Applied = recorded.message()
-    except BadMessageError:
-        tick = _fields(recorded.payload).get("tick")
-        return TickRecord(tick if isinstance(tick, int) else -1, recorded, None, None)
-    return TickRecord(applied.tick, recorded, applied, None)
-
-
-def _fields(payload: bytes) -> dict[str, Any]:
-    """The fields of a payload; none if it is not a JSON object."""
-    try:
-        fields = from_json(payload)
-    except ValueError:
-        return {}
-    return fields if isinstance(fields, dict) else {}
+    applied: Applied | None = valid(recorded.message)
+    tick = json_object(recorded.payload).get("tick") if applied is None else applied.tick
+    return TickRecord(tick if isinstance(tick, int) else -1, recorded, applied, None)

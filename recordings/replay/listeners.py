@@ -5,7 +5,7 @@ from recordings.timing import RECORDER_PATIENCE_S
 from runtime.bus.contract import Bus, PresenceKind
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import APPLIED, RECORDER_PROGRESS
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import valid
 
 _HOSTS = (PresenceKind.HOST, PresenceKind.REPLAY)
 
@@ -43,11 +43,8 @@ class Listeners:
                 self.recorders.pop(presence.name, None)
         while (received := self._progress.receive()) is not None:
             recorder = self.recorders.get(received.chunks["name"])
-            if recorder is not None:
-                try:
-                    self._confirm(recorder, received.message().tick)
-                except BadMessageError:
-                    continue  # counts as no progress
+            if recorder is not None and (progress := valid(received.message)) is not None:
+                self._confirm(recorder, progress.tick)
         return came
 
     def note_published(self, recorded: RecordedMessage) -> None:

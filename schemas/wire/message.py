@@ -1,7 +1,8 @@
 """A whole message: a part with the version of the protocol, read from a payload with one sentence for a fault."""
 
 import re
-from typing import Annotated, ClassVar, Self
+from collections.abc import Callable
+from typing import Annotated, Any, ClassVar, Self
 
 import msgspec
 from msgspec import Meta
@@ -44,6 +45,14 @@ WITHOUT_SENSORS = b',"sensors":{}}'
 
 class BadMessageError(ValueError):
     """A payload that is not a valid message; the text is one sentence with the reason."""
+
+
+def valid(decode: Callable[[], Any]) -> Any:
+    """The message that `decode` returns; None if the payload is not valid."""
+    try:
+        return decode()
+    except BadMessageError:
+        return None
 
 
 class Message(Part):

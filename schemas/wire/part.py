@@ -12,6 +12,7 @@ from typing import Any, Self, dataclass_transform
 
 import msgspec
 from pydantic import BaseModel
+from pydantic_core import from_json
 
 from schemas.wire.json_schema import json_schema
 
@@ -37,6 +38,15 @@ def convert(content: Any, kind: Any) -> Any:
         msgspec.ValidationError: the content is invalid; `schemas.wire.part_faults` names the fault.
     """
     return msgspec.convert(content, kind, dec_hook=_model)
+
+
+def json_object(payload: bytes | str) -> dict[str, Any]:
+    """The fields of a payload, whatever they are; none if it is not a JSON object."""
+    try:
+        fields = from_json(payload)
+    except ValueError:
+        return {}
+    return fields if isinstance(fields, dict) else {}
 
 
 class PartType(msgspec.StructMeta):

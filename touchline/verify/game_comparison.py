@@ -8,7 +8,7 @@ from recordings.reading.recording import RecordedMessage
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.soccer.game import EventKind
 from schemas.topics import EVENT, STATE
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import valid
 from sim_host.match.game_resimulation import OfficiatedTick
 from touchline.verify.command_difference import field_differences
 from touchline.verify.verdict import Detail
@@ -20,7 +20,7 @@ def state_differences(states: Sequence[RecordedMessage], tick: OfficiatedTick) -
         if tick.state is None or tick.state_may_be_missing:
             return []
         return [Detail(STATE.key, "message", None, _state_text(tick.state))]
-    recorded = _message(states[0])
+    recorded = valid(states[0].message)
     if tick.state is None:
         return [] if tick.state_may_be_missing else [Detail(STATE.key, "message", _state_text(recorded), None)]
     return _differences(STATE.key, recorded, tick.state)
@@ -28,7 +28,7 @@ def state_differences(states: Sequence[RecordedMessage], tick: OfficiatedTick) -
 
 def event_differences(events: Sequence[RecordedMessage], tick: OfficiatedTick) -> list[Detail]:
     """Where the recorded events of one tick are not the simulated referee's; reports on agents are left out."""
-    recorded = [event for event in map(_message, events) if not is_agent_event(event)]
+    recorded = [message for event in events if not is_agent_event(message := valid(event.message))]
     if len(recorded) == len(tick.events):
         pairs = zip(recorded, tick.events, strict=True)
         return [detail for theirs, ours in pairs for detail in _differences(_event_name(ours), theirs, ours)]
@@ -45,14 +45,6 @@ def event_differences(events: Sequence[RecordedMessage], tick: OfficiatedTick) -
 def is_agent_event(event: GameEvent | None) -> bool:
     """Whether an event is the host's report on an agent, and not the referee's."""
     return event is not None and event.kind is EventKind.AGENT
-
-
-def _message(recorded: RecordedMessage) -> Any:
-    """The message; None if it is not valid."""
-    try:
-        return recorded.message()
-    except BadMessageError:
-        return None
 
 
 def _differences(name: str, recorded: GameState | GameEvent | None, simulated: GameState | GameEvent) -> list[Detail]:

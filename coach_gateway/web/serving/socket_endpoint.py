@@ -6,7 +6,6 @@ Before there is a match, pages learn whether their token is right, and command n
 import asyncio
 import contextlib
 
-from pydantic_core import from_json
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from coach_gateway.access.origins import Origins
@@ -29,6 +28,7 @@ from coach_gateway.web.pages.protocol import (
 )
 from coach_gateway.web.pages.requests import is_stop
 from schemas.wire.faults import FaultError
+from schemas.wire.part import json_object
 
 _MOST_PENDING = 8
 """Requests of one page that may wait for their replies."""
@@ -182,9 +182,5 @@ async def _close(socket: WebSocket, why: str) -> None:
 
 def _number(text: str) -> int | None:
     """The number of a message that is otherwise invalid; None where it has none."""
-    try:
-        content = from_json(text)
-    except ValueError:
-        return None
-    number = content.get("id") if isinstance(content, dict) else None
+    number = json_object(text).get("id")
     return number if isinstance(number, int) and not isinstance(number, bool) and number >= 0 else None

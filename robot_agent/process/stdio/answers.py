@@ -1,6 +1,5 @@
 """What a line of a program is: the command for a sight, or a fault with a sentence that names the line."""
 
-import json
 from collections.abc import Collection
 from enum import StrEnum
 from reprlib import Repr
@@ -9,6 +8,7 @@ from typing import NamedTuple
 from robot_agent.process.stdio.lines import Line
 from schemas.messages.command import Command
 from schemas.wire.message import BadMessageError
+from schemas.wire.part import json_object
 
 _SHOWN = Repr()
 _SHOWN.maxstring = _SHOWN.maxother = 80
@@ -100,8 +100,5 @@ def _fault(kind: AnswerFault, content: bytes, reason: str, *, ends_wait: bool = 
 
 def _tick_in(content: bytes) -> int | None:
     """The tick that a line names although it is no command; None if it cannot be read."""
-    try:
-        tick = json.loads(content).get("answers_tick")
-    except (ValueError, RecursionError):
-        return None
+    tick = json_object(content).get("answers_tick")
     return tick if isinstance(tick, int) else None

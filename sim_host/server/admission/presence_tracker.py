@@ -4,7 +4,7 @@ from itertools import chain, repeat
 
 from runtime.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import valid
 from sim_host.server.admission.account_limits import AccountLimits
 from sim_host.server.admission.admitted_recorders import AdmittedRecorders
 from sim_host.server.admission.agent_stats import AgentStats
@@ -128,10 +128,7 @@ class PresenceTracker:
             if not self._accounts.of_key(received.key).accept(len(received.payload), 1):
                 continue
             name = received.chunks["name"]
-            try:
-                progress = received.message()
-            except BadMessageError:
-                progress = None
+            progress = valid(received.message)
             if progress is not None and progress.leaving:
                 self._forget(name)
             elif progress is not None and name in self.recorders:

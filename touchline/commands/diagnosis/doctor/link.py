@@ -13,7 +13,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.health import Health
 from schemas.messages.setup import Setup
 from schemas.topics import HEALTH, WORLD
-from schemas.wire.message import VERSION, BadMessageError
+from schemas.wire.message import VERSION, BadMessageError, valid
 from touchline.commands.diagnosis.doctor.clock_offset import ClockOffset, clock_offset
 from touchline.commands.diagnosis.doctor.finding import Finding, Status
 
@@ -107,10 +107,7 @@ def _listen(bus: Bus) -> tuple[Health | None, list[tuple[int, int]]]:
             if received.stamp is not None:
                 stamps.append((received.stamp.sent_ns, bus.clock.unix_ns()))
             if received.topic is HEALTH:
-                try:
-                    newest = received.message()
-                except BadMessageError:
-                    continue
+                newest = valid(received.message) or newest
     for subscription in subscriptions:
         subscription.close()
     return newest, stamps
