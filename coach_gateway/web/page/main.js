@@ -73,7 +73,8 @@ async function changed(up) {
 
 /** Takes the role of a token; an unknown token is forgotten, an unanswered check is repeated. */
 async function claim(token) {
-  const reply = await connection.useToken(token);
+  connection.token = token;
+  const reply = await connection.ask("token");
   if (reply.unanswered) {
     if (connection.up && connection.token === token) claim(token);
     return;

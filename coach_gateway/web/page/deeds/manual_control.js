@@ -98,8 +98,7 @@ export class ManualControl {
       const { code } = button.dataset;
       button.addEventListener("pointerdown", (event) => {
         event.preventDefault();
-        if (event.button !== 0) return;
-        this.#keys.add(code);
+        if (event.button === 0) this.#keys.add(code);
       });
       for (const end of ["pointerup", "pointerleave", "pointercancel"]) button.addEventListener(end, () => this.#keys.delete(code));
     }

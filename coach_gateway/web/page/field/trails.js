@@ -40,16 +40,13 @@ export class Trails {
   }
 
   #step(name, { x, y }, time) {
-    const way = this.#ways.get(name);
-    if (way === undefined) {
-      this.#ways.set(name, [{ x, y, time, jump: true }]);
-      return;
-    }
+    const way = this.#ways.get(name) ?? [];
     const last = way.at(-1);
-    const gone = Math.hypot(x - last.x, y - last.y);
+    const gone = last ? Math.hypot(x - last.x, y - last.y) : Infinity;
     if (gone < STEP_M) return;
     way.push({ x, y, time, jump: gone > JUMP_M });
     if (way.length > MOST) way.splice(0, MOST / 5);
+    this.#ways.set(name, way);
   }
 }
 

@@ -16,16 +16,13 @@ export class Connection {
   #asked = new Map();
   #receivedAt = 0;
   #lookedAt = 0;
-  #onMessage;
-  #onChange;
-  #onSilence;
 
   /**
    * `onMessage` is called with each message, `onChange` with whether the connection is up, `onSilence` when nothing
    * arrives any more, and when something does again.
    */
   constructor(token, onMessage, onChange, onSilence) {
-    this.token = token;
+    Object.assign(this, { token, onMessage, onChange, onSilence });
     this.up = false;
     /** Why the gateway closed the connection; empty where it has not. */
     this.closeReason = "";
@@ -35,9 +32,6 @@ export class Connection {
     this.patience = DEAD_MS;
     /** ms after which a request counts as unanswered. */
     this.answerWithin = ANSWER_MS;
-    this.#onMessage = onMessage;
-    this.#onChange = onChange;
-    this.#onSilence = onSilence;
     addEventListener("online", () => this.#open());
     document.addEventListener("visibilitychange", () => document.hidden || this.#open());
     setInterval(() => this.#look(), LOOK_MS);
@@ -64,12 +58,6 @@ export class Connection {
     }
   }
 
-  /** Uses another token from now on. */
-  useToken(token) {
-    this.token = token;
-    return this.ask("token");
-  }
-
   #send(deed, content) {
     this.#number += 1;
     this.#socket.send(JSON.stringify({ id: this.#number, token: this.token, deed, ...content }));
@@ -86,7 +74,7 @@ export class Connection {
       if (socket !== this.#socket) return;
       this.up = true;
       this.closeReason = "";
-      this.#onChange(true);
+      this.onChange(true);
     });
     socket.addEventListener("message", (event) => {
       if (socket !== this.#socket) return;
@@ -95,7 +83,10 @@ export class Connection {
       const message = JSON.parse(event.data);
       if (message.kind === "reply") this.#answer(message);
       else if (message.kind === "refusal") this.closeReason = message.reason;
-      else this.#receive(message);
+      else {
+        this.#wait = FIRST_WAIT_MS; // the connection works
+        this.onMessage(message);
+      }
     });
     socket.addEventListener("close", () => this.#closed(socket));
   }
@@ -115,12 +106,7 @@ export class Connection {
   #note(silent) {
     if (silent === this.silent) return;
     this.silent = silent;
-    this.#onSilence();
-  }
-
-  #receive(message) {
-    this.#wait = FIRST_WAIT_MS; // the connection works
-    this.#onMessage(message);
+    this.onSilence();
   }
 
   #closed(socket) {
@@ -129,7 +115,7 @@ export class Connection {
     this.up = false;
     this.silent = false;
     for (const id of [...this.#asked.keys()]) this.#answer(unanswered(id, "the connection to the gateway broke"));
-    this.#onChange(false);
+    this.onChange(false);
     if (this.closeReason) this.#wait = CLOSED_WAIT_MS;
     this.#waiting = setTimeout(() => this.#open(), this.#wait);
     this.#wait = Math.min(1.6 * this.#wait, LONGEST_WAIT_MS);

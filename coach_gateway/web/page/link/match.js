@@ -30,46 +30,31 @@ const emptyMatch = () => ({
   frames: new FrameBuffer(),
 });
 
-/** Kind of message → how it changes the match. */
+/** Kind of message → what it says of the match. */
 const READERS = {
-  welcome(match, { role, match: name, setup, live, deeds, beliefs, debug, scenes }) {
-    const known = { role, name, setup, live, deeds: new Set(deeds), shown: beliefs, drawn: debug, scenes };
-    Object.assign(match, emptyMatch(), known);
+  welcome({ role, match: name, setup, live, deeds, beliefs, debug, scenes }) {
+    return { ...emptyMatch(), role, name, setup, live, deeds: new Set(deeds), shown: beliefs, drawn: debug, scenes };
   },
-  frame(match, { world, beliefs, debug }) {
-    if (world.episode !== match.episode) match.frames.clear();
-    match.episode = world.episode;
-    match.beliefs = beliefs;
-    match.debug = debug;
-    match.frames.add(world, performance.now());
+  frame({ world, beliefs, debug }, { episode, frames }) {
+    if (world.episode !== episode) frames.clear();
+    frames.add(world, performance.now());
+    return { episode: world.episode, beliefs, debug };
   },
-  state(match, { state }) {
-    match.state = state;
+  state: ({ state }) => ({ state }),
+  event({ event }, { events, eventCount }) {
+    events.push(event);
+    if (events.length > MOST_EVENTS) events.shift();
+    return { eventCount: eventCount + 1 };
   },
-  event(match, { event }) {
-    match.events.push(event);
-    match.eventCount += 1;
-    if (match.events.length > MOST_EVENTS) match.events.shift();
+  health: ({ health }) => ({ health }),
+  orders: ({ cyan, magenta }) => ({ orders: { cyan, magenta } }),
+  host: ({ there }) => ({ hostThere: there }),
+  replay({ replay }, { frames }) {
+    frames.still = replay.paused;
+    return { replay };
   },
-  health(match, { health }) {
-    match.health = health;
-  },
-  orders(match, { cyan, magenta }) {
-    match.orders = { cyan, magenta };
-  },
-  host(match, { there }) {
-    match.hostThere = there;
-  },
-  replay(match, { replay }) {
-    match.replay = replay;
-    match.frames.still = replay.paused;
-  },
-  result(match, { figures, statistics, replay }) {
-    match.result = { figures, statistics, replay };
-  },
-  refbox(match, { connected, team }) {
-    match.refbox = { connected, team };
-  },
+  result: ({ figures, statistics, replay }) => ({ result: { figures, statistics, replay } }),
+  refbox: ({ connected, team }) => ({ refbox: { connected, team } }),
 };
 
 export class Match {
@@ -86,7 +71,7 @@ export class Match {
 
   /** Takes in a message of the gateway; an unknown kind is ignored. */
   receive(message) {
-    READERS[message.kind]?.(this, message);
+    Object.assign(this, READERS[message.kind]?.(message, this));
     for (const does of this.#handlers.get(message.kind) ?? []) does(this);
   }
 

@@ -155,7 +155,7 @@ const KINDS = {
   },
   point(coach, key, words) {
     const x = numeric(`order-${key}-x`, { step: 0.1 }), y = numeric(`order-${key}-y`, { step: 0.1 });
-    const pick = element("button", { type: "button", id: `order-${key}-pick` }, "Pick");
+    const pick = element("button", { type: "button", id: `order-${key}-pick`, aria: { label: `Pick ${words} on the field` } }, "Pick");
     pick.addEventListener("click", () =>
       coach.selection.pick(words, (place, angle) => {
         x.value = place.x.toFixed(2);
@@ -165,7 +165,6 @@ const KINDS = {
       }),
     );
     for (const [input, axis] of [[x, "x"], [y, "y"]]) input.setAttribute("aria-label", `${words}, ${axis} in m`);
-    pick.setAttribute("aria-label", `Pick ${words} on the field`);
     const onPitch = () => (numberIn(x) === null || numberIn(y) === null ? null : { x: numberIn(x), y: numberIn(y) });
     const read = () => {
       const place = onPitch();

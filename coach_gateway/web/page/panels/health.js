@@ -11,40 +11,33 @@ const COLUMNS = [
   ["ms", ({ latency_ms: latency }) => (latency === null ? "–" : latency.toFixed(1))],
 ];
 
-/** Label → its text, from the health. */
+/** Label, what of the match tells it, and its text. */
 const LINES = [
-  ["pace", ({ health }) => health.pace],
-  ["real-time factor", ({ health }) => `${health.real_time_factor.toFixed(2)} ×`],
-  ["late ticks", ({ health }) => String(health.late_ticks)],
-  ["worst tick of the last second", ({ health }) => `${health.worst_tick_ms.toFixed(1)} ms`],
-  ["recorders", ({ health }) => recorderWords(health.recorders)],
-  ["messages on unexpected keys", ({ health }) => String(sum(Object.values(health.strangers)))],
-  ["commands missed, of all robots", ({ health }) => String(sum(Object.values(health.robots).map(({ missed }) => missed)))],
-];
-
-/** Label → its text, from the setup. */
-const NUMBERS = [
-  ["profile", ({ profile, profile_version: version }) => versionedName(profile, version)],
-  ["rules", ({ rules, rules_version: version }) => versionedName(rules, version)],
+  ["profile", "setup", ({ profile, profile_version: version }) => versionedName(profile, version)],
+  ["rules", "setup", ({ rules, rules_version: version }) => versionedName(rules, version)],
+  ["pace", "health", ({ pace }) => pace],
+  ["real-time factor", "health", ({ real_time_factor: factor }) => `${factor.toFixed(2)} ×`],
+  ["late ticks", "health", ({ late_ticks: late }) => String(late)],
+  ["worst tick of the last second", "health", ({ worst_tick_ms: worst }) => `${worst.toFixed(1)} ms`],
+  ["recorders", "health", ({ recorders }) => recorderWords(recorders)],
+  ["messages on unexpected keys", "health", ({ strangers }) => String(sum(Object.values(strangers)))],
+  ["commands missed, of all robots", "health", ({ robots }) => String(sum(Object.values(robots).map(({ missed }) => missed)))],
 ];
 
 export class HealthPanel {
-  #values = [];
+  #values = LINES.map(([word, source, text]) => ({ source, text, ...this.#line(word) }));
 
   constructor(match, pitchCanvas) {
     Object.assign(this, { match, pitchCanvas });
-    this.#values = LINES.map(([word, text]) => ({ text, ...this.#line(word) }));
-    this.numbers = NUMBERS.map(([word, text]) => ({ text, ...this.#line(word) }));
     this.drawing = this.#line("this page draws");
-    byId("health").append(...[...this.numbers, ...this.#values].map(({ row }) => row), this.drawing.row);
+    byId("health").append(...this.#values.map(({ row }) => row), this.drawing.row);
     match.on("health welcome", () => this.update());
     setInterval(() => setText(this.drawing.value, `${pitchCanvas.rate} frames per second`), EVERY_MS);
   }
 
   update() {
-    const { health, setup } = this.match;
-    for (const { text, value } of this.numbers) setText(value, setup ? text(setup) : "–");
-    for (const { text, value } of this.#values) setText(value, health ? text({ health }) : "–");
+    const { health } = this.match;
+    for (const { source, text, value } of this.#values) setText(value, this.match[source] ? text(this.match[source]) : "–");
     const table = byId("programs");
     const names = Object.keys(health?.robots ?? {});
     if (table.dataset.names !== names.join()) this.#layTable(table, names);

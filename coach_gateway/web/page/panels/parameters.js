@@ -71,9 +71,8 @@ export class Parameters {
     const input = one.options.length
       ? element("select", { id }, ...one.options.map((word) => element("option", { value: word }, word)))
       : element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" });
-    const set = element("button", { type: "button" }, "Set");
+    const set = element("button", { type: "button", aria: { label: `Set ${one.name}` } }, "Set");
     const reset = element("button", { type: "button", aria: { label: `Reset ${one.name}` } }, "Reset");
-    set.setAttribute("aria-label", `Set ${one.name}`);
     set.addEventListener("click", () => this.#set(set, one, input.value));
     input.addEventListener("input", () => { input.dataset.edited = "yes"; });
     input.addEventListener("keydown", (event) => event.key === "Enter" && this.#set(set, one, input.value));

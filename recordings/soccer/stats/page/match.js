@@ -1,5 +1,7 @@
 // The data of the match: positions of all bodies, game state and clock at any time.
 
+import { indexAt } from "./shared/events.js";
+
 const ABSENT = -32768;
 const NO_HOLDER = 255;
 const MAX_STEP_CM = 120; // between two samples; a body that moves farther was placed by hand
@@ -53,12 +55,7 @@ class Match {
 
   /** Phase, side and score at a time; null before the first game state. */
   interval(time) {
-    let found = null;
-    for (const interval of this.intervals) {
-      if (interval.time > time + 1e-6) break;
-      found = interval;
-    }
-    return found;
+    return this.intervals[indexAt(this.intervals, time)] ?? null;
   }
 
   /** The game clock at a time. */
