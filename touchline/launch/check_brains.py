@@ -101,7 +101,7 @@ class _BuildCheck:
         module = "robot_agent.loading.build_check"
         process = library_process(side.value, ProcessKind.AGENT, settings, folder, environment, module=module)
         process = replace(process, confinement=confinement.in_folder(folder / side.value))
-        self._process, self._clock = ChildProcess(process, folder / f"{side.value}.log"), WallClock()
+        self._process, self._clock = ChildProcess(process, folder), WallClock()
 
     def wait(self, report: Callable[[str], None]) -> None:
         """Wait until the brains are built.

@@ -4,7 +4,7 @@ import shutil
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
+from functools import partial
 from typing import TYPE_CHECKING
 
 from coach_gateway.match.follower import MatchFollower
@@ -26,7 +26,7 @@ from touchline.launch.page import address_lines
 from touchline.launch.processes.child_process import ChildProcess
 from touchline.launch.processes.fork_server import ROBOTS
 from touchline.launch.processes.log_notes import LogWatch
-from touchline.launch.processes.process_table import Process, ProcessKind
+from touchline.launch.processes.process_table import ProcessKind
 from touchline.launch.processes.programs import MatchPlan, client_processes, host_process
 from touchline.launch.processes.stop_signals import StopSignals
 from touchline.launch.processes.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
@@ -66,9 +66,8 @@ class MatchRun:
         self._names = TeamNames.of_match(plan.config)
         self._remote = RemoteTeams(plan.config)
         self._match_screen = MatchScreen(plan, screen, self._remote, clock)
-        self._logs: dict[str, Path] = {}
         self._log_watch = LogWatch(screen)
-        self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
+        self._supervisor = Supervisor([host_process(plan)], partial(ChildProcess, folder=plan.folder), clock)
 
     def play(self) -> MatchResult:
         """Play the match.
@@ -129,11 +128,6 @@ class MatchRun:
         self._supervisor.check()
         return stop.received is None and "page" not in self._supervisor.ended
 
-    def _launch(self, process: Process) -> ChildProcess:
-        log = self._plan.folder / f"{process.name}.log"
-        self._logs[process.name] = log
-        return ChildProcess(process, log)
-
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""
         while self._poll_processes(stop):
@@ -179,7 +173,7 @@ class MatchRun:
     def _poll_processes(self, stop: StopSignals) -> bool:
         if stop.received is not None:
             return False  # processes that end with the same signal are no crashes
-        for log in self._logs.values():
+        for log in self._supervisor.logs:
             self._log_watch.update(log)
         for notice in self._supervisor.check():
             self._log_watch.show(notice)
@@ -224,15 +218,11 @@ class MatchRun:
         log = self._supervisor.last_lines("host")
         if status == WRONG and log:
             if not self._has_clients:
-                self._remove_folder()
+                shutil.rmtree(self._plan.folder)  # its log is the error that is reported
+                with suppress(OSError):  # of other matches
+                    self._plan.folder.parent.rmdir()
             raise TouchlineError(log[-1].removeprefix("touchline: "))
         for line in log:
             self._screen.warn(f"  host: {line}")
         how = "was ended before full time" if status == 0 else f"ended with status {status}"
         raise MatchFailedError(f"match abandoned: the host {how}; its log is {self._plan.folder / 'host.log'}")
-
-    def _remove_folder(self) -> None:
-        """Remove the folder of a match whose host could not listen: its log is the error that is reported."""
-        shutil.rmtree(self._plan.folder)
-        with suppress(OSError):  # of other matches
-            self._plan.folder.parent.rmdir()

@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from coach_gateway.access.tokens import page_address, tokens_of
@@ -62,7 +63,7 @@ def serve_page_beside(
             connect=connect, match=match, credentials=credentials, tokens=tokens, web=page.settings
         )
         process = library_process("page", ProcessKind.PAGE, settings, folder, sockets=(page.listener,))
-        supervisor = Supervisor([process], lambda process: ChildProcess(process, folder / "page.log"), clock)
+        supervisor = Supervisor([process], partial(ChildProcess, folder=folder), clock)
         for line in address_lines(page.settings, tokens):
             log(line)
         supervisor.start()

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from coach_gateway.match.follower import MatchFollower
@@ -64,7 +65,8 @@ class TeamRun:
         if not member.fits(setup):
             member.join(setup, plan.agent.patience)  # the host refuses it, and reports that on its side, too
         self._log_watch = LogWatch(screen)
-        self._supervisor = Supervisor([self._process(robot) for robot in self._robots], self._launch, clock)
+        launch = partial(ChildProcess, folder=plan.folder)
+        self._supervisor = Supervisor([self._process(robot) for robot in self._robots], launch, clock)
 
     def play(self) -> None:
         """Run the robots until the match is over, or until SIGINT or SIGTERM.
@@ -95,8 +97,8 @@ class TeamRun:
         return is_over or all(robot in self._supervisor.ended for robot in self._robots)
 
     def _show(self, follower: MatchFollower) -> None:
-        for robot in self._robots:
-            self._log_watch.update(self._log_of(robot))
+        for log in self._supervisor.logs:
+            self._log_watch.update(log)
         for notice in self._supervisor.check():
             if self._supervisor.ended.get(notice.name) == 0 and follower.gone:
                 continue  # it has left with its host
@@ -124,12 +126,6 @@ class TeamRun:
             team_program(self._config, self._plan.side, None) if self._config.team(self._plan.side).command else ()
         )
         return robot_process(agent, self._plan.side, program, self._plan.folder, confinement)
-
-    def _log_of(self, robot: str) -> Path:
-        return self._plan.folder / f"{robot}.log"
-
-    def _launch(self, process: Process) -> ChildProcess:
-        return ChildProcess(process, self._log_of(process.name))
 
 
 def _config_of(plan: TeamPlan, match: str, robots: Sequence[str]) -> MatchConfig:

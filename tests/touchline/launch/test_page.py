@@ -42,7 +42,7 @@ def test_a_browser_that_comes_before_the_program_is_served_also_by_one_that_is_s
     process = Process("page", ProcessKind.PAGE, (sys.executable, "-c", SERVES), {}, sockets=(page.listener,))
     for _ in range(2):
         with socket.create_connection(("127.0.0.1", page.settings.port), timeout=60) as browser:
-            program = ChildProcess(process, tmp_path / "page.log")
+            program = ChildProcess(process, tmp_path)
             assert browser.recv(100) == b"served", program.last_lines()
         while program.status() is None:
             time.sleep(0.01)

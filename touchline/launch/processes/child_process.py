@@ -33,23 +33,23 @@ _SIGNALS_OF_LIMITS = {-signal.SIGXCPU: "cpu_time", -signal.SIGXFSZ: "file_size"}
 class ChildProcess:
     """A launched process, running or ended; it leads its own process group."""
 
-    def __init__(self, process: Process, log: Path) -> None:
-        """Launch the process, which appends its output to `log`.
+    def __init__(self, process: Process, folder: Path) -> None:
+        """Launch the process, which appends its output to the log of its name in `folder`.
 
         Raises:
             TouchlineError: its settings or its folder cannot be written.
         """
-        self.process, self.log = process, log
+        self.process, self.log = process, folder / f"{process.name}.log"
         self._status: int | None = None
         _write_files_of(process)
-        with log.open("ab") as out:
+        with self.log.open("ab") as out:
             self._log_start = out.tell()
         self._poll: Callable[[], int | None]
-        pid = ROBOTS.fork(_fork_request(process, log)) if process.can_fork else None
+        pid = ROBOTS.fork(_fork_request(process, self.log)) if process.can_fork else None
         if pid is not None:
             self.pid, self._poll = pid, partial(ROBOTS.status, pid)
         else:
-            popen = _popen(process, log)
+            popen = _popen(process, self.log)
             self.pid, self._poll = popen.pid, popen.poll
 
     def wait(self, seconds: float, clock: Clock) -> int | None:

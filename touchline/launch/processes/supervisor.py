@@ -7,6 +7,7 @@ import signal
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from robot_agent.process.settings import FIRST_SIGHT_FAILED
 from runtime.process.clock import Clock
@@ -96,6 +97,11 @@ class Supervisor:
         for process in processes:
             self._processes[process.name] = process
             self._running[process.name] = self._launch(process)
+
+    @property
+    def logs(self) -> list[Path]:
+        """The logs of all processes launched so far."""
+        return [launched.log for launched in self._running.values()]
 
     def check(self) -> list[Notice]:
         """Poll all processes once; restart ended ones if the table allows it."""

@@ -45,7 +45,7 @@ def launch(tmp_path: Path) -> Iterator[Launch]:
         if kind == "by command line" and process.settings is not None and process.settings_file is not None:
             process.settings_file.write_text(process.settings.model_dump_json())
             process = replace(process, settings=None)
-        launched.append(ChildProcess(process, tmp_path / f"{process.name}.log"))
+        launched.append(ChildProcess(process, tmp_path))
         return launched[-1]
 
     yield launch
@@ -239,11 +239,11 @@ sys.path[:0] = [sys.argv[1], str(Path(sys.argv[1]).parents[2])]
 from test_child_process import Process, ProcessKind, ChildProcess, robot, name_of
 folder = Path(sys.argv[2])
 for name in ("cyan1", "cyan2"):
-    forked = ChildProcess(robot(folder, name), folder / f"{name}.log")
+    forked = ChildProcess(robot(folder, name), folder)
     while name_of(forked.pid) != name:
         pass
     print(forked.pid, flush=True)
-print(ChildProcess(Process("host", ProcessKind.HOST, ("sleep", "600"), {}), folder / "host.log").pid, flush=True)
+print(ChildProcess(Process("host", ProcessKind.HOST, ("sleep", "600"), {}), folder).pid, flush=True)
 signal.pause()
 """
 
@@ -293,7 +293,7 @@ from test_child_process import ChildProcess, name_of, python, robot
 folder = Path(sys.argv[2])
 code = "import signal; print('rests', flush=True); signal.pause()"
 for number in (signal.SIGINT, signal.SIGTERM):
-    forked, program = ChildProcess(robot(folder), folder / "1.log"), ChildProcess(python(code), folder / "2.log")
+    forked, program = ChildProcess(robot(folder), folder), ChildProcess(python(code, "program"), folder)
     while name_of(forked.pid) != "cyan1" or not program.last_lines():
         time.sleep(0.01)
     for child in (forked, program):
