@@ -27,7 +27,6 @@ def check(
         Path | None, typer.Option(help="Match file with robots, profile and rules; by default five a side.")
     ] = None,
     seconds: Annotated[float, typer.Option(min=1.0, max=600.0, help="Simulated s of the match that is played.")] = 12.0,
-    list_checks: Annotated[bool, typer.Option("--list", help="List the checks, and do nothing else.")] = False,
     json: options.Json = False,
 ) -> None:
     """Check a brain or a program of lines: a match, and sights of situations that are rare in play.
@@ -36,14 +35,10 @@ def check(
 
     Example: touchline check my_team:Striker
     """
-    from touchline.team.check.checks import CHECKS, run_checks
+    from touchline.team.check.checks import run_checks
     from touchline.team.check.examination import Examination
     from touchline.team.check.subject import Subject
 
-    if list_checks:
-        for row in CHECKS:
-            typer.echo(f"{row.name:<12} {row.does}")
-        return
     if [brain, stdio, command].count(None) != 2:
         raise TouchlineError('name the brain, module:Class, or give --stdio "program argument" or --command')
     if command is not None:

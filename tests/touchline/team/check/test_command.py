@@ -71,12 +71,6 @@ def test_the_result_as_json_has_the_figures(check) -> None:
     assert "drive is 9.00 m/s" in rows["limits"]["sentence"]
 
 
-def test_the_list_names_every_check_and_what_it_does(check) -> None:
-    status, printed = check("--list")
-    assert status == 0
-    assert [line.split()[0] for line in printed.splitlines()] == [row.name for row in CHECKS]
-
-
 @pytest.mark.parametrize("words", [[], ["a:B", "--stdio", "cat"]])
 def test_without_a_brain_or_with_two_it_is_one_line(check, words: list[str]) -> None:
     found = CliRunner().invoke(app, ["check", *words])
