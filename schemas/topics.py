@@ -4,6 +4,8 @@ Access rules, the recorder, `docs/protocol.md` and the tests are derived from th
 All keys are below `touchline/{match}/`.
 """
 
+from functools import lru_cache
+
 from schemas.messages.admission import AdmissionReply, AdmissionRequest
 from schemas.messages.applied import Applied
 from schemas.messages.claim import AgentClaim, AgentClaimReply
@@ -358,6 +360,13 @@ TOPICS: dict[str, Topic] = {
     "alive": ALIVE,
 }
 """Topic name → its row."""
+
+
+@lru_cache(1024)
+def recorded_topic(key: str) -> Topic | None:
+    """The topic of a key in a recording; None if no recording has it."""
+    recorded = (topic for topic in TOPICS.values() if topic.recorded or topic is SIGHT)
+    return next((topic for topic in recorded if topic.match(key) is not None), None)
 
 
 def key_prefix(match: str) -> str:

@@ -13,7 +13,7 @@ from pydantic_core import from_json
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.natural_order import natural_order
-from schemas.topics import COMMAND, HEALTH, INVALID
+from schemas.topics import COMMAND, HEALTH, INVALID, recorded_topic
 
 WALL_TIME_TOPICS = (HEALTH, INVALID)
 """Topics whose messages depend on the speed of the machine; left out by default."""
@@ -93,7 +93,8 @@ def compare(
         TouchlineError: a file is damaged inside.
     """
     keys = {channel.key for recording in (one, other) for channel in recording.channels if channel.messages}
-    wanted = {key for key in keys if selection.includes(key) and (everything or not _is_of_wall_time(key))}
+    kept = {key for key in keys if everything or recorded_topic(key) not in WALL_TIME_TOPICS}
+    wanted = {key for key in kept if selection.includes(key)}
     comparison = RecordingComparison(left_out=sorted(keys - wanted, key=natural_order), keys=len(wanted))
     numbers: Counter[str] = Counter()
     moments = _moments(*(_messages(recording, wanted, everything, (start, end)) for recording in (one, other)))
@@ -189,10 +190,6 @@ def _tick_of(recorded: RecordedMessage) -> int:
     """The tick that a message belongs to, or that it answers; where it names none, its log time in ns."""
     found = _TICK.search(recorded.payload)
     return int(found[1]) if found is not None else recorded.log_ns
-
-
-def _is_of_wall_time(key: str) -> bool:
-    return any(topic.match(key) is not None for topic in WALL_TIME_TOPICS)
 
 
 def _messages(

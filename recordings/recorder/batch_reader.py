@@ -6,7 +6,6 @@ without progress.
 
 from collections import deque
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
 
 from recordings.recorder.recording_writer import LoggedMessage
 from recordings.timing import QUIET_S, REPEAT_S
@@ -15,19 +14,12 @@ from runtime.process.active_clock import ActiveClock
 from runtime.process.timing import GIVE_UP_S, REPLY_S
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.recovery_window import KEPT_BATCHES
-from schemas.topic import Party, Topic
-from schemas.topics import RECORD_BATCH, RECORD_BATCHES, SIGHT, TOPICS
+from schemas.topic import Party
+from schemas.topics import RECORD_BATCH, RECORD_BATCHES, SIGHT, recorded_topic
 from schemas.wire.message import BadMessageError
 
 _FEWER = 8
 """A reply of 512 KiB has some 30 batches: the third request, after two seconds, is for a few."""
-_RECORDED = tuple(topic for topic in TOPICS.values() if topic.recorded or topic is SIGHT)
-
-
-@lru_cache(1024)
-def _topic_of(key: str) -> Topic | None:
-    """The topic of a key; None if it is not recorded."""
-    return next((topic for topic in _RECORDED if topic.match(key) is not None), None)
 
 
 class BatchSequence:
@@ -238,7 +230,7 @@ class Unbatcher:
         log_ns, sights = self._log_ns, self._sights
         for entry in batch.entries:
             key, number = entry.key, entry.sequence
-            topic = _topic_of(key)
+            topic = recorded_topic(key)
             if topic is None or (topic is SIGHT and not sights):
                 continue
             moment = entry.sim_ns if topic.writer is Party.HOST else entry.arrived_sim_ns

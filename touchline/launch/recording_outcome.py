@@ -7,7 +7,7 @@ from pathlib import Path
 from runtime.bus.outcome_file import read_outcome
 from schemas.errors import TouchlineError
 from schemas.topic import Party
-from schemas.topics import TOPICS
+from schemas.topics import recorded_topic
 from touchline.launch.processes.programs import MatchPlan
 from touchline.launch.processes.supervisor import ending
 
@@ -70,8 +70,7 @@ def finished_recording(path: Path, losses: Mapping[str, int]) -> RecordingOutcom
     Messages of robots and coaches that the host did not receive are losses of the link between them: the recording has
     what the host has received. What the host has published is missing only where its batches were lost.
     """
-    of_host = {key: count for key, count in losses.items() if _is_of_host(key)}
-    if not of_host:
+    if not any(topic is not None and topic.writer is Party.HOST for topic in map(recorded_topic, losses)):
         return RecordingOutcome(path, losses)
     counts = ", ".join(f"{key} {count}" for key, count in losses.items())
     fault = (
@@ -87,7 +86,3 @@ def unfinished_recording(path: Path, left: Sequence[Path], reason: str, log: Pat
         return RecordingOutcome(None, {}, f"the recording {path} is lost: {reason}; the recorder's log is {log}")
     fault = f"the recording is not complete: {reason}; {path} has what was written; the recorder's log is {log}"
     return RecordingOutcome(path, {}, fault)
-
-
-def _is_of_host(key: str) -> bool:
-    return any(topic.writer is Party.HOST and topic.match(key) is not None for topic in TOPICS.values())
