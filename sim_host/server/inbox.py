@@ -60,7 +60,8 @@ class Inbox:
                 return None
             account = self._accounts.of_key(received.key)
             if not account.accept(len(received.payload)):
-                self._ignore(received)
+                if (stats := self.agent_stats.get(received.key.split("/")[1])) is not None:
+                    stats.is_over_limit = True  # the host does not wait for its robot
                 continue
             self._batches.add_received(received)
             checked = self._check(received, tick)
@@ -105,14 +106,10 @@ class Inbox:
             stats.next_sequence = sequence + 1  # a restarted agent counts from 0 again; a message sent twice does not
         stats.acknowledged = command.acknowledges_order
         stats.refused_order = command.refuses_order
-        self._note_latency(stats, command.answers_tick, received.arrived_ns)
+        sent_ns = self._sent_at.get(command.answers_tick)
+        if sent_ns is not None and received.arrived_ns:
+            stats.add_latency((received.arrived_ns - sent_ns) * 1e-9)
         return name, command
-
-    def _ignore(self, received: ReceivedMessage) -> None:
-        """The host does not wait for a robot whose account is over its limit."""
-        stats = self.agent_stats.get(received.key.split("/")[1])
-        if stats is not None:
-            stats.is_over_limit = True
 
     def _count_unknown_sender(self, received: ReceivedMessage, reason: str) -> None:
         key = (
@@ -122,8 +119,3 @@ class Inbox:
         )
         self.unknown_senders[key] = self.unknown_senders.get(key, 0) + 1
         self._invalid_log.add(received.key, reason, received.payload)
-
-    def _note_latency(self, stats: AgentStats, tick: int, arrived_ns: int) -> None:
-        sent_ns = self._sent_at.get(tick)
-        if sent_ns is not None and arrived_ns:
-            stats.add_latency((arrived_ns - sent_ns) * 1e-9)
