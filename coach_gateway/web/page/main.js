@@ -5,7 +5,7 @@ import { Coach } from "./panels/coach.js";
 import { Requests } from "./deeds/requests.js";
 import { Drag } from "./field/drag.js";
 import { ManualControl } from "./deeds/manual_control.js";
-import { byId, element, setText, show } from "./parts/elements.js";
+import { byId, element, setText, show } from "./shared/elements.js";
 import { EventList } from "./panels/event_list.js";
 import { HealthPanel } from "./panels/health.js";
 import { KEYS, listenForKeys } from "./deeds/keys.js";

@@ -1,6 +1,6 @@
 // The referee's buttons: a table of groups of rows, each button with the action that it requests.
 
-import { byId, element, offer, setText, show } from "../parts/elements.js";
+import { byId, element, offer, setText, show } from "../shared/elements.js";
 import { onHold, onPress, onSecondPress } from "./presses.js";
 
 const RESTARTS = [

@@ -1,6 +1,6 @@
 // The keys of the page. The space bar stops wherever the focus is, except where a text is typed.
 
-import { byId } from "../parts/elements.js";
+import { byId } from "../shared/elements.js";
 
 /** Keys and what they do, for the help. */
 export const KEYS = [

@@ -1,6 +1,6 @@
 // One robot driven by keyboard, gamepad or buttons in place of its brain.
 
-import { byId, mark, offer, setText } from "../parts/elements.js";
+import { byId, mark, offer, setText } from "../shared/elements.js";
 import { readGamepad } from "./gamepad.js";
 
 const SEND_EVERY_MS = 50;

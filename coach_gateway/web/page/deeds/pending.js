@@ -1,6 +1,6 @@
 // Decisions that wait for people, in a place that is reserved for them: nothing else moves when one comes or goes.
 
-import { byId, setText, show } from "../parts/elements.js";
+import { byId, setText, show } from "../shared/elements.js";
 import { APART_MS, onPress } from "./presses.js";
 import { RobotQuestion } from "./question.js";
 

@@ -1,6 +1,6 @@
 // Presses of buttons that change a match: no double click counts twice, and what cannot be undone is pressed twice or held.
 
-import { mark, setText } from "../parts/elements.js";
+import { mark, setText } from "../shared/elements.js";
 
 /** ms after a press in which another one of the same button does nothing: it belongs to a double click. */
 export const APART_MS = 400;

@@ -1,6 +1,6 @@
 // The question to a side which of its robots an action concerns: a referee box gives cards and repairs without one.
 
-import { byId, element, setText, show } from "../parts/elements.js";
+import { byId, element, setText, show } from "../shared/elements.js";
 import { APART_MS, onPress } from "./presses.js";
 import { capitalized } from "../parts/text.js";
 

@@ -1,6 +1,6 @@
 // Requests for deeds: each reply is shown beside its button or field, and kept in a log.
 
-import { byId, element } from "../parts/elements.js";
+import { byId, element } from "../shared/elements.js";
 
 const ACCEPTED_MS = 2500;
 const REFUSED_MS = 9000;

@@ -1,6 +1,6 @@
 // Pointing at the field: choosing a robot, dragging ball and robots to a place, picking points.
 
-import { byId, setText, show } from "../parts/elements.js";
+import { byId, setText, show } from "../shared/elements.js";
 import { inPicture } from "../shared/bodies.js";
 import { line } from "../shared/shapes.js";
 import { metres } from "../parts/text.js";

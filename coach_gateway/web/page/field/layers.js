@@ -1,6 +1,6 @@
 // What the picture shows: switches that are kept for the next visit.
 
-import { byId, choice, element, offer, show } from "../parts/elements.js";
+import { byId, choice, element, offer, show } from "../shared/elements.js";
 import { keep, kept } from "../parts/storage.js";
 import { TRAILS } from "./trails.js";
 import { SEEN_FROM } from "./seen_from.js";

@@ -2,7 +2,7 @@
 
 import { circle, write } from "../shared/shapes.js";
 import { onField } from "../field/beliefs.js";
-import { byId, choice, element, mark, offer, setText, show } from "../parts/elements.js";
+import { byId, choice, element, mark, offer, setText, show } from "../shared/elements.js";
 import { FIELDS, TESTS } from "./coach_tests.js";
 import { degrees, capitalized, radians, readable } from "../parts/text.js";
 

@@ -1,6 +1,6 @@
 // The values that the chosen robot's program shows its authors, below the panels.
 
-import { byId, element, setText, show } from "../parts/elements.js";
+import { byId, element, setText, show } from "../shared/elements.js";
 
 const EVERY_MS = 200;
 

@@ -1,6 +1,6 @@
 // The list of events in their order, the newest at the end; in a recording, a click on one seeks to it.
 
-import { byId, element, mark, together } from "../parts/elements.js";
+import { byId, element, mark, together } from "../shared/elements.js";
 import { LEAD_S, indexAt, isKey, withNames } from "../shared/events.js";
 import { capitalized, clockText, readable } from "../parts/text.js";
 

@@ -1,6 +1,6 @@
 // The numbers of the match, the health of the host, its recorders and each robot's program, and how fast this page draws.
 
-import { byId, element, setText } from "../parts/elements.js";
+import { byId, element, setText } from "../shared/elements.js";
 
 const EVERY_MS = 500;
 const COLUMNS = [

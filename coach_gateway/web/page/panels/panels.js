@@ -1,6 +1,6 @@
 // A panel for each robot: role, intention, pose, ball, health of its program, order and cards.
 
-import { byId, element, mark, setText, show } from "../parts/elements.js";
+import { byId, element, mark, setText, show } from "../shared/elements.js";
 import { disciplineText } from "./scoreboard.js";
 import { degreeText, metres, numberOf, placeText, readable } from "../parts/text.js";
 

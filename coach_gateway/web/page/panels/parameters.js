@@ -1,6 +1,6 @@
 // Live parameters, such as speeds and noise: listed with unit and range, set, and reset.
 
-import { byId, element, setText, show } from "../parts/elements.js";
+import { byId, element, setText, show } from "../shared/elements.js";
 import { capitalized } from "../parts/text.js";
 
 const FIRST = ["drive", "noise", "sensing", "radio", "ball"];

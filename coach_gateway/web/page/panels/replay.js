@@ -1,6 +1,6 @@
 // Controls of a replay: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
 
-import { byId, mark, setText, show, together } from "../parts/elements.js";
+import { byId, mark, setText, show, together } from "../shared/elements.js";
 import { SYMBOLS, jumpTarget } from "../shared/events.js";
 import { SIDES } from "../shared/palette.js";
 import { clockText } from "../parts/text.js";

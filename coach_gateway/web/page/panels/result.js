@@ -1,6 +1,6 @@
 // The result: score, scorers and figures, so far or of the whole match. It needs no server and stays until the page is closed.
 
-import { byId, element, mark, setText, show, together } from "../parts/elements.js";
+import { byId, element, mark, setText, show, together } from "../shared/elements.js";
 import { clockText } from "../parts/text.js";
 
 const SIDES = ["cyan", "magenta"];

@@ -1,6 +1,6 @@
 // Scenes: loading one, resetting, and placing a body by numbers.
 
-import { byId, offer, setText } from "../parts/elements.js";
+import { byId, offer, setText } from "../shared/elements.js";
 import { onSecondPress } from "../deeds/presses.js";
 import { radians } from "../parts/text.js";
 

@@ -1,6 +1,6 @@
 // The head of the page: names, score, clock, phase, role, cards, and notices.
 
-import { byId, mark, setText, show } from "../parts/elements.js";
+import { byId, mark, setText, show } from "../shared/elements.js";
 import { clockText, halfText, phaseText, readable } from "../parts/text.js";
 
 export class Scoreboard {

@@ -1,6 +1,6 @@
 // Seats: who looks at the page, and which parts of it that person has. A part names its seats in `data-for`.
 
-import { byId, setText, show } from "../parts/elements.js";
+import { byId, setText, show } from "../shared/elements.js";
 import { keep, kept } from "../parts/storage.js";
 
 const KEY = "touchline.seat";

@@ -1,6 +1,6 @@
 // The tabs beside the field. On a phone they are below it, and include robots and events.
 
-import { byId, show } from "../parts/elements.js";
+import { byId, show } from "../shared/elements.js";
 
 /** Seat → the tab that is open until another one is chosen. */
 const FIRST = { spectator: "result", coach: "match", referee: "match", operator: "settings" };

@@ -21,6 +21,7 @@ from recordings.soccer.stats.tracks import Tracks
 from schemas.errors import TouchlineError
 
 SCRIPTS = (
+    "shared/elements.js",
     "shared/projection.js",
     "shared/palette.js",
     "shared/shapes.js",

@@ -1,5 +1,6 @@
 // The list of events: each is a button that jumps there.
 
+import { element } from "./shared/elements.js";
 import { LEAD_S, SYMBOLS, indexAt, isKey, jumpTarget, withNames } from "./shared/events.js";
 import { formatClock } from "./match.js";
 
@@ -22,20 +23,14 @@ export class EventList {
   }
 
   row(event) {
-    const row = document.createElement("li"), button = document.createElement("button");
-    row.className = `side-${event.side ?? "none"}${event.kind === "goal" ? " big" : ""}`;
-    button.type = "button";
-    const time = element("time", formatClock(event.clock)), symbol = element("span", SYMBOLS[event.kind] ?? "·");
-    symbol.className = "symbol";
-    symbol.setAttribute("aria-hidden", "true");
-    const text = element("span", ""), kind = element("span", event.kind.replaceAll("_", " ")), what = element("span", withNames(event.text, this.match.teams));
-    kind.className = "kind";
-    what.className = "what";
-    text.append(kind, what);
-    button.append(time, symbol, text);
-    button.addEventListener("click", () => this.seek(event.time - LEAD_S));
-    row.append(button);
-    return row;
+    const kind = element("span", { class: "kind" }, event.kind.replaceAll("_", " "));
+    const button = element(
+      "button", { type: "button", on: { click: () => this.seek(event.time - LEAD_S) } },
+      element("time", {}, formatClock(event.clock)),
+      element("span", { class: "symbol", aria: { hidden: "true" } }, SYMBOLS[event.kind] ?? "·"),
+      element("span", {}, kind, element("span", { class: "what" }, withNames(event.text, this.match.teams))),
+    );
+    return element("li", { class: `side-${event.side ?? "none"}${event.kind === "goal" ? " big" : ""}` }, button);
   }
 
   /** Marks the newest event at a time. */
@@ -59,11 +54,4 @@ export class EventList {
     const found = jumpTarget(this.shown, step, from, this.match.start);
     if (found !== undefined) this.seek(found);
   }
-}
-
-/** An element with a text in it. */
-function element(name, text) {
-  const made = document.createElement(name);
-  made.textContent = text;
-  return made;
 }

@@ -7,13 +7,13 @@ import { listenForKeys } from "./keys.js";
 import { formatClock, readMatch } from "./match.js";
 import { drawMovingBodies } from "./moving_bodies.js";
 import { Player } from "./player.js";
+import { byId } from "./shared/elements.js";
 import { drawGrass, drawLines } from "./shared/pitch.js";
 import { drawShots } from "./shots.js";
 import { Timeline } from "./timeline.js";
 
-const byId = (id) => document.getElementById(id);
 const match = readMatch(byId("match").textContent);
-const player = new Player(match.start, match.end, show);
+const player = new Player(match.start, match.end, draw);
 const seek = (time) => player.seek(time);
 const timeline = new Timeline(byId("momentum"), match, seek);
 const events = new EventList(byId("events"), { key: byId("key-events"), all: byId("all-events") }, match, seek);
@@ -31,10 +31,10 @@ function fit() {
   timeline.fit();
   drawHeatMaps(byId("heat"), match);
   drawShots(byId("shots"), match);
-  show(player);
+  draw(player);
 }
 
-function show({ time, playing }) {
+function draw({ time, playing }) {
   const { context, projection } = view;
   if (context === undefined) return; // nothing is laid out yet
   context.save();
