@@ -71,7 +71,7 @@ def fault_in(hint: Any, value: Any) -> Fault | None:
     if isinstance(hint, type) and issubclass(hint, BaseModel):
         return _of_model(hint, value)
     if isinstance(hint, type) and hasattr(hint, "kinds"):
-        return _of_kind(hint.kinds(), value)
+        return _of_named("kind", hint.kinds(), value)
     if kind is list and isinstance(value, Sequence) and not isinstance(value, str):
         return _first((place, fault_in(inner[0], item)) for place, item in enumerate(value))
     if kind is dict and isinstance(value, Mapping):
@@ -143,34 +143,23 @@ def _of_model(kind: type[BaseModel], value: Any) -> Fault | None:
     return None
 
 
-def _of_kind(kinds: Mapping[str, type], value: Any) -> Fault | None:
-    """Of a part whose `kind` determines its type."""
-    if not isinstance(value, Mapping):
-        return Fault((), value, "an object")
-    name = value.get("kind")
-    if not isinstance(name, str) or name not in kinds:
-        return Fault(("kind",), name, f"one of {', '.join(kinds)}")
-    return fault_in(kinds[name], value)
-
-
 def _of_choices(hint: Any, choices: Sequence[Any], value: Any) -> Fault | None:
     if len(choices) == 1:
         return None if value is None else fault_in(choices[0], value)
     if all(isinstance(one, type) and issubclass(one, msgspec.Struct) for one in choices):
-        return _of_tagged(choices, value)
+        field = str(choices[0].__struct_config__.tag_field)
+        return _of_named(field, {str(one.__struct_config__.tag): one for one in choices}, value)
     return None if any(fault_in(choice, value) is None for choice in choices) else Fault((), value, expected(hint))
 
 
-def _of_tagged(choices: Sequence[type[msgspec.Struct]], value: Any) -> Fault | None:
+def _of_named(field: str, kinds: Mapping[str, type], value: Any) -> Fault | None:
     """The first fault of a value that is one of several parts, which a field of it names."""
     if not isinstance(value, Mapping):
         return Fault((), value, "an object")
-    tags = {str(one.__struct_config__.tag): one for one in choices}
-    field = str(choices[0].__struct_config__.tag_field)
     if field not in value:
         return Fault((field,), None, "", FaultKind.MISSING)
-    chosen = tags.get(str(value[field]))
-    return fault_in(chosen, value) if chosen else Fault((field,), value[field], f"one of {', '.join(tags)}")
+    chosen = kinds.get(str(value[field]))
+    return fault_in(chosen, value) if chosen else Fault((field,), value[field], f"one of {', '.join(kinds)}")
 
 
 def _leaf(hint: Any, value: Any) -> Fault | None:
