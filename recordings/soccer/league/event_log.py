@@ -1,7 +1,8 @@
 """Reads the referee box's file of a log: one line for each signal.
 
 `epoch ms,game time(running time),part of the game,signal,description`; the signal is a character in logs until 2019,
-and JSON in later ones.
+and JSON in later ones. The box of 2024 writes the description in place of the signal, then the robot if there is one,
+and the team: `Substitution,robotID:3,Falcons`.
 """
 
 import json
@@ -10,12 +11,17 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from schemas.messages.soccer.league.findings import Findings
-from schemas.messages.soccer.league.signals import BY_CHARACTER, BY_NAME, Signal
+from schemas.messages.soccer.league.signals import BY_CHARACTER, BY_DESCRIPTION, BY_NAME, Signal
 from schemas.side import Side
 
 _LINE = re.compile(r"\s*(\d+)\s*,([^,]*),([^,]*),(.*)")
 _CLOCK = re.compile(r"\s*(\d+):(\d+)(?:\s*\((\d+):(\d+)\))?")
 _COLOURS = {"CYAN": Side.CYAN, "MAGENTA": Side.MAGENTA}
+_CONNECTION = re.compile(r"New BaseStation|Connection from|Invalid team|ERR |Team .* dropped")
+"""Lines of the box on connections, which are no signals."""
+_ROBOT = re.compile(r"\s*robotID:(-?\d+),")
+_SHORT = 8
+"""Characters of a team's name that the box of 2024 writes into the team's own file."""
 _LETTERS = {"a": Side.CYAN, "teama": Side.CYAN, "b": Side.MAGENTA, "teamb": Side.MAGENTA}
 
 
@@ -42,21 +48,35 @@ class TeamNames(NamedTuple):
     magenta: str
     team_a: str | None = None
     """The address of team A, cyan, in the log, given by the user; any other address is then team B's."""
+    bare: Side | None = None
+    """Where both teams have one name, the side that the name stands for; the other's has the letter A or B behind."""
 
     def side(self, target: str) -> Side | None:
         """The side that a target refers to; None if it is unknown."""
         name = target.strip().lower()
         if self.team_a is not None:
             return Side.CYAN if name == self.team_a.strip().lower() else Side.MAGENTA
+        if self.bare is not None:
+            return _LETTERS[name[-1]] if name.endswith((" a", " b")) else self.bare
         by_name = {self.cyan.lower(): Side.CYAN, self.magenta.lower(): Side.MAGENTA}
+        short = {one[:_SHORT]: side for one, side in by_name.items()}
         if not self.cyan or not self.magenta or len(by_name) < 2:
             by_name = {}  # both teams have one name, or one has none
-        return {**{side.value: side for side in Side}, **_LETTERS, **by_name}.get(name)
+        known = {**{side.value: side for side in Side}, **_LETTERS, **by_name}
+        return known.get(name, short.get(name[:_SHORT]) if by_name and len(short) == 2 else None)
+
+    def told_apart(self, text: str) -> "TeamNames":
+        """The names with `bare`, if both teams have one name and the box marks one of them in this file."""
+        if self.cyan.lower() != self.magenta.lower():
+            return self
+        marked = re.findall(rf",{re.escape(self.cyan.lower())}[^,]* ([ab])\s*$", text.lower(), re.MULTILINE)
+        return self._replace(bare=(Side.MAGENTA if "a" in marked else Side.CYAN) if marked else None)
 
 
 def read_events(text: str, names: TeamNames, findings: Findings) -> list[SignalLine]:
     """All signals of the file, by time; other lines are counted in `findings`."""
     lines: list[SignalLine] = []
+    names = names.told_apart(text)
     for number, line in enumerate(text.splitlines(), 1):
         findings.place = f"events, line {number}"
         if line.strip("\x00 \t"):
@@ -70,12 +90,17 @@ def read_events(text: str, names: TeamNames, findings: Findings) -> list[SignalL
 
 def _parse(line: str, names: TeamNames, findings: Findings) -> SignalLine | None:
     found = _LINE.fullmatch(line)
+    if found is None and _CONNECTION.match(line):
+        findings.note("line of the box on connections")
+        return None
     if found is None:
         findings.note("line that is not a signal", lost=True)
         return None
     epoch_ms, clock, part, rest = found.groups()
     is_json = rest.lstrip().startswith("{")
     signal, side, description = _parse_2020(rest, names, findings) if is_json else _parse_2016(rest)
+    if signal is None and not is_json:
+        signal, side, description = _parse_2024(rest, names)
     if signal is None:
         findings.note("unknown signal", lost=True)
         return None
@@ -108,11 +133,24 @@ def _parse_2020(rest: str, names: TeamNames, findings: Findings) -> tuple[Signal
         return None, None, ""
     side = names.side(str(fields.get("targetTeam") or "")) if signal.sided else None
     description = rest.lstrip()[end:].lstrip(", ").strip()
-    robot = fields.get("robotID")
-    number = f", robot {robot}" if isinstance(robot, int) and robot >= 0 else ""
-    if not description or description == "null":
-        description = f"{signal.description} {side.value}" if side is not None else signal.description
-    return signal, side, description + number
+    return signal, side, _text(signal, side, fields.get("robotID"), "" if description == "null" else description)
+
+
+def _parse_2024(rest: str, names: TeamNames) -> tuple[Signal | None, Side | None, str]:
+    """A description, the robot and the team."""
+    description, _, target = rest.partition(",")
+    signal = BY_DESCRIPTION.get(description.strip().lower())
+    if signal is None:
+        return None, None, ""
+    robot = _ROBOT.match(target)
+    side = names.side(target[robot.end() :] if robot is not None else target) if signal.sided else None
+    return signal, side, _text(signal, side, int(robot[1]) if robot is not None else None)
+
+
+def _text(signal: Signal, side: Side | None, robot: object, description: str = "") -> str:
+    """The line's own description, or one with the side, and the robot."""
+    own = f"{signal.description} {side.value}" if side is not None else signal.description
+    return (description or own) + (f", robot {robot}" if isinstance(robot, int) and robot >= 0 else "")
 
 
 def _clock(text: str) -> float | None:

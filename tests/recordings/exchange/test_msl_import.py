@@ -3,6 +3,7 @@
 import json
 import math
 import random
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,8 +18,9 @@ from schemas.errors import TouchlineError
 from schemas.messages.soccer.game import GameState
 from schemas.messages.soccer.league.findings import Findings
 from schemas.messages.world import World
-from schemas.soccer.game import Phase, Score
-from schemas.topics import STATE, WORLD
+from schemas.side import Side
+from schemas.soccer.game import Card, Phase, Score
+from schemas.topics import EVENT, STATE, WORLD
 from support.msl_log import START_MS, Log, record, robot
 
 
@@ -248,7 +250,7 @@ def test_signals_of_either_kind_tell_the_same_game(kind: str, log: Log) -> None:
     assert told[-1].clock == pytest.approx(2.5) and told[-1].effective == pytest.approx(2.0)
     assert found(imported) == {
         "signal before the first record: moved to the beginning": 1,
-        "line that is not a signal": 1,
+        "line of the box on connections": 1,
         "unknown signal": 1,
     }
     by_time = {round(world.time, 2): world for world in worlds(recording)}
@@ -320,3 +322,51 @@ def test_files_that_are_no_log_get_one_plain_sentence(tmp_path: Path) -> None:
     assert "damaged zip" in said(bytes(content), "flipped.zip")
     with pytest.raises(TouchlineError, match="No such file"):
         import_log([tmp_path / "nothing.zip"], tmp_path / "out.mcap")
+
+
+BOX_OF_2024 = """New BaseStation @ 127.0.0.1
+Connection from 127.0.0.1 accepted - Left
+-900,00:03(00:00),Pre-Game,Welcome,localhost
+0,00:05(00:00),Pre-Game,Kickoff,localhost
+200,00:00(00:00),Pre-Game,1st half,
+201,00:00(00:00),Pre-Game,START,
+1000,00:01(00:01),1st Half,STOP,
+1100,00:01(00:01),1st Half - STOP,Goal+,localhost
+1200,00:01(00:01),1st Half - STOP,Red Card,localhost B
+1300,00:01(00:01),1st Half - STOP,Yellow Card,localhost
+1400,00:01(00:01),1st Half - STOP,Kickoff,localhost B
+1500,00:01(00:01),1st Half - STOP,START,
+2000,00:02(00:02),1st Half,STOP,
+2100,00:00(00:00),Halftime,Halftime,
+2200,00:00(00:00),Halftime,Park,
+2500,00:00(00:00),Halftime,Kickoff,localhost B
+2600,00:00(00:00),Halftime,2nd half,
+2601,00:00(00:00),Halftime,START,
+3000,00:00(00:00),2nd Half,Repair,localhost B
+3500,00:01(00:01),2nd Half,Substitution,robotID:3,localhost
+3600,00:01(00:01),2nd Half,STOP,
+3700,00:01(00:01),End Game,Game Over,
+"""
+
+
+def test_the_log_of_the_box_of_2024_imports_with_score_cards_and_halves(log: Log) -> None:
+    both = [record(time) | {"teamName": "localhos"} for time in range(0, 4001, 40)]
+    log.write("A", both)
+    log.write("B", both)
+    log.events(
+        *(re.sub(r"^-?\d+", lambda found: str(START_MS + int(found[0])), line) for line in BOX_OF_2024.split("\n"))
+    )
+    imported, recording = log.read()
+    assert (imported.signals, imported.lost) == (20, [])
+    after = {round(state.time, 1): state for state in states(recording)}
+    assert [(after[time].half, after[time].phase) for time in (0.2, 1.4, 2.1, 2.6, 3.7)] == [
+        (1, Phase.PLAY),
+        (1, Phase.KICK_OFF),
+        (1, Phase.HALF_TIME),
+        (2, Phase.PLAY),
+        (2, Phase.FULL_TIME),
+    ]
+    assert after[3.7].score == Score(cyan=1, magenta=0)
+    assert (after[1.4].cyan_attacks, after[3.7].cyan_attacks) == (1, -1)
+    cards = [(one.card, one.side) for _, one in recording.decoded(EVENT.key) if one.card is not None]
+    assert cards == [(Card.RED, Side.MAGENTA), (Card.YELLOW, Side.CYAN)]

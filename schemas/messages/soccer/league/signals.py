@@ -85,6 +85,13 @@ BY_NAME = {signal.name: signal for signal in SIGNALS} | {
 BY_CHARACTER: dict[str, tuple[Signal, Side | None]] = {
     signal.character: (signal, Side.CYAN if signal.sided else None) for signal in SIGNALS if signal.character
 } | {signal.character.lower(): (signal, Side.MAGENTA) for signal in SIGNALS if signal.sided and signal.character}
+BY_DESCRIPTION = {signal.description.lower(): signal for signal in SIGNALS} | {
+    "penalty": BY_NAME["PENALTY"],
+    "repair": BY_NAME["REPAIR"],
+    "repair ended": BY_NAME["REPAIR_END"],
+    "reset game": BY_NAME["RESET"],
+}
+"""Description in lower case → its signal, as the present box logs it."""
 RESTART_OF = {signal.phase: signal for signal in SIGNALS if signal.kind is EventKind.RESTART}
 """Phase of a restart → its signal."""
 HALF_OF = {signal.half: signal for signal in SIGNALS if signal.half}

@@ -71,6 +71,39 @@ def test_json_names_a_signal_its_team_and_its_robot(rest: str, side: Side | None
     assert (line.side, line.text) == (side, text)
 
 
+@pytest.mark.parametrize(
+    ("rest", "name", "side", "text"),
+    [
+        ("START,", "START", None, "START"),
+        ("Goal+,Tech United", "GOAL", Side.CYAN, "Goal+ cyan"),
+        ("Red Card,FALCONS ", "RED_CARD", Side.MAGENTA, "Red Card magenta"),
+        ("Substitution,robotID:3,Falcons", "SUBSTITUTION", Side.MAGENTA, "Substitution magenta, robot 3"),
+        ("Penalty,Falcons", "PENALTY", Side.MAGENTA, "Penalty Kick magenta"),
+        ("Repair ended,Falcons", "REPAIR_END", Side.MAGENTA, "Repair In magenta"),
+        ("1st half,", "FIRST_HALF", None, "1st half"),
+    ],
+)
+def test_a_description_names_a_signal_its_robot_and_its_team(rest: str, name: str, side: Side, text: str) -> None:
+    line = read(rest)
+    assert (line.signal.name, line.side, line.text) == (name, side, text)
+
+
+def test_the_headers_of_the_teams_may_have_the_first_eight_letters_of_their_names() -> None:
+    names = TeamNames("Tech Uni", "Falcons")
+    assert read("Goal+,Tech United", names=names).side is Side.CYAN
+    assert read("Goal+,Falcons", names=names).side is Side.MAGENTA
+    assert read("Goal+,Carpe Noctem", names=names).side is None
+
+
+@pytest.mark.parametrize(
+    ("marked", "sides"), [("localhost B", [Side.CYAN, Side.MAGENTA]), ("localhost A", [Side.MAGENTA, Side.CYAN])]
+)
+def test_a_team_against_itself_is_told_apart_by_the_letter_behind_one_name(marked: str, sides: list[Side]) -> None:
+    text = f"1000,00:01(00:01),1st Half,Goal+,localhost\n2000,00:02(00:02),1st Half,Red Card,{marked}\n"
+    lines = read_events(text, TeamNames("localhos", "localhos"), Findings())
+    assert [line.side for line in lines] == sides
+
+
 def test_an_address_given_as_team_a_decides_all_others_for_team_b() -> None:
     names = NAMES._replace(team_a=" 224.16.32.44 ")
     for target, side in (("224.16.32.44", Side.CYAN), ("224.16.32.45", Side.MAGENTA), ("cyan", Side.MAGENTA)):
@@ -94,6 +127,14 @@ def test_names_that_do_not_tell_the_teams_apart_are_not_used() -> None:
 )
 def test_what_cannot_be_read_is_counted_as_lost_with_its_line(line: str, words: str) -> None:
     assert any(words in one for one in lost(line))
+
+
+def test_lines_of_the_box_on_connections_are_no_signals_and_no_loss() -> None:
+    findings = Findings()
+    text = "New BaseStation @ 127.0.0.1\nConnection from 127.0.0.1 accepted - Left\nTeam Falcons dropped"
+    assert read_events(text, NAMES, findings) == []
+    assert [(one.what, one.count) for one in findings.coped] == [("line of the box on connections", 3)]
+    assert not findings.lost
 
 
 def test_signals_are_sorted_by_time_and_empty_lines_are_none() -> None:
