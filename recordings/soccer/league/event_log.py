@@ -17,7 +17,7 @@ from schemas.side import Side
 _LINE = re.compile(r"\s*(\d+)\s*,([^,]*),([^,]*),(.*)")
 _CLOCK = re.compile(r"\s*(\d+):(\d+)(?:\s*\((\d+):(\d+)\))?")
 _COLOURS = {"CYAN": Side.CYAN, "MAGENTA": Side.MAGENTA}
-_CONNECTION = re.compile(r"New BaseStation|Connection from|Invalid team|ERR |Team .* dropped")
+_CONNECTION = re.compile(r"New \w+ @|Connection from|Invalid team|ERR |Team .* dropped")
 """Lines of the box on connections, which are no signals."""
 _ROBOT = re.compile(r"\s*robotID:(-?\d+),")
 _SHORT = 8

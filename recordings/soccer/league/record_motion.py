@@ -2,7 +2,7 @@
 
 Teams write velocities of zero, or in other axes. Where recorded velocities contradict the positions they are derived
 from these. A position that no body can have reached since the record before is a jump of the localisation: it is no
-motion.
+motion. The times of records in a burst are when they were received: no velocity is judged by these.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from recordings.soccer.league.record_values import BallRow, RobotRow
-from recordings.soccer.league.team_log import GAP_S
+from recordings.soccer.league.team_log import BURST_S, GAP_S
 from schemas.messages.soccer.league.findings import Findings
 
 Array = npt.NDArray[np.float64]
@@ -23,8 +23,11 @@ _X, _Y, _THIRD, _VX, _VY, _VTHIRD = 1, 2, 3, 4, 5, 6
 _WINDOW_S = 0.12
 """s before and after a record in which its velocity is the slope of the positions. Chosen here: errors of some cm in
 positions of 25 Hz become 0.2 m/s."""
+_APART_S = 0.04
+"""s between the first and the last record from which a velocity is derived. Chosen here: the league's highest rate."""
 _MOVES_MPS = 0.7
 """m/s above which a body moves. Chosen here: well above the error of a derived velocity."""
+_ROUNDING_S = 1e-6
 _ENOUGH = 10
 """Records in which a body moves, below which its velocities are not judged as a whole. Chosen here."""
 
@@ -65,7 +68,8 @@ def body_records(rows: list[RobotRow] | list[BallRow], what: str, limits: Limits
         fastest = float(speeds[jumps].max())
         findings.note(f"jump of {what}, up to {fastest:.1f} m/s: not counted as motion", count=int(jumps.sum()))
     derived = _slopes(seconds, table[:, [_X, _Y]], jumps)
-    wrong, missing = _contradicted(seconds, table, derived), np.isnan(table[:, [_VX, _VY]]).any(axis=1)
+    missing = np.isnan(table[:, [_VX, _VY]]).any(axis=1)
+    wrong = _contradicted(seconds, table, derived) & ~np.isnan(derived[:, 0])
     if wrong.any():
         stated, moved = _mean_speed(table[wrong][:, [_VX, _VY]]), _mean_speed(derived[wrong])
         findings.note(
@@ -78,9 +82,21 @@ def body_records(rows: list[RobotRow] | list[BallRow], what: str, limits: Limits
         third = last_known(table[:, _THIRD])
         rate = _slopes(seconds, np.unwrap(third)[:, None] if limits is ROBOT else third[:, None], jumps)[:, 0]
         unknown = np.isnan(table[:, _VTHIRD]) | (table[:, _VTHIRD] == 0.0)
-        table[replaced, _VX], table[replaced, _VY] = derived[replaced].T
-        table[replaced & unknown, _VTHIRD] = rate[replaced & unknown]
+        table[replaced, _VX], table[replaced, _VY] = np.nan_to_num(derived[replaced].T)
+        table[replaced & unknown, _VTHIRD] = np.nan_to_num(rate[replaced & unknown])
+    _clamp(table, what, limits, findings)
     return BodyRecords(table, jumps)
+
+
+def _clamp(table: Array, what: str, limits: Limits, findings: Findings) -> None:
+    """Shorten velocities beyond the limit."""
+    speeds = np.hypot(table[:, _VX], table[:, _VY])
+    beyond = speeds > limits.speed
+    if beyond.any():
+        findings.note(
+            f"velocity of {what} up to {speeds.max():.1f} m/s: taken for {limits.speed:g} m/s", count=int(beyond.sum())
+        )
+        table[beyond, _VX : _VY + 1] *= (limits.speed / speeds[beyond])[:, None]
 
 
 def last_known(values: Array) -> Array:
@@ -99,24 +115,33 @@ def _jumps(seconds: Array, table: Array, limits: Limits) -> tuple[Mask, Array]:
 
 
 def _slopes(seconds: Array, values: Array, jumps: Mask) -> Array:
-    """The slope of each column around each record, by least squares; never across a jump or a gap."""
+    """The slope of each column around each record, by least squares; never across a jump or a gap.
+
+    NaN where the records that are left are less than `_APART_S` apart.
+    """
     count = len(seconds)
     index = np.arange(count)
     begins = jumps | np.concatenate([[True], np.diff(seconds) > GAP_S])
     first = np.maximum.accumulate(np.where(begins, index, 0))
     ends = np.concatenate([begins[1:], [True]])
     last = np.minimum.accumulate(np.where(ends, index, count)[::-1])[::-1]
-    low = np.minimum(np.searchsorted(seconds, seconds - _WINDOW_S), index - 1)
-    high = np.maximum(np.searchsorted(seconds, seconds + _WINDOW_S, side="right"), index + 2)
+    near = _APART_S / 2 - _ROUNDING_S
+    low = np.minimum(
+        np.searchsorted(seconds, seconds - _WINDOW_S), np.searchsorted(seconds, seconds - near, "right") - 1
+    )
+    high = np.maximum(
+        np.searchsorted(seconds, seconds + _WINDOW_S, "right"), np.searchsorted(seconds, seconds + near) + 1
+    )
     low, high = np.maximum(low, first), np.minimum(high, last + 1)
+    is_short = seconds[high - 1] - seconds[low] < _APART_S - _ROUNDING_S
     times = seconds.astype(np.longdouble)  # sums over a whole match lose digits that short windows need
     total, number = _sums(times, low, high), (high - low).astype(np.longdouble)
     spread = _sums(times * times, low, high) - total * total / number
-    slopes = np.zeros(values.shape)
+    slopes = np.full(values.shape, np.nan)
     for column in range(values.shape[1]):
         value = values[:, column].astype(np.longdouble)
         common = _sums(times * value, low, high) - total * _sums(value, low, high) / number
-        slopes[:, column] = np.divide(common, spread, out=np.zeros_like(common), where=spread > 1e-12)
+        np.divide(common, spread, out=slopes[:, column], where=~is_short & (spread > 1e-12), casting="same_kind")
     return slopes
 
 
@@ -132,15 +157,24 @@ def _contradicted(seconds: Array, table: Array, derived: Array) -> Mask:
     stated, moved = np.hypot(*recorded.T), np.hypot(*derived.T)
     known: Mask = ~np.isnan(stated)
     faster = np.fmax(stated, moved)
-    moves = known & (faster > _MOVES_MPS)
+    moves = known & (faster > _MOVES_MPS) & _is_even(seconds)
     wrong = moves & (np.hypot(*(recorded - derived).T) > 0.5 * faster)
     if moves.sum() >= _ENOUGH and wrong.sum() > 0.5 * moves.sum():
         return known
     # a body that stops or starts is at rest on one side of the record
     steps = np.hypot(np.diff(table[:, _X]), np.diff(table[:, _Y])) > _MOVES_MPS * np.diff(seconds)
     passes: Mask = np.concatenate([[False], steps]) & np.concatenate([steps, [False]])
-    stands: Mask = known & (stated == 0.0) & (moved > _MOVES_MPS) & passes
+    stands: Mask = moves & (stated == 0.0) & (moved > _MOVES_MPS) & passes
     return stands
+
+
+def _is_even(seconds: Array) -> Mask:
+    """Per record: whether no two records within the window of its velocity are a burst."""
+    bursts = np.concatenate([[0], np.cumsum(np.diff(seconds) < BURST_S)])
+    low = np.searchsorted(seconds, seconds - _WINDOW_S)
+    high = np.searchsorted(seconds, seconds + _WINDOW_S, "right") - 1
+    even: Mask = bursts[high] == bursts[low]
+    return even
 
 
 def _mean_speed(velocities: Array) -> float:

@@ -28,7 +28,7 @@ from schemas.messages.soccer.league.lenient_json import REQUIRED, fields_of, ite
 
 GAP_S = 1.0
 """s without a record after which a team has a gap. Chosen here: ten times the longest period the league allows."""
-_BURST_S = 0.01
+BURST_S = 0.01
 """s between two records below which they are a burst. Chosen here: no team's program runs at 100 Hz."""
 _MAX_OFFSET_MS = 6 * 3600 * 1000
 """ms from the median record; a record farther away has a wrong clock. Chosen here: no match lasts longer."""
@@ -195,12 +195,12 @@ def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Re
     merged: list[_Record] = []
     for record in kept:
         findings.place = f"{letter}, record {record.number}"
-        gap_s = (record.epoch_ms - merged[-1].epoch_ms) / 1e3 if merged else _BURST_S
+        gap_s = (record.epoch_ms - merged[-1].epoch_ms) / 1e3 if merged else BURST_S
         if gap_s == 0:
             findings.note("several records of one time: the last is used")
             merged.pop()
-        elif gap_s < _BURST_S:
-            findings.note(f"records in a burst, less than {_BURST_S * 1e3:g} ms apart")
+        elif gap_s < BURST_S:
+            findings.note(f"records in a burst, less than {BURST_S * 1e3:g} ms apart")
         elif gap_s > GAP_S:
             findings.note(f"gap of more than {GAP_S:g} s: the team's bodies are unknown meanwhile")
         merged.append(record)

@@ -107,6 +107,42 @@ def test_a_jump_of_the_localisation_is_reported_and_is_neither_speed_nor_distanc
     assert {round(world.robots["cyan2"].x, 6) for world in worlds(recording)} == {0.0, 0.78}
 
 
+def received(sent_ms: int) -> int:
+    """Five records at a time, 2 ms apart, as a busy network delivers them."""
+    return sent_ms // 200 * 200 + 200 + sent_ms % 200 // PERIOD_MS * 2
+
+
+def test_velocities_are_believed_where_the_times_of_records_are_those_of_bursts(log: Log) -> None:
+    """A robot that swings about its place within a second, and whose velocities are right."""
+
+    def swinging(sent_ms: int) -> dict[str, Any]:
+        angle = sent_ms / 1e3 * 2 * math.pi
+        return robot(2, [0.0, 0.3 * math.sin(angle), 0.0], velocity=[0.0, 0.6 * math.pi * math.cos(angle), 0.0])
+
+    log.write("A", [record(received(time), [swinging(time)]) for time in range(0, 4000, PERIOD_MS)])
+    imported, recording = log.read()
+    assert findings(imported, "in a burst") and findings(imported, "contradicts") == []
+    speeds = [math.hypot(world.robots["cyan2"].vx, world.robots["cyan2"].vy) for world in worlds(recording)]
+    assert max(speeds) == pytest.approx(0.6 * math.pi, abs=0.01)
+
+
+def test_a_velocity_is_derived_from_records_that_are_apart_and_never_above_the_limit(log: Log) -> None:
+    """A robot at 1 m/s whose records come in bursts, and one that is 0.3 m away for a moment between two jumps."""
+    places = {0: 0.0, 40: 0.0, 41: 0.5, 44: 0.78, 400: 8.0, 440: 8.24, 480: 8.6, 520: 8.9}
+    log.write(
+        "A", [record(received(time), [robot(2, [0.0, time / 1e3, 0.0], velocity=None)]) for time in range(0, 2000, 40)]
+    )
+    log.write("B", [record(time, [robot(3, [0.0, place, 0.0], velocity=None)]) for time, place in places.items()])
+    imported, recording = log.read()
+    speeds = {name: [] for name in ("cyan2", "magenta3")}
+    for world in worlds(recording):
+        for name, one in world.robots.items():
+            speeds[name].append(math.hypot(one.vx, one.vy))
+    assert 0.3 < min(speeds["cyan2"]) and max(speeds["cyan2"]) < 2.5
+    assert max(speeds["magenta3"]) == pytest.approx(6.0)
+    assert findings(imported, "velocity of robot 3 of B up to 7")[0][0].endswith("m/s: taken for 6 m/s")
+
+
 def test_a_confidence_out_of_range_is_unknown_and_does_not_silence_a_team(log: Log) -> None:
     """Magenta's axes are turned by π. While cyan sees no ball, magenta's is believed."""
     log.write("A", [record(time, balls=ball(3.0) if time >= 200 else []) for time in range(0, 401, PERIOD_MS)])
