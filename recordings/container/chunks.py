@@ -2,20 +2,26 @@
 
 import struct
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import IO
 
 import zstandard
+from lz4 import frame as lz4
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.records import Chunk
 from mcap.stream_reader import get_chunk_data_stream
 
-BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
+BROKEN = (
+    McapError, ValueError, LookupError, OverflowError, MemoryError, RuntimeError, struct.error, zstandard.ZstdError,
+)  # fmt: skip
 """Exceptions that reading truncated or damaged bytes raises."""
 RECORD_HEADER = struct.Struct("<BQ")
 """Header of a record: opcode, and length of the content."""
 _LAST_OPCODE = max(Opcode)
+_MOST_BYTES = 32 * 2**20
+"""Most bytes of an uncompressed chunk: some kB may claim to be GB. Chosen here: writers end a chunk at some MB."""
 PRIVATE = 0x80
 """Readers ignore records with this opcode or a higher one."""
 MESSAGE = struct.Struct("<HIQQ")
@@ -34,8 +40,25 @@ def read_chunk(file: IO[bytes], at: int) -> bytes:
         BROKEN: the chunk is damaged.
     """
     file.seek(at + RECORD_HEADER.size)
-    stream, size = get_chunk_data_stream(Chunk.read(ReadDataStream(file)), validate_crc=True)
+    stream, size = get_chunk_data_stream(unpacked(Chunk.read(ReadDataStream(file))), validate_crc=True)
     return stream.read(size)
+
+
+def unpacked(chunk: Chunk) -> Chunk:
+    """The chunk without compression.
+
+    Raises:
+        BROKEN: its content is damaged, or has more than `_MOST_BYTES`.
+    """
+    claimed, data = chunk.uncompressed_size, chunk.data
+    if chunk.compression == "zstd":
+        claimed = max(claimed, zstandard.frame_content_size(data))  # the frame's own size decides what is unpacked
+        data = zstandard.decompress(data, claimed) if claimed <= _MOST_BYTES else b""
+    elif chunk.compression == "lz4":
+        data = lz4.LZ4FrameDecompressor().decompress(data, max_length=_MOST_BYTES + 1)
+    if max(claimed, len(data)) > _MOST_BYTES:
+        raise ValueError(f"a chunk has more than {_MOST_BYTES >> 20} MiB")
+    return replace(chunk, compression="", data=data)
 
 
 def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:

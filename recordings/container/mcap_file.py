@@ -12,12 +12,12 @@ from typing import IO, cast
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Attachment, Channel, ChunkIndex, McapRecord, Message, Metadata
-from mcap.stream_reader import StreamReader
+from mcap.records import Attachment, Channel, Chunk, ChunkIndex, McapRecord, Message, Metadata
+from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in
+from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in, unpacked
 from recordings.container.sealed_metadata import is_sealed
 from schemas.errors import TouchlineError
 
@@ -245,11 +245,12 @@ def _records(file: IO[bytes], size: int) -> Iterator[McapRecord]:
     """Yield all records up to the first one that is incomplete, or a message without a channel."""
     channels = set()
     try:
-        for record in StreamReader(file, validate_crcs=True, record_size_limit=size).records:
-            if isinstance(record, Channel):
-                channels.add(record.id)
-            elif isinstance(record, Message) and record.channel_id not in channels:
-                return
-            yield record
+        for outer in StreamReader(file, emit_chunks=True, validate_crcs=True, record_size_limit=size).records:
+            for record in breakup_chunk(unpacked(outer), validate_crc=True) if isinstance(outer, Chunk) else (outer,):
+                if isinstance(record, Channel):
+                    channels.add(record.id)
+                elif isinstance(record, Message) and record.channel_id not in channels:
+                    return
+                yield record
     except BROKEN:
         return

@@ -12,7 +12,7 @@ from mcap.stream_reader import breakup_chunk
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.chunks import BROKEN, PRIVATE, RECORD_HEADER, is_known
+from recordings.container.chunks import BROKEN, PRIVATE, RECORD_HEADER, is_known, unpacked
 from recordings.container.manifest import MANIFEST, RESULT
 from recordings.container.mcap_file import stream_of
 from recordings.container.record_search import record_places
@@ -51,7 +51,7 @@ def intact_records(
             if opcode == Opcode.DATA_END:
                 found.finished = True
             elif opcode == Opcode.CHUNK:
-                yield breakup_chunk(Chunk.read(stream_of(content[begin:end])), validate_crc=True)
+                yield breakup_chunk(unpacked(Chunk.read(stream_of(content[begin:end]))), validate_crc=True)
             elif opcode == Opcode.ATTACHMENT:
                 yield _attachment(content[begin:end])
             elif opcode == Opcode.METADATA:

@@ -4,12 +4,16 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
-from zipfile import BadZipFile, ZipFile, is_zipfile
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, is_zipfile
 
 from schemas.errors import TouchlineError
 
-_MAX_BYTES = 2**31
-"""Maximum size of one file in bytes; the log of a match has some tens of millions."""
+_MAX_BYTES = 2**29
+"""Most bytes of all files of a log. Chosen here: four times what the 40 minutes of a final of 2016 have."""
+_LITTLE = 2**25
+_PACKS = 200
+"""Times that a log of more than `_LITTLE` bytes is larger than its zip, at most. Chosen here: in 2016 it was 36 times
+larger; zeros are 1000 times larger."""
 
 _ZIP = b"PK\x03\x04"
 """First bytes of a zip."""
@@ -65,10 +69,15 @@ def _kind(name: str) -> str | None:
 
 
 def _contents(paths: list[Path]) -> Iterator[tuple[str, bytes]]:
+    plain = [file for path in paths for file in (path.glob("*.msl") if path.is_dir() else (path,))]
+    if sum(file.stat().st_size for file in plain if file.exists()) > _MAX_BYTES:
+        raise TouchlineError(f"{paths[0]}: more than {_MAX_BYTES >> 20} MiB, too many for a log; give the files of one")
     for path in paths:
         try:
             if path.is_dir():
                 yield from ((str(file), file.read_bytes()) for file in sorted(path.glob("*.msl")))
+            elif path.exists() and not path.is_file():
+                raise TouchlineError(f"{path}: not a file; give the path of a log")
             elif is_zipfile(path):
                 yield from _zipped(path)
             else:
@@ -86,11 +95,13 @@ def _contents(paths: list[Path]) -> Iterator[tuple[str, bytes]]:
 def _zipped(path: Path) -> Iterator[tuple[str, bytes]]:
     try:
         with ZipFile(path) as archive:
-            for member in archive.infolist():
-                if _kind(PurePosixPath(member.filename).name) is None:
-                    continue
-                if member.file_size > _MAX_BYTES:
-                    raise TouchlineError(f"{path}: {member.filename} has {member.file_size} bytes, too many for a log")
+            members = [one for one in archive.infolist() if _kind(PurePosixPath(one.filename).name) is not None]
+            size = sum(one.file_size for one in members)
+            if size > _MAX_BYTES or size > max(_LITTLE, _PACKS * path.stat().st_size):
+                raise TouchlineError(f"{path}: its files claim {size} bytes, too many for a log; give its files")
+            if any(one.compress_type not in (ZIP_STORED, ZIP_DEFLATED) for one in members):
+                raise NotImplementedError("its files are packed in another way than deflate")
+            for member in members:
                 yield f"{path}/{member.filename}", archive.read(member)
     except (BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError) as error:
         raise TouchlineError(f"{path}: damaged zip ({error}); use another copy, or give its files") from None
