@@ -12,7 +12,7 @@ from typing import IO, cast
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Attachment, Channel, Chunk, ChunkIndex, McapRecord, Message, Metadata
+from mcap.records import Attachment, Channel, Chunk, ChunkIndex, Footer, McapRecord, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
@@ -39,6 +39,9 @@ class ChannelRecord:
     messages: int = 0
     first_ns: int = 0
     last_ns: int = 0
+    encoding: str = "json"
+    """Encoding of its messages, as MCAP names it."""
+    schema: Schema | None = None
 
     @property
     def topic(self) -> str:
@@ -69,6 +72,8 @@ class McapFile:
     path: Path
     complete: bool = True
     """Whether the file was finished by its writer."""
+    indexed: bool = True
+    """Whether chunks and their times are known; without, the file is read from its beginning."""
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     channels: dict[int, ChannelRecord] = field(default_factory=dict)
@@ -90,7 +95,7 @@ class McapFile:
             TouchlineError: the file is finished, and damaged.
         """
         with self.path.open("rb") as file:
-            if not self.complete:
+            if not self.indexed:
                 yield from self._streamed(file, keys, start_ns, end_ns)
                 return
             try:
@@ -147,6 +152,8 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
     summary = summary_of(file, size) if summary_is_whole(file, size) else None
     if summary is None or summary.statistics is None:
         return None
+    if summary.statistics.message_count and not summary.chunk_indexes:
+        return None  # some writers write no chunks, or no index of them
     file.seek(0)
     try:
         reader = SeekingReader(file, record_size_limit=size)
@@ -158,7 +165,10 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
         chunks: dict[int, dict[int, list[int]]] = {}
         for number, channel in summary.channels.items():
             extent = _extent(file, summary, number, chunks)
-            mcap_file.channels[number] = ChannelRecord(channel.topic, channel.metadata, counts.get(number, 0), *extent)
+            schema = summary.schemas.get(channel.schema_id)
+            mcap_file.channels[number] = ChannelRecord(
+                channel.topic, channel.metadata, counts.get(number, 0), *extent, channel.message_encoding, schema
+            )
     except BROKEN as error:
         raise TouchlineError(f"{path}: {DAMAGED.format(error)}") from None
     return mcap_file
@@ -225,8 +235,10 @@ def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[in
 
 
 def _from_records(path: Path, file: IO[bytes]) -> McapFile:
-    """Read a truncated file up to its end."""
-    mcap_file = McapFile(path, complete=False)
+    """Read a file without an index, or a truncated one up to its end."""
+    mcap_file = McapFile(path, complete=False, indexed=False)
+    schemas: dict[int, Schema] = {}
+    has_summary = summary_is_whole(file, path.stat().st_size)
     file.seek(0)
     for record in _records(file, path.stat().st_size):
         match record:
@@ -234,10 +246,15 @@ def _from_records(path: Path, file: IO[bytes]) -> McapFile:
                 mcap_file.add_metadata(record)
             case Attachment():
                 mcap_file.attachments[record.name] = record.data
-            case Channel():
-                mcap_file.channels.setdefault(record.id, ChannelRecord(record.topic, record.metadata))
+            case Schema():
+                schemas[record.id] = record
+            case Channel(id=number, topic=topic, metadata=metadata, message_encoding=encoding):
+                schema = schemas.get(record.schema_id)
+                mcap_file.channels.setdefault(number, ChannelRecord(topic, metadata, encoding=encoding, schema=schema))
             case Message():
                 mcap_file.channels[record.channel_id].extend(record.log_time)
+            case Footer():
+                mcap_file.complete = has_summary or not record.summary_start
     return mcap_file
 
 

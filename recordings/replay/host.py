@@ -30,16 +30,54 @@ _REFUSALS: dict[Topic, Callable[[], Message]] = {
 """Queries that change a match, and the refusal that a replay replies with."""
 
 
-class ReplayHost:
+class ReplayLoop:
+    """Plays to the end, and serves the controls meanwhile."""
+
+    player: Player
+
+    def __init__(self, bus: Bus) -> None:
+        self._clock = bus.clock
+        self._controls = bus.serve(REPLAY_CONTROL)
+
+    def run(self, meanwhile: Callable[[Player], Any] = lambda _: None) -> None:
+        """Replay to the end. `meanwhile` is called about fifty times per second of wall time.
+
+        Raises:
+            TouchlineError: the recording is damaged inside.
+        """
+        while not self.player.ended:
+            published = self.pump()
+            meanwhile(self.player)
+            if not published:
+                now = self._clock.now()
+                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(POLL_S, self.player.wait())))
+
+    def pump(self) -> int:
+        """Answer queries and publish due messages; returns the number of messages published."""
+        self._answer()
+        return self.player.pump()
+
+    def _answer(self) -> None:
+        while (query := self._controls.receive()) is not None:
+            try:
+                request: ReplayRequest = query.message()
+            except BadMessageError as error:
+                query.fail(str(error))
+            else:
+                reply: ReplayReply = self.player.control(request)
+                query.reply(reply)
+
+
+class ReplayHost(ReplayLoop):
     """Takes the place of the host of a recorded match."""
 
     def __init__(self, bus: Bus, setup: Setup | None, make_player: Callable[..., Player]) -> None:
         """`make_player` is called with `publish` and `can_publish`; `setup` is the recorded setup, or None."""
+        super().__init__(bus)
         self._bus = bus
-        self._clock = bus.clock
         self._setup = setup.replace(match=bus.match, version=VERSION, claims=False) if setup is not None else None
         self._publishers: dict[str, Publisher | None] = {}
-        self._setups, self._controls = bus.serve(SETUP), bus.serve(REPLAY_CONTROL)
+        self._setups = bus.serve(SETUP)
         self._refused: list[tuple[Server, Callable[[], Message]]] = [
             (bus.serve(topic), refusal) for topic, refusal in _REFUSALS.items()
         ]
@@ -54,17 +92,7 @@ class ReplayHost:
         bus.declare_alive(PresenceKind.REPLAY, "replay")
 
     def run(self, meanwhile: Callable[[Player], Any] = lambda _: None) -> None:
-        """Replay to the end. `meanwhile` is called about fifty times per second of wall time.
-
-        Raises:
-            TouchlineError: the recording is damaged inside.
-        """
-        while not self.player.ended:
-            published = self.pump()
-            meanwhile(self.player)
-            if not published:
-                now = self._clock.now()
-                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(POLL_S, self.player.wait())))
+        super().run(meanwhile)
         self.wait_for_recorders()
 
     def pump(self) -> int:
@@ -123,20 +151,13 @@ class ReplayHost:
         return self._bus.publisher(recorded.topic, **chunks)
 
     def _answer(self) -> None:
+        super()._answer()
         self._batches.process()
         while (query := self._setups.receive()) is not None:
             if self._setup is not None:
                 query.reply(self._setup)
             else:
                 query.fail("the recording has no setup")
-        while (query := self._controls.receive()) is not None:
-            try:
-                request: ReplayRequest = query.message()
-            except BadMessageError as error:
-                query.fail(str(error))
-            else:
-                reply: ReplayReply = self.player.control(request)
-                query.reply(reply)
         for server, refusal in self._refused:
             while (query := server.receive()) is not None:
                 query.reply(refusal())

@@ -7,9 +7,8 @@ read from and a function that publishes.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, Protocol
 
-from recordings.reading.cursor import Cursor
-from recordings.reading.recording import RecordedMessage
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
 from recordings.timing import POLL_S
 from runtime.process.clock import Clock
@@ -41,14 +40,41 @@ def is_latched(topic: Topic) -> bool:
     return topic.key in LATCHED_TOPICS
 
 
+class Playable(Protocol):
+    """A message that can be played."""
+
+    @property
+    def key(self) -> str: ...
+    @property
+    def topic(self) -> Any: ...
+    @property
+    def log_ns(self) -> int: ...
+
+
+class Source(Protocol):
+    """What messages are read from: `Cursor` for the recording of a match, `LogCursor` for any MCAP file."""
+
+    @property
+    def start_ns(self) -> int: ...
+    @property
+    def end_ns(self) -> int: ...
+    @property
+    def finished(self) -> bool: ...
+    def grow(self) -> bool: ...
+    def peek(self) -> Any: ...
+    def skip(self) -> None: ...
+    def seek(self, ns: int) -> None: ...
+    def latched(self, ns: int, is_latched: Callable[[Any], bool]) -> list[Any]: ...
+
+
 class Player:
     """Plays the messages that a cursor reads."""
 
     def __init__(
         self,
-        cursor: Cursor,
+        cursor: Source,
         clock: Clock,
-        publish: Callable[[RecordedMessage], None],
+        publish: Callable[[Any], None],
         span: PlaybackRange | None = None,
         *,
         rate: float = 1.0,
@@ -70,7 +96,7 @@ class Player:
         self._span = span or PlaybackRange(cursor.start_ns)
         self._stay, self._follow, self._loop = stay, follow, loop
         self._time_of, self._events, self._can_publish = time_of, events, can_publish
-        self._latched: dict[str, RecordedMessage] = {}
+        self._latched: dict[str, Playable] = {}
         self._playback = PlaybackClock(self._span.start_ns, clock.now(), rate, paused)
         self._position_ns = self._span.start_ns
         self._open_ns: int | None = None
@@ -164,13 +190,14 @@ class Player:
             messages=self.published,
         )
 
-    def _emit(self, message: RecordedMessage) -> None:
+    def _emit(self, message: Playable) -> None:
         self._publish(message)
         self.published += 1
 
-    def _next(self) -> RecordedMessage | None:
+    def _next(self) -> Playable | None:
         """The next message; None at the end of the range."""
-        message, end_ns = self._cursor.peek(), self._span.end_ns
+        end_ns = self._span.end_ns
+        message: Playable | None = self._cursor.peek()
         return message if message is not None and (end_ns is None or message.log_ns <= end_ns) else None
 
     def _open(self, ns: int) -> bool:

@@ -32,14 +32,20 @@ if TYPE_CHECKING:
     from runtime.bus.zenoh.bus import ZenohBus
     from touchline.launch.processes.supervisor import Notice
 
+_REPORTED = ("time", "start", "end", "messages")
+"""Fields of the last status that `--json` prints."""
+
 
 @with_option_groups
 def replay(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
-    rate: Annotated[float, typer.Option(min=0.001, help="Simulated seconds per second.")] = 1.0,
+    files: Annotated[
+        list[Path], typer.Argument(metavar="FILE...", help="The recording, or any *.mcap files and bag folders.")
+    ],
+    rate: Annotated[float, typer.Option(min=0.0, help="Recorded seconds per second; 0: as fast as possible.")] = 1.0,
     fast: Annotated[bool, typer.Option("--fast", help="Replay as fast as possible; waits for recorders.")] = False,
     start: Annotated[
-        str | None, typer.Option("--from", help="Start: seconds, tick:812, or an event such as goal:2 or goal:2-5.")
+        str | None,
+        typer.Option("--from", "--start", help="Start: seconds, tick:812, or an event such as goal:2 or goal:2-5."),
     ] = None,
     end: Annotated[
         str | None, typer.Option("--to", help="End, inclusive: seconds, tick:812, or an event such as goal:2.")
@@ -47,7 +53,10 @@ def replay(
     loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
     paused: Annotated[bool, typer.Option("--paused", help="Start paused.")] = False,
     stay: Annotated[bool, typer.Option("--stay", help="Pause at the end instead of exiting.")] = False,
-    include: options.Include = None,
+    include: Annotated[
+        list[str] | None,
+        typer.Option("--include", "--only", help="Replay these keys only, such as robot/*/command; repeatable."),
+    ] = None,
     exclude: options.Exclude = None,
     follow: Annotated[
         bool, typer.Option("--follow", help="The file is still being written: continue with appended messages.")
@@ -61,7 +70,13 @@ def replay(
     match: Annotated[
         str | None, typer.Option("--match", "--name", help="Name of the match on the bus; by default the recorded one.")
     ] = None,
-    prefix: Annotated[str, typer.Option(help="Prefix of the match name, such as replay_.")] = "",
+    prefix: Annotated[
+        str, typer.Option(help="Prefix of the match name, such as replay_; of any other file, of its keys.")
+    ] = "",
+    rename: Annotated[
+        list[str] | None,
+        typer.Option(metavar="OLD=NEW", help="Rename a key, or the beginning of keys: robot1=robot2; repeatable."),
+    ] = None,
     agent: Annotated[
         str | None,
         typer.Option(
@@ -94,12 +109,16 @@ def replay(
 ) -> None:
     """Replay a recording on the bus, with the keys, order and timing of the match.
 
+    MCAP files of any other writer, several at once, are replayed on keys named like their topics: docs/any_mcap.md.
+
     The page of --web, and viewers of --foxglove, pause it, seek and change its rate; with either it stays at its end.
 
     With --agent, the sights of a robot are given to a brain in this process, where print and breakpoint() work. A table
     shows each command that differs from the recorded one, up to the first: docs/debugging.md.
 
     Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
+
+    Example: touchline replay robot1.mcap robot2.mcap --rate 10 --only "camera/**" --prefix test
 
     Example: touchline replay match.mcap --agent cyan2=my_team:Striker --from tick:812 --pdb
     """
@@ -117,7 +136,7 @@ def replay(
         }
         robot, brain = parse_agent(agent, on_the_bus)
         debugged = AgentReplay(
-            file, robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
+            files[0], robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json
         )
         raise typer.Exit(debugged.run())
     if every_difference or pdb or live or out or brain_folder:
@@ -125,15 +144,15 @@ def replay(
             "--every-difference, --pdb, --live, --out and --brain-folder need --agent, such as --agent cyan2=my:Brain"
         )
     from coach_gateway.web.settings import WebSettings
+    from recordings.reading.log_order import is_match
     from recordings.replay.replay import Replay, ReplaySettings
     from touchline.launch.page import open_page, serve_page_beside
 
-    opened_page = open_page(from_options(WebSettings, **page)) if web else None
     settings = ReplaySettings(
-        file,
+        files[0],
         start=start,
         end=end,
-        rate=None if fast else rate,
+        rate=None if fast else rate or None,
         loop=loop,
         paused=paused,
         stay=stay or web or foxglove,
@@ -141,6 +160,29 @@ def replay(
         follow=follow,
         behind=behind,
     )
+    if not is_match(files):
+        of_matches = {"--web": web, "--foxglove": foxglove, "--follow": follow, "--credentials": listening.credentials}
+        for option, given in of_matches.items():
+            if given:
+                raise TouchlineError(f"{option}: {files[0]} is no recording of a match; leave {option} out")
+        from recordings.replay.log_replay import Keys
+        from touchline.launch.log_replay import replay_log
+
+        ended = replay_log(
+            files,
+            settings,
+            Keys(settings, rename or [], prefix),
+            name=match or "replay",
+            connect=connect,
+            listen=options.endpoint_of(listening) if connect is None else None,
+            quiet=json,
+        )
+        if json:
+            typer.echo(json_text({name: getattr(ended, name) for name in _REPORTED}))
+        return
+    if rename:
+        raise TouchlineError(f"--rename: the keys of a match, {files[0]}, have their names; leave it out")
+    opened_page = open_page(from_options(WebSettings, **page)) if web else None
     opened = Replay(settings)
     clock = WallClock()
     name = prefix + (match or opened.recording.manifest.match)
@@ -167,7 +209,7 @@ def replay(
         wall = clock.now() - began
     status = player.status()
     if json:
-        fields = {name: getattr(status, name) for name in ("time", "start", "end", "messages")}
+        fields = {name: getattr(status, name) for name in _REPORTED}
         typer.echo(json_text(fields | {"wall_s": round(wall, 3)}))
 
 

@@ -1,0 +1,129 @@
+"""Replays MCAP files of any writer: their messages on keys named like their topics, at log time."""
+
+import math
+from collections.abc import Sequence
+
+from recordings.container.encodings import zenoh_encoding
+from recordings.container.mcap_file import ChannelRecord
+from recordings.reading.log_order import Log, LogMessage
+from recordings.replay.host import ReplayLoop
+from recordings.replay.log_cursor import LogCursor
+from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
+from recordings.replay.player import PlaybackRange, Player
+from recordings.replay.replay import ReplaySettings
+from runtime.bus.contract import BusError, PresenceKind
+from runtime.bus.zenoh.any_keys import KeyPublisher, check_key
+from runtime.bus.zenoh.bus import ZenohBus
+from schemas.errors import TouchlineError
+
+
+class Keys:
+    """The keys of topics: without a leading `/`, selected, renamed, and below a prefix."""
+
+    def __init__(self, settings: ReplaySettings, rename: Sequence[str] = (), prefix: str = "") -> None:
+        """`rename` has texts as `OLD=NEW`: a key, or the chunks at the beginning of keys.
+
+        Raises:
+            TouchlineError: a text is none of these.
+        """
+        self._selection = settings.selection
+        self._prefix = prefix.rstrip("/") + "/" if prefix else ""
+        self._renamed: dict[str, str] = {}
+        for text in rename:
+            old, sign, new = text.partition("=")
+            if not old.strip("/") or not sign or not new.strip("/"):
+                raise TouchlineError(f'--rename is "{text}"; write the old and the new key: robot1/odom=robot2/odom')
+            self._renamed[old.strip("/")] = new.strip("/")
+
+    def of(self, topic: str) -> str | None:
+        """The key of a topic; None for one that is not selected.
+
+        Raises:
+            BusError: it cannot be a key.
+        """
+        key = topic.removeprefix("/")
+        if not self._selection.includes(key):
+            return None
+        for old, new in self._renamed.items():
+            if key == old or key.startswith(old + "/"):
+                key = new + key[len(old) :]
+                break
+        key = self._prefix + key
+        try:
+            check_key(key)
+        except BusError as error:
+            raise BusError(f"topic {topic}: {error}; leave it out with --exclude, or give --rename") from None
+        return key
+
+
+class LogReplay(ReplayLoop):
+    """Plays a log on a network of Zenoh."""
+
+    def __init__(self, bus: ZenohBus, log: Log, settings: ReplaySettings) -> None:
+        """`settings.start` and `settings.end` are in s since the first message.
+
+        Raises:
+            TouchlineError: a time is no number, or is beyond the end.
+        """
+        super().__init__(bus)
+        self._bus = bus
+        self._publishers: dict[tuple[str, str], KeyPublisher] = {}
+        self._of_channel: dict[tuple[str, int], KeyPublisher] = {}
+        bus.declare_alive(PresenceKind.REPLAY, "replay")
+        self.player = Player(
+            LogCursor(log),
+            bus.clock,
+            self._publish,
+            span_of(settings, log.end_ns),
+            rate=AS_FAST_AS_POSSIBLE if settings.rate is None else settings.rate,
+            paused=settings.paused,
+            loop=settings.loop,
+            stay=settings.stay,
+            time_of=seconds,
+        )
+
+    def _publish(self, message: LogMessage) -> None:
+        key = message.key, id(message.topic)
+        publisher = self._of_channel.get(key)
+        if publisher is None:
+            publisher = self._of_channel[key] = self._publisher(message.key, message.topic)
+        publisher.put(message.payload)
+
+    def _publisher(self, key: str, channel: ChannelRecord) -> KeyPublisher:
+        """One for each key and encoding, which channels of several files share."""
+        encoding = zenoh_encoding(channel)
+        if (key, encoding) not in self._publishers:
+            self._publishers[key, encoding] = KeyPublisher(self._bus, key, encoding)
+        return self._publishers[key, encoding]
+
+
+def seconds(text: str) -> float:
+    """A time in s since the first message.
+
+    Raises:
+        TouchlineError: it is no number.
+    """
+    try:
+        time = float(text)
+    except ValueError:
+        time = math.inf
+    if not math.isfinite(time):
+        raise TouchlineError(f'"{text}" is no time in a log; give seconds since its first message')
+    return time
+
+
+def span_of(settings: ReplaySettings, end_ns: int) -> PlaybackRange:
+    """The part of a log that lasts until `end_ns` which the settings name.
+
+    Raises:
+        TouchlineError: a time is no number, or the part is empty.
+    """
+    start_ns = max(0, round(seconds(settings.start or "0") * 1e9))
+    stop_ns = round(seconds(settings.end) * 1e9) if settings.end is not None else None
+    if start_ns > end_ns:
+        raise TouchlineError(
+            f"--from {settings.start} is after the last message at {end_ns / 1e9:.2f} s; begin earlier"
+        )
+    if stop_ns is not None and stop_ns < start_ns:
+        raise TouchlineError(f"--to {settings.end} is before --from {settings.start or 0}; end later")
+    return PlaybackRange(start_ns, stop_ns)

@@ -1,0 +1,134 @@
+"""Any keys of a Zenoh network, with or without a match: payloads of any encoding, as they are."""
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import zenoh
+
+from runtime.access.credentials import Credentials, read_credentials
+from runtime.bus.contract import BusError, Stamp
+from runtime.bus.zenoh.bus import ZenohBus
+from runtime.bus.zenoh.reader import STAMP
+from runtime.bus.zenoh.session import first_line, open_connection, open_router
+from runtime.process.clock import Clock
+from runtime.process.timing import RECONNECT_S
+
+_BACKLOG = 500_000
+"""Most samples that wait to be read; then the network waits, or its publishers drop."""
+_AT_ONCE = 1000
+_SEQUENCES = 1 << 32
+"""Zenoh has sequence numbers of 32 bits."""
+
+
+class Sample(NamedTuple):
+    """A payload that was put on a key."""
+
+    key: str
+    payload: bytes
+    encoding: str
+    """As Zenoh names it: `application/cdr;geometry_msgs/msg/Twist`."""
+    sent_ns: int
+    """Wall time of its stamp, ns since 1970; 0 without one."""
+    writer: str
+    """Who numbered it; empty if it has no number."""
+    sequence: int
+
+
+def open_network(
+    name: str, clock: Clock, connect: str | None, listen: str | None, credentials: Path | None = None
+) -> ZenohBus:
+    """A bus named `name` on any network: a client of the router or peer at `connect`, or a router at `listen`.
+
+    Raises:
+        BusError: nothing answers at `connect`, or `listen` cannot be listened on.
+    """
+    if connect is None:
+        session, endpoint = open_router(listen)
+        return ZenohBus(name, clock, session, endpoint, is_client=False)
+    known: Credentials | None = read_credentials(credentials) if credentials is not None else None
+    session, endpoint, _ = open_connection(lambda: (connect, known), clock, RECONNECT_S)
+    return ZenohBus(name, clock, session, endpoint, is_client=True)
+
+
+def check_key(key: str) -> None:
+    """Check that something can be put on a key.
+
+    Raises:
+        BusError: it is no key of Zenoh, or stands for several.
+    """
+    try:
+        is_key = not any(sign in str(zenoh.KeyExpr(key)) for sign in "*$")
+    except zenoh.ZError:
+        is_key = False
+    if not is_key:
+        raise BusError(f'"{key}" cannot be a key of Zenoh, with empty chunks or one of * $ # ?')
+
+
+class KeyPublisher:
+    """Puts payloads of one encoding on one key, numbered from 0. It waits for slow subscribers."""
+
+    def __init__(self, bus: ZenohBus, key: str, encoding: str) -> None:
+        self._publisher = bus.session.declare_publisher(
+            key, encoding=encoding, congestion_control=zenoh.CongestionControl.BLOCK
+        )
+        self._source, self._sequence = self._publisher.id, 0
+
+    def put(self, payload: bytes) -> None:
+        """Put a payload."""
+        self._publisher.put(payload, source_info=zenoh.SourceInfo(self._source, self._sequence % _SEQUENCES))
+        self._sequence += 1
+
+
+class KeySubscription:
+    """The samples of all keys that key expressions match, in order of arrival."""
+
+    def __init__(self, bus: ZenohBus, expressions: list[str]) -> None:
+        """Subscribe.
+
+        Raises:
+            BusError: an expression is none of Zenoh.
+        """
+        self._subscribers: list[tuple[zenoh.KeyExpr, Any]] = []
+        self._owners: dict[str, int] = {}
+        """Key → number of the subscriber that reads it, the first of those that match."""
+        for expression in expressions:
+            try:
+                subscriber = bus.session.declare_subscriber(expression, zenoh.handlers.FifoChannel(_BACKLOG))
+            except zenoh.ZError as error:
+                raise BusError(
+                    f'--keys "{expression}" is no key expression ({first_line(error)}); write it as robot/**'
+                ) from None
+            self._subscribers.append((zenoh.KeyExpr(expression), subscriber))
+
+    def receive(self) -> list[Sample]:
+        """What has arrived, in order on each key; at most a thousand samples of each expression."""
+        found = []
+        for number, (_, subscriber) in enumerate(self._subscribers):
+            for _ in range(_AT_ONCE):
+                sample = subscriber.try_recv()
+                if sample is None:
+                    break
+                if sample.kind == zenoh.SampleKind.PUT and self._owner(str(sample.key_expr)) == number:
+                    found.append(_sample(sample))
+        return found
+
+    def _owner(self, key: str) -> int:
+        if key not in self._owners:
+            expressions = enumerate(expression for expression, _ in self._subscribers)
+            self._owners[key] = next(number for number, one in expressions if one.intersects(zenoh.KeyExpr(key)))
+        return self._owners[key]
+
+
+def _sample(sample: zenoh.Sample) -> Sample:
+    """Its number is that of Zenoh's source information, or of the stamp that this project attaches."""
+    writer, sequence, sent_ns = "", 0, 0
+    source, attachment = sample.source_info, sample.attachment
+    raw = attachment.to_bytes() if attachment is not None else b""
+    if source is not None:
+        writer, sequence = f"{source.source_id.zid}/{source.source_id.eid}", source.source_sn
+    if sample.timestamp is not None:
+        sent_ns = sample.timestamp.get_time_as_ntp64().as_nanos()
+    if len(raw) == STAMP.size:
+        stamp = Stamp(*STAMP.unpack(raw))
+        writer, sequence, sent_ns = "stamp", stamp.sequence, stamp.sent_ns
+    return Sample(str(sample.key_expr), sample.payload.to_bytes(), str(sample.encoding), sent_ns, writer, sequence)

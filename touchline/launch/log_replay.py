@@ -1,0 +1,55 @@
+"""Replays MCAP files that are no recordings of a match, on a network of Zenoh."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import typer
+
+from recordings.reading.log_order import open_log
+from recordings.replay.log_replay import Keys, LogReplay
+from recordings.replay.player import Player
+from recordings.replay.replay import ReplaySettings
+from runtime.bus.zenoh.any_keys import open_network
+from runtime.process.clock import WallClock
+from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from touchline.launch.processes.stop_signals import StopSignals
+from touchline.launch.terminal.replay_progress import bar_text, status_text
+from touchline.launch.terminal.screen import screen_for
+
+
+def replay_log(
+    files: Sequence[Path],
+    settings: ReplaySettings,
+    keys: Keys,
+    *,
+    name: str,
+    connect: str | None,
+    listen: str | None,
+    quiet: bool,
+) -> ReplayReply:
+    """Replay until the end or a signal; the controls are those of a match named `name`.
+
+    Raises:
+        TouchlineError: a file cannot be read, a topic cannot be a key, or there is no network.
+        Exit: a signal ended it.
+    """
+    log = open_log(files, keys.of)
+    clock = WallClock()
+    stream = sys.stderr if quiet else sys.stdout
+    text_of = bar_text if stream.isatty() else status_text
+    with open_network(name, clock, connect, listen) as bus, StopSignals() as stop:
+        typer.echo(f"{len(log.channels)} channels {'to' if connect else 'at'} {bus.endpoint}", err=True)
+        replay = LogReplay(bus, log, settings)
+        with screen_for(stream, clock) as screen:
+
+            def meanwhile(player: Player) -> None:
+                if stop.received is not None:
+                    player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
+                screen.status(text_of(player.status()))
+
+            replay.run(meanwhile)
+            screen.event(text_of(replay.player.status()), notable=True)
+    if stop.received is not None:
+        raise typer.Exit(128 + stop.received)
+    return replay.player.status()
