@@ -1,10 +1,12 @@
 """What executors call: plays a match on this machine; for other machines, brings its files back."""
 
+import multiprocessing
 import tempfile
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from schemas.errors import TouchlineError
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
 from touchline.matches.engine.in_process import outcome_of_death
 from touchline.matches.engine.outcome import Outcome, relative_to
@@ -16,7 +18,15 @@ def play_in_fresh_process(planned: PlannedMatch, folder: Path) -> tuple[Outcome,
     """Play a match whose files belong into `folder`, the run's on the machine that asks.
 
     Returns the outcome with paths in that folder, and path in it → content of all files of the match.
+
+    Raises:
+        TouchlineError: this process may not start others.
     """
+    if multiprocessing.current_process().daemon:
+        raise TouchlineError(
+            "the Dask worker may not start processes; start it with DASK_DISTRIBUTED__WORKER__DAEMON=False in its "
+            "environment, see docs/many_matches.md"
+        )
     with tempfile.TemporaryDirectory(prefix="touchline-") as temporary:
         here = Path(temporary)
         moved = replace(
