@@ -4,13 +4,16 @@ import gc
 import signal
 import sys
 import threading
+from collections.abc import Callable
 
+from recordings.recorder.key_recorder import record_keys
 from recordings.recorder.record import record
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from runtime.process.large_blocks import return_large_blocks
 from runtime.process.process_log import configure_log, log_line
 from runtime.process.scheduling import use_batch_scheduling
+from schemas.errors import TouchlineError
 
 _GC_THRESHOLD = 100_000
 """New objects after which Python searches for reference cycles: messages are many, and are in no cycle."""
@@ -30,12 +33,28 @@ def run(settings: RecorderSettings) -> int:
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
+    if settings.keys:
+        return _record_keys(settings, stop.is_set)
+    if settings.listen is not None:
+        raise TouchlineError("--listen needs --keys, such as --keys 'robot/**'; a match is recorded at its --connect")
     summary = record(settings, stop.is_set, _report)
     if summary is None:
         _report("stopped before there was a host; nothing is recorded")
         return 1
     result = summary.result
     log_line(closing_line(summary), stream=sys.stdout, messages=result.messages, lost=result.lost, size=summary.size)
+    return 0
+
+
+def _record_keys(settings: RecorderSettings, should_stop: Callable[[], bool]) -> int:
+    """Record any keys; returns the exit status, 1 if there was no network before the end."""
+    keys = record_keys(settings, should_stop, _report)
+    if keys is None:
+        _report("stopped before there was a network; nothing is recorded")
+        return 1
+    if not keys.messages:
+        _report("nothing arrived on --keys; a match's host shows its topics only, such as touchline/friendly/world")
+    log_line(keys.line(), stream=sys.stdout, messages=keys.messages, lost=keys.lost, size=keys.size)
     return 0
 
 

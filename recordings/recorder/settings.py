@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from runtime.bus.settings import ClientSettings
+from runtime.bus.settings import ClientSettings, Endpoint
 from runtime.process.log_format import LogSettings
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import RecordOptions
@@ -22,5 +22,9 @@ class RecorderSettings(ClientSettings, LogSettings):
     """What is recorded, and into which parts."""
     patience: Annotated[float, Field(ge=0)] = 30.0
     """Longest wait for a host, in s of wall time."""
+    keys: list[str] = Field(default_factory=list)
+    """Record these keys of any Zenoh network, as robot/** or **, and no match; may be given several times."""
+    listen: Endpoint | None = None
+    """With --keys: listen here for those who publish, instead of --connect, which is tcp/127.0.0.1:7447."""
     config: MatchConfig | None = None
     """The match file, to be stored in the recording."""

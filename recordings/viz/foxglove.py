@@ -19,8 +19,13 @@ _NS_PER_S = 1_000_000_000
 @cache
 def descriptors(message: str) -> bytes:
     """The `FileDescriptorSet` of a message, by its name: with it a reader needs nothing but the file."""
+    return file_set(_CLASSES[message].DESCRIPTOR.file)
+
+
+def file_set(file: FileDescriptor) -> bytes:
+    """A file and all that it imports, as a `FileDescriptorSet`."""
     files: dict[str, FileDescriptorProto] = {}
-    _collect(_CLASSES[message].DESCRIPTOR.file, files)
+    _collect(file, files)
     return FileDescriptorSet(file=files.values()).SerializeToString()
 
 

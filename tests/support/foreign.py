@@ -75,5 +75,12 @@ class Network:
                 found.append(sample)
         return found
 
+    def wait_for_subscriber(self, key: str) -> None:
+        """Until another session subscribes to this key."""
+        probe = self.session.declare_publisher(key, allowed_destination=zenoh.Locality.REMOTE)
+        deadline = monotonic() + LIMIT
+        while not probe.matching_status.matching and monotonic() < deadline:
+            sleep(0.002)
+
     def close(self) -> None:
         self.session.close()

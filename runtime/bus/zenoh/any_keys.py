@@ -16,6 +16,8 @@ from runtime.process.timing import RECONNECT_S
 _BACKLOG = 500_000
 """Most samples that wait to be read; then the network waits, or its publishers drop."""
 _AT_ONCE = 1000
+STAMPED = "stamp"
+"""Stands for the writer of a sample that the stamp of this project numbers."""
 _SEQUENCES = 1 << 32
 """Zenoh has sequence numbers of 32 bits."""
 
@@ -30,12 +32,17 @@ class Sample(NamedTuple):
     sent_ns: int
     """Wall time of its stamp, ns since 1970; 0 without one."""
     writer: str
-    """Who numbered it; empty if it has no number."""
+    """Who numbered it, `STAMPED` if the stamp does not say; empty if it has no number."""
     sequence: int
 
 
 def open_network(
-    name: str, clock: Clock, connect: str | None, listen: str | None, credentials: Path | None = None
+    name: str,
+    clock: Clock,
+    connect: str | None,
+    listen: str | None,
+    credentials: Path | None = None,
+    patience: float = RECONNECT_S,
 ) -> ZenohBus:
     """A bus named `name` on any network: a client of the router or peer at `connect`, or a router at `listen`.
 
@@ -46,7 +53,7 @@ def open_network(
         session, endpoint = open_router(listen)
         return ZenohBus(name, clock, session, endpoint, is_client=False)
     known: Credentials | None = read_credentials(credentials) if credentials is not None else None
-    session, endpoint, _ = open_connection(lambda: (connect, known), clock, RECONNECT_S)
+    session, endpoint, _ = open_connection(lambda: (connect, known), clock, patience)
     return ZenohBus(name, clock, session, endpoint, is_client=True)
 
 
@@ -130,5 +137,5 @@ def _sample(sample: zenoh.Sample) -> Sample:
         sent_ns = sample.timestamp.get_time_as_ntp64().as_nanos()
     if len(raw) == STAMP.size:
         stamp = Stamp(*STAMP.unpack(raw))
-        writer, sequence, sent_ns = "stamp", stamp.sequence, stamp.sent_ns
+        writer, sequence, sent_ns = STAMPED, stamp.sequence, stamp.sent_ns
     return Sample(str(sample.key_expr), sample.payload.to_bytes(), str(sample.encoding), sent_ns, writer, sequence)

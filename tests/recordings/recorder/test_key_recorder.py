@@ -1,0 +1,129 @@
+"""Any keys of a network of Zenoh that is none of a match, put by a session that is none of this project."""
+
+import signal
+import struct
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from time import monotonic
+
+import pytest
+import zenoh
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
+from rosbags.typesys import Stores, get_typestore
+
+from recordings.container.key_selection import EVERYTHING, KeySelection
+from recordings.recorder.key_recorder import KeyRecorder, KeySummary
+from runtime.bus.contract import BusError
+from runtime.bus.zenoh.any_keys import open_network
+from runtime.process.clock import WallClock
+from support.foreign import LIMIT, Network
+
+Put = Callable[[zenoh.Session], None]
+Record = Callable[..., KeySummary]
+
+
+@pytest.fixture
+def record(tmp_path: Path) -> Iterator[Record]:
+    """Records what is put, until `count` messages have arrived, into log.mcap."""
+    network = Network()
+
+    def run(put: Put, count: int, keys: str = "**", selection: KeySelection = EVERYTHING) -> KeySummary:
+        with open_network("keys", WallClock(), network.endpoint, None) as bus:
+            recorder = KeyRecorder(bus, tmp_path / "log.mcap", keys.split(), selection)
+            deadline = monotonic() + LIMIT
+            network.wait_for_subscriber(keys.split()[-1].replace("**", "robot1"))
+            put(network.session)
+            return recorder.run(lambda: recorder.messages >= count or monotonic() > deadline)
+
+    yield run
+    network.close()
+
+
+def read(path: Path):
+    with path.open("rb") as file:
+        return list(make_reader(file, validate_crcs=True).iter_messages())
+
+
+def test_keys_of_any_network_are_recorded_with_the_encodings_of_their_publishers(record, tmp_path):
+    store = get_typestore(Stores.ROS2_JAZZY)
+    point = store.types["geometry_msgs/msg/Point"](1.0, 2.0, 3.0)
+
+    def put(session: zenoh.Session) -> None:
+        session.put("robot1/odom", b'{"x":1}', encoding="application/json")
+        cdr = bytes(store.serialize_cdr(point, "geometry_msgs/msg/Point"))
+        session.put("robot1/goal", cdr, encoding="application/cdr;geometry_msgs/msg/Point")
+        session.put("robot1/tf", b"\x0a\x00", encoding="application/protobuf;foxglove.FrameTransforms")
+        session.put("robot1/raw", b"\x00\xff")
+
+    assert record(put, 4).messages == 4
+    found = {channel.topic: (channel.message_encoding, schema) for schema, channel, _ in read(tmp_path / "log.mcap")}
+    assert {key: encoding for key, (encoding, _) in found.items()} == {
+        "robot1/odom": "json",
+        "robot1/goal": "cdr",
+        "robot1/tf": "protobuf",
+        "robot1/raw": "zenoh/bytes",
+    }
+    assert (found["robot1/tf"][1].name, found["robot1/tf"][1].encoding) == ("foxglove.FrameTransforms", "protobuf")
+    assert found["robot1/raw"][1] is None
+    with (tmp_path / "log.mcap").open("rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        decoded = [one.decoded_message for one in reader.iter_decoded_messages(topics=["robot1/goal"])]
+    assert [(one.x, one.y, one.z) for one in decoded] == [(1.0, 2.0, 3.0)]
+
+
+def test_messages_that_did_not_arrive_are_counted_where_their_publisher_numbers_them(record):
+    def put(session: zenoh.Session) -> None:
+        publisher = session.declare_publisher("robot1/odom")
+        for number in (7, 8, 20, 15, 21):
+            publisher.put(b"{}", source_info=zenoh.SourceInfo(publisher.id, number))
+        for number in (0, 1, 3):
+            session.put("robot2/odom", b"{}", attachment=struct.pack("<QQq", number, 1_000_000 * number, 0))
+        session.put("robot3/odom", b"{}")
+
+    assert record(put, 9).losses == {"robot1/odom": 10, "robot2/odom": 1}
+
+
+def test_numbers_of_a_publisher_that_begin_again_after_their_last_are_no_loss(record):
+    def put(session: zenoh.Session) -> None:
+        publisher = session.declare_publisher("robot1/odom")
+        for number in (2**32 - 2, 2**32 - 1, 0, 1):
+            publisher.put(b"{}", source_info=zenoh.SourceInfo(publisher.id, number))
+
+    assert record(put, 4).losses == {}
+
+
+def test_a_key_that_two_expressions_match_is_recorded_once_and_one_that_is_excluded_not_at_all(record, tmp_path):
+    def put(session: zenoh.Session) -> None:
+        for key in ("robot1/camera", "robot1/odom", "robot2/odom"):
+            session.put(key, b"{}")
+
+    assert record(put, 2, "robot1/** **/odom", KeySelection(exclude=("**/camera",))).messages == 2
+    assert sorted(channel.topic for _, channel, _ in read(tmp_path / "log.mcap")) == ["robot1/odom", "robot2/odom"]
+
+
+def test_what_is_no_key_expression_is_refused_in_one_line(tmp_path):
+    fault = r'--keys "a//b" is no key expression .*write it as robot/\*\*'
+    with open_network("keys", WallClock(), None, "tcp/127.0.0.1:0") as bus, pytest.raises(BusError, match=fault):
+        KeyRecorder(bus, tmp_path / "log.mcap", ["a//b"], EVERYTHING)
+    assert not (tmp_path / "log.mcap").exists()
+
+
+@pytest.mark.processes
+@pytest.mark.parametrize("mode", ["client", "peer"])
+def test_the_command_records_those_who_connect_to_it_and_ctrl_c_leaves_a_whole_file(start, tmp_path, mode):
+    recorder = start(
+        "-m", "touchline", "record", "--keys", "**", "--listen", "tcp/127.0.0.1:0", "--out", str(tmp_path / "log.mcap")
+    )
+    endpoint = next(word for word in recorder.stderr.readline().split() if word.startswith("tcp/"))
+    robot = Network(endpoint, mode)
+    robot.wait_for_subscriber("robot1/odom")
+    for _ in range(100):
+        robot.session.put("robot1/odom", b"{}", congestion_control=zenoh.CongestionControl.BLOCK)
+    robot.received(100)
+    robot.close()
+    recorder.send_signal(signal.SIGINT)
+    said, _ = recorder.communicate(timeout=LIMIT)
+    assert recorder.returncode == 0
+    assert "100 messages on 1 keys, 0 lost" in said
+    assert len(read(tmp_path / "log.mcap")) == 100
