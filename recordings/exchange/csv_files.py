@@ -5,7 +5,7 @@ all their digits; unknown values are empty.
 """
 
 import csv
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from enum import Enum
 from pathlib import Path
@@ -34,17 +34,18 @@ class Table(NamedTuple):
 
 
 def export(recording: Recording, out: Path) -> ExportSummary:
-    """Write all files of `TABLES` into a folder.
+    """Write all files of `TABLES` into a folder, and `robots_wide.csv`.
 
     Raises:
         TouchlineError: the folder already exists or cannot be written, or the recording is damaged inside.
     """
     sides = recording.lineup().sides
-    written = dict.fromkeys(TABLES, 0)
+    tables = TABLES | {"robots_wide.csv": _wide([*sides])}
+    written = dict.fromkeys(tables, 0)
     with atomic_output(out) as folder, ExitStack() as files:
         folder.mkdir()
         writers: dict[str, list[tuple[str, Any, Table]]] = {}
-        for name, table in TABLES.items():
+        for name, table in tables.items():
             file = files.enter_context((folder / name).open("w", newline="", encoding="utf-8"))
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(table.header)
@@ -67,6 +68,22 @@ def _robots(_: RecordedMessage, world: World, sides: Sides) -> Iterable[Row]:
     for name, robot in world.robots.items():
         place = (robot.x, robot.y, robot.z, robot.heading, robot.vx, robot.vy, robot.omega)
         yield world.tick, world.time, name, sides.get(name), *place, robot.holding, robot.stuck, robot.off_field
+
+
+def _wide(robots: Sequence[str]) -> Table:
+    """One row a tick with columns for each robot, for programs that plot columns."""
+
+    def rows(_: RecordedMessage, world: World, __: Sides) -> Iterable[Row]:
+        found = (world.robots.get(robot) for robot in robots)
+        values = (tuple(getattr(one, name, None) for name in _WIDE) for one in found)
+        yield world.tick, world.time, *(value for one in values for value in one)
+
+    header = (f"{robot} {name} [{unit}]" for robot in robots for name, unit in _WIDE.items())
+    return Table(WORLD.key, ("tick", "time [s]", *header), rows)
+
+
+_WIDE = {"x": "m", "y": "m", "heading": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"}
+"""Field of a robot → its unit, in `robots_wide.csv`."""
 
 
 def _ball(_: RecordedMessage, world: World, __: Sides) -> Iterable[Row]:

@@ -58,6 +58,10 @@ class RecordedMessage(NamedTuple):
         return self.topic.message.decode(self.payload)
 
 
+_LATEST_NS = 2**31 * 10**9
+"""ns of simulated time that no match reaches, and that the stamps of other formats do not hold."""
+
+
 class Recording:
     """An opened recording. No file stays open between calls."""
 
@@ -189,6 +193,11 @@ def open_recording(path: Path, *, whole: bool = False) -> Recording:
         _check_version(path, mcap_file.metadata[MANIFEST].get("contract", ""))
         raise TouchlineError(f"{path}: its manifest or result is damaged: {error}") from None
     _check_version(path, manifest.contract)
+    late = next((one for one in mcap_file.channels.values() if one.last_ns >= _LATEST_NS), None)
+    if late is not None:
+        raise TouchlineError(
+            f"{path}: {late.key} has a message at {late.end:.3g} s; no match lasts so long, use another copy"
+        )
     return Recording(mcap_file, manifest, result)
 
 

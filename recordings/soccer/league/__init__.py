@@ -6,3 +6,5 @@ signal; usually all in one zip. Team A is cyan. `schemas.messages.soccer.league`
 
 LOG_PERIOD = 0.04
 """s between two world states. Chosen here: the league requires at least 10 Hz; teams' programs run at 25 to 30 Hz."""
+IMPORTER = "import"
+"""Name of the recorder in the manifest of an import, whose kicks are inferred."""

@@ -11,8 +11,9 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from schemas.messages.soccer.league.findings import Findings
-from schemas.messages.soccer.league.signals import BY_CHARACTER, BY_DESCRIPTION, BY_NAME, Signal
+from schemas.messages.soccer.league.signals import BY_CHARACTER, BY_DESCRIPTION, BY_NAME, END_GAME, Signal
 from schemas.side import Side
+from schemas.soccer.game import Phase
 
 _LINE = re.compile(r"\s*(\d+)\s*,([^,]*),([^,]*),(.*)")
 _CLOCK = re.compile(r"\s*(\d+):(\d+)(?:\s*\((\d+):(\d+)\))?")
@@ -104,6 +105,8 @@ def _parse(line: str, names: TeamNames, findings: Findings) -> SignalLine | None
     if signal is None:
         findings.note("unknown signal", lost=True)
         return None
+    if part.strip().lower() == "end game" and signal.phase is Phase.HALF_TIME:
+        signal, description = END_GAME, END_GAME.description  # the box of 2016 says so after the last part, too
     if signal.sided and side is None:
         findings.note("signal for an unknown team: its name in the log can be given with --team-a", lost=True)
     return SignalLine(

@@ -15,7 +15,7 @@ from recordings.container.attachments import make_attachments
 from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.manifest import Manifest, Result
 from recordings.editing.compose import TimedMessage, compose
-from recordings.soccer.league import LOG_PERIOD
+from recordings.soccer.league import IMPORTER, LOG_PERIOD
 from recordings.soccer.league.event_log import SignalLine, TeamNames, read_events
 from recordings.soccer.league.game_reconstruction import GameReconstruction
 from recordings.soccer.league.log_files import LogFiles, log_files
@@ -37,8 +37,6 @@ from schemas.topics import EVENT, STATE, WORLD
 from schemas.wire.message import VERSION
 
 _STEPS = TimeSteps(physics_step=LOG_PERIOD / 2, steps_per_tick=2)
-_IMPORTER = "import"
-"""Name of the recorder in the manifest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +120,7 @@ def import_log(paths: list[Path], out: Path, profile: str | None = None, team_a:
     manifest = Manifest(
         contract=VERSION,
         match=setup.match,
-        recorder=_IMPORTER,
+        recorder=IMPORTER,
         started=datetime.fromtimestamp(start_ms / 1e3, UTC).isoformat(timespec="milliseconds"),
         sights=False,
         versions=versions(),

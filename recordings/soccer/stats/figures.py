@@ -25,6 +25,8 @@ class Coverage:
     events: int = 0
     missing: float = 0.0
     """Time in s without a world; it counts in no figure but the duration."""
+    inferred: bool = False
+    """Kicks are inferred from the positions in a log, so that those which were not found are unknown."""
     unreadable: int = 0
     """Messages that could not be decoded, and are left out."""
 

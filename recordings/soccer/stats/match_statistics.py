@@ -5,6 +5,7 @@ from typing import Any
 
 from recordings.container.lineup import Lineup
 from recordings.reading.recording import Recording
+from recordings.soccer.league import IMPORTER
 from recordings.soccer.stats.ball_control import BallControl
 from recordings.soccer.stats.crowding import Crowding
 from recordings.soccer.stats.dribbles import DribbleStats, DribbleTracker
@@ -119,7 +120,11 @@ class MatchStatistics:
             longest_crowd_s=self._crowding.longest if coverage.states else None,
             drop_balls=sum(count for (side, _), count in self._calls.restarts.items() if side is None),
             sides={side: self._side(side, lineup) for side in Side},
-            robots=[self._robot(name, lineup) for name in self._motions.robots],
+            robots=[
+                self._robot(name, lineup)
+                for name in dict.fromkeys([*lineup.robots, *self._motions.robots])
+                if name in self._motions.robots
+            ],
             goals=self._calls.goals,
             kicks=self._kicks.kicks,
             momentum_width=self._momentum.width,
@@ -215,4 +220,6 @@ def figures_of_recording(recording: Recording, *observers: TickObserver) -> Matc
         statistics.update(match_tick)
         for other in observers:
             other(match_tick)
-    return statistics.figures(recording.unreadable.total() - before)
+    figures = statistics.figures(recording.unreadable.total() - before)
+    figures.coverage.inferred = recording.manifest.recorder == IMPORTER
+    return figures

@@ -27,6 +27,8 @@ def headline(figures: MatchFigures) -> str:
 def side_rows(figures: MatchFigures) -> list[Row]:
     """Rows of name, cyan's value and magenta's value."""
     rows = [(name, *(format_value(figures.sides[side]) for side in Side)) for name, format_value in _SIDE]
+    if figures.coverage.inferred:
+        rows = [(name, *(UNKNOWN if name in _OF_KICKS and one in _NONE else one for one in row)) for name, *row in rows]
     if any(side.shoot_out is not None for side in figures.sides.values()):
         rows.insert(1, ("penalties", *(_whole(figures.sides[side].shoot_out) for side in Side)))
     for kind in _COUNTED:
@@ -53,6 +55,10 @@ def remarks(figures: MatchFigures) -> list[str]:
     remarks_ = [
         (not coverage.states, "no game states recorded: ball in play, possession, passes and shots are not known"),
         (not coverage.touched, "no touches recorded: passes, shots and saves are not known"),
+        (
+            coverage.inferred,
+            "kicks are inferred from positions: passes, shots and saves that were not found are not known",
+        ),
         (not coverage.held, "no robot holds the ball: time with the ball and dribbles are not known"),
         (not coverage.events, "no events recorded: goals by robot, fouls and cards are not known"),
         (bool(coverage.missing), f"{coverage.missing:.1f} s were not recorded and are in no figure but the duration"),
@@ -97,6 +103,8 @@ _SIDE: tuple[tuple[str, Callable[[SideFigures], str]], ...] = (
     ("mean speed in play, m/s", lambda side: _tenths(side.mean_speed)),
 )
 """Rows of the table of sides: name, and how its value is formatted."""
+_OF_KICKS = ("passes completed", "shots on goal", "shots blocked", "saves")
+_NONE = ("0", "0 of 0")
 _COUNTED = {"fouls": "foul: {}", "cards": "{} cards", "restarts": "restart: {}"}
 """Fields that count by name, and the label of a row."""
 

@@ -21,7 +21,7 @@ def folder(recorded: Recording, tmp_path: Path) -> Path:
 
 
 def test_every_file_has_units_in_its_header(folder: Path) -> None:
-    assert {file.name for file in folder.iterdir()} == set(TABLES)
+    assert {file.name for file in folder.iterdir()} == {*TABLES, "robots_wide.csv"}
     for name, kind in TABLES.items():
         header = (folder / name).read_text("utf-8").splitlines()[0].split(",")
         assert header == list(kind.header)
@@ -44,6 +44,16 @@ def test_positions_read_back_are_those_recorded_to_the_last_bit(folder: Path, re
             ]
             assert row["side"] == ("cyan" if name.startswith("cyan") else "magenta")
         assert float(ball[str(world.tick)]["y [m]"]) == world.ball.y
+
+
+def test_a_robot_has_columns_of_its_own_in_the_wide_table(folder: Path, recorded: Recording) -> None:
+    rows = table(folder / "robots_wide.csv")
+    worlds = [world for _, world in recorded.decoded(WORLD.key)]
+    assert [int(row["tick"]) for row in rows] == [world.tick for world in worlds]
+    for row, world in zip(rows, worlds, strict=True):
+        for name, robot in world.robots.items():
+            columns = [float(row[f"{name} {column}"]) for column in ("x [m]", "heading [rad]", "vy [m/s]")]
+            assert columns == [robot.x, robot.heading, robot.vy]
 
 
 def test_events_states_and_commands_have_a_row_each(folder: Path, recorded: Recording) -> None:

@@ -11,6 +11,7 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.soccer.league.event_log import TeamNames, read_events
 from recordings.soccer.league.import_log import ImportSummary
 from recordings.soccer.stats.match_statistics import figures_of_recording
+from recordings.soccer.stats.table import remarks, side_rows
 from schemas.messages.soccer.league.findings import Findings
 from schemas.soccer.game import EventKind, GameStage, Phase, Score
 from support.msl_log import START_MS, Log, record, robot
@@ -141,6 +142,18 @@ def test_a_velocity_is_derived_from_records_that_are_apart_and_never_above_the_l
     assert min(speeds["cyan2"]) > 0.3 and max(speeds["cyan2"]) < 2.5
     assert max(speeds["magenta3"]) == pytest.approx(6.0)
     assert findings(imported, "velocity of robot 3 of B up to 7")[0][0].endswith("m/s: taken for 6 m/s")
+
+
+def test_kicks_that_an_import_did_not_find_are_unknown_and_robots_stand_in_their_order(log: Log) -> None:
+    """A goal without a kick: the robot is in no record before the others."""
+    times = range(0, 2001, PERIOD_MS)
+    log.write("A", [record(time, [robot(3), *([robot(1, [4.0, 0.0, 0.0])] if time > 400 else [])]) for time in times])
+    log.events(f"{START_MS},00:00(00:00),1st Half,s,START", f"{START_MS + 1000},00:01(00:01),1st Half,A,CYAN Goal+")
+    figures = figures_of_recording(log.read()[1])
+    assert [one.name for one in figures.robots] == ["cyan1", "cyan3"]
+    rows = {name: cyan for name, cyan, _ in side_rows(figures)}
+    assert (rows["goals"], rows["shots on goal"], rows["saves"]) == ("1", "–", "–")
+    assert any(one.startswith("kicks are inferred from positions") for one in remarks(figures))
 
 
 def test_a_confidence_out_of_range_is_unknown_and_does_not_silence_a_team(log: Log) -> None:

@@ -38,6 +38,20 @@ def test_messages_are_chosen_by_key_pattern_and_simulated_time(recorded):
     assert len(chosen) == 25
 
 
+def test_a_message_later_than_any_match_is_named(recorded, tmp_path):
+    path = tmp_path / "late.mcap"
+    with recorded.path.open("rb") as source, path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        for one in make_reader(source).iter_metadata():
+            writer.add_metadata(one.name, one.metadata)
+        channel = writer.register_channel("world", "json", 0, {"topic": "world"})
+        writer.add_message(channel, 2**64 - 5, b"{}", 0)
+        writer.finish()
+    with pytest.raises(TouchlineError, match=r"late.mcap: world has a message at 1.84e\+10 s; no match lasts so long"):
+        open_recording(path)
+
+
 @pytest.mark.parametrize("share", [0.35, 0.999])
 def test_a_truncated_file_is_readable_up_to_the_cut(make_rig, share):
     rig = make_rig()

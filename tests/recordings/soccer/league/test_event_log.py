@@ -115,6 +115,11 @@ def test_names_that_do_not_tell_the_teams_apart_are_not_used() -> None:
         assert read(named("GOAL", targetTeam="one"), names=names).side is None
 
 
+def test_half_time_after_the_last_part_is_the_end_of_the_game() -> None:
+    assert read("h,Halftime", "End Game").signal.name == "END_GAME"
+    assert read("h,Halftime", "Halftime").signal.name == "HALF_TIME"
+
+
 @pytest.mark.parametrize(
     ("line", "words"),
     [
