@@ -29,7 +29,8 @@ _ITERATIONS = 200
 _UPRIGHT = 1e-3
 """A robot is put upright again from this half sine of its tilt, or from this lift in m."""
 _TOUCHING = 0.001
-"""m; two robots count as touching up to this gap: the solver leaves a smaller one between bodies in contact."""
+"""m; two robots count as touching up to this gap: the solver leaves a smaller one between bodies in contact. They count
+so, too, if it has applied a force: it stops bodies that would meet within the step, up to 2 cm apart at its start."""
 _HORIZONTAL = 0.5
 """Share of a contact's normal that lies on the ground, at least, if two upright hulls touch with their sides."""
 _STATE_SIZE = 13
@@ -332,7 +333,7 @@ class Engine:
         for contact in pybullet.getContactPoints(body, self.robots[other], physicsClientId=self.client):
             (x, y, _), sign = contact[7], -1.0 if contact[1] == body else 1.0
             length = math.hypot(x, y)
-            if contact[8] <= _TOUCHING and length > _HORIZONTAL:
+            if _touches(contact) and length > _HORIZONTAL:
                 return sign * x / length, sign * y / length
         return None
 
@@ -346,7 +347,7 @@ class Engine:
         found = [
             (bodies[contact[1]], bodies[contact[2]])
             for contact in pybullet.getContactPoints(physicsClientId=self.client)
-            if contact[8] <= _TOUCHING and contact[1] in bodies and contact[2] in bodies
+            if _touches(contact) and contact[1] in bodies and contact[2] in bodies
         ]
         return {(min(pair), max(pair)) for pair in found}
 
@@ -359,6 +360,11 @@ def _pack(obstacle: ObstacleState) -> bytes:
 def _robot_state(state: BodyState, holding: bool) -> RobotState:
     (x, y, z), (_, _, qz, qw), (vx, vy, _), (_, _, omega) = state
     return RobotState(x, y, z, wrap(2.0 * math.atan2(qz, qw)), vx, vy, omega, holding)
+
+
+def _touches(contact: tuple[Any, ...]) -> bool:
+    """Whether the bodies of a contact point of the last step touched in it."""
+    return bool(contact[8] <= _TOUCHING or contact[9] > 0.0)
 
 
 def _distance_of(point: tuple[Any, ...]) -> float:

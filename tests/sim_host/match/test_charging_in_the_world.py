@@ -49,6 +49,17 @@ def test_a_robot_at_full_speed_into_a_standing_opponent_charges_it(profile, phas
     assert (rule, robot) == ("charging", "cyan2") and speed == pytest.approx(3.5, abs=0.2)
 
 
+@pytest.mark.parametrize("lateral", [0.0, 0.1, 0.2, 0.3, 0.4])
+def test_a_charge_is_called_wherever_in_a_physics_step_the_robots_meet(lateral):
+    rig, missed = WorldRig(load_profile("msl")), []
+    for number in range(20):
+        start = -3.0 - 0.021 * number
+        rig.place(cyan2=(start, lateral, 0), magenta2=(0, 0, 0), ball=(5, 5, 0))
+        if [(rule, robot) for rule, robot, _ in called(rig, cyan2=tell(vx=4.0))] != [("charging", "cyan2")]:
+            missed.append(start)
+    assert missed == []
+
+
 @pytest.mark.parametrize("gap", [0.505, 0.55, 0.7])
 def test_a_robot_that_knocks_its_teammate_into_an_opponent_is_called_in_its_place(gap):
     rig = WorldRig(load_profile("msl"))
