@@ -2,6 +2,7 @@
 
 from schemas.messages.soccer.game import RefereeAction
 from schemas.soccer.game import GameStage, Phase
+from sim_host.soccer.referee.game.participation import IN_PLAYING_TIME
 from sim_host.soccer.referee.procedures.discipline import reason_text
 from sim_host.soccer.referee.procedures.periods import HALF_PHASES
 from sim_host.soccer.referee.ruling_draft import RulingDraft
@@ -31,10 +32,12 @@ def in_shoot_out(draft: RulingDraft) -> str | None:
 
 
 def no_robot(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A robot must be named, and take part."""
-    names = draft.match.roster.names
+    """A robot must be named, and take part; a side that is named, too, must be its side."""
+    roster = draft.match.roster
     if action.robot is None:
-        return f"no robot is named; name one of {', '.join(names)}"
+        return f"no robot is named; name one of {', '.join(roster.names)}"
+    if action.robot in roster.names and action.side not in (None, roster.side_of(action.robot)):
+        return f"{action.robot} does not play for {action.side}, which is named; leave the side out"
     return no_such_robot(draft, action)
 
 
@@ -59,6 +62,14 @@ def sent_off(draft: RulingDraft, action: RefereeAction) -> str | None:
     """The robot must not be sent off for good."""
     away = draft.state.participation.absences.get(named_robot(action))
     return f"{action.robot} is sent off for good" if away is not None and away.for_good else None
+
+
+def suspended(draft: RulingDraft, action: RefereeAction) -> str | None:
+    """The robot must not be suspended: its time off would end with another reason."""
+    away = draft.state.participation.absences.get(named_robot(action))
+    if away is None or away.left is None or away.why not in IN_PLAYING_TIME:
+        return None
+    return f"{action.robot} is off the field for {away.left:.0f} s more: {reason_text(away.why)}"
 
 
 def no_proposal(draft: RulingDraft) -> str | None:

@@ -7,7 +7,7 @@ import dataclasses
 
 from schemas.messages.soccer.game import RefereeAction
 from schemas.soccer.game import OffField
-from sim_host.soccer.referee.actions.legality import named_robot, no_match, no_robot, sent_off
+from sim_host.soccer.referee.actions.legality import named_robot, no_match, no_robot, sent_off, suspended
 from sim_host.soccer.referee.game.participation import Absence
 from sim_host.soccer.referee.procedures import discipline
 from sim_host.soccer.referee.ruling_draft import RulingDraft
@@ -19,6 +19,7 @@ def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
         no_match(draft)
         or no_robot(draft, action)
         or sent_off(draft, action)
+        or suspended(draft, action)
         or _is_out(draft, action)
         or _too_late(draft, action)
     )

@@ -18,7 +18,7 @@ from collections.abc import Mapping
 from schemas.config.soccer.rule_book import Discipline
 from schemas.side import Side
 from schemas.soccer.game import RESTARTS, Card, EventKind, OffField, Phase
-from sim_host.soccer.referee.game.participation import Absence, CardCount, Participation
+from sim_host.soccer.referee.game.participation import IN_PLAYING_TIME, Absence, CardCount, Participation
 from sim_host.soccer.referee.game.timing import reached
 from sim_host.soccer.referee.placement.bench import bench_pose, entry_pose
 from sim_host.soccer.referee.ruling_draft import RulingDraft
@@ -81,8 +81,15 @@ def show_owed_cards(draft: RulingDraft) -> None:
 
 
 def take_out(draft: RulingDraft, rule: str, name: str, absence: Absence) -> None:
-    """Take a robot off the field; for one that is off already, the new reason replaces the old one."""
+    """Take a robot off the field; for one that is off already, the new reason replaces the old one.
+
+    The longer of two suspensions is served.
+    """
     participation, was_there = draft.state.participation, name not in draft.state.participation.absences
+    if not was_there and absence.left is not None:
+        before = participation.absences[name]
+        if before.left is not None and before.why in IN_PLAYING_TIME:
+            absence = absence._replace(left=max(before.left, absence.left))
     draft.state = draft.state._replace(
         participation=dataclasses.replace(participation, absences={**participation.absences, name: absence})
     )

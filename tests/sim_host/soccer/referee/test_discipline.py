@@ -158,6 +158,37 @@ def test_substitutions_are_counted_and_made_in_stoppages(new_rig):
     assert rig.state.participation.absences == {}
 
 
+def test_a_suspended_robot_is_not_substituted(new_rig):
+    rig = halted(new_rig())
+    for _ in range(2):
+        rig.ask("yellow_card", robot="cyan2")
+    left = rig.book.discipline.suspension
+    assert f"cyan2 is off the field for {left:.0f} s more: suspension" in refused(rig.ask("substitute", robot="cyan2"))
+    assert away(rig, "cyan2").why is OffField.SECOND_YELLOW
+    assert away(rig, "cyan2").left == pytest.approx(left, abs=0.1)
+    rig.ask("start")
+    rig.play_on(left + 1.0)
+    rig.ask("stop")
+    assert rig.ask("substitute", robot="cyan2").replies[0].accepted
+
+
+def test_another_card_does_not_shorten_a_suspension(new_rig):
+    rig = halted(new_rig(rules="friendly"))
+    rig.ask("red_card", robot="cyan2")
+    assert away(rig, "cyan2").left > rig.book.discipline.suspension + 1.0
+    rig.ask("double_yellow", robot="cyan2")
+    assert away(rig, "cyan2").why is OffField.SECOND_YELLOW
+    assert away(rig, "cyan2").left > rig.book.discipline.suspension + 1.0
+
+
+@pytest.mark.parametrize("name", ["yellow_card", "red_card", "double_yellow", "repair", "substitute", "park", "enter"])
+def test_a_side_that_is_not_the_robots_is_refused(rig, name):
+    halted(rig)
+    words = f"{name}: magenta1 does not play for cyan, which is named; leave the side out"
+    assert refused(rig.ask(name, CYAN, robot="magenta1")) == words
+    assert "does not play" not in rig.ask(name, MAGENTA, robot="magenta1").replies[0].reason
+
+
 def test_in_2016_no_robot_is_substituted(new_rig):
     assert "0 are allowed" in refused(halted(new_rig("paper")).ask("substitute", robot="cyan2"))
 
