@@ -170,12 +170,20 @@ class World:
             touches=tuple([names[place] for place in reversed(last_touches)]),
             level=tuple([names[place] for place in report.level]),
             kicked=None if report.kicked is None else names[report.kicked],
-            contacts=self._engine.robot_contacts,
+            contacts=self._contacts(report),
             impacts=impacts,
             ball_spin=self._engine.ball_spin(),
             obstacles=self._obstacles,
             kickers_ready=self._ball.kickers_ready(self.tick),
         )
+
+    def _contacts(self, report: BallReport) -> tuple[tuple[int, int], ...]:
+        """Pairs of robots that touched each other in the tick, also by the ball in the dribbler of one of them."""
+        contacts, holder = self._engine.robot_contacts, self._ball.holder
+        if holder is None or len(report.touches) < 2:
+            return contacts
+        through = {(min(holder, other), max(holder, other)) for other in report.touches if other != holder}
+        return tuple(sorted({*contacts, *through}))
 
     def _read_states(self) -> None:
         """Take over the states that the engine has read."""

@@ -1,4 +1,4 @@
-"""Charging with the real engine: who is called when robots run into each other."""
+"""Charging and pushing with the real engine: who is called when robots run into each other."""
 
 import pytest
 
@@ -66,3 +66,12 @@ def test_a_robot_that_knocks_its_teammate_into_an_opponent_is_called_in_its_plac
     rig.place(cyan2=(-3, 0, 0), cyan1=(0, 0, 0), magenta2=(gap, 0, 0), ball=(0, 5, 0))
     ((rule, robot, _),) = called(rig, cyan2=tell(vx=4.0))
     assert (rule, robot) == ("charging", "cyan2")
+
+
+@pytest.mark.parametrize("speed", [1.2, 1.5, 2.0, 3.0])
+def test_a_robot_that_pushes_with_the_ball_in_its_dribbler_is_called(speed):
+    rig = WorldRig(load_profile("msl"))
+    rig.place(cyan2=(-1.5, 0, 0), magenta2=(0, 0, 0), ball=(-1.14, 0, 0))
+    ((rule, robot, way),) = called(rig, cyan2=tell(vx=speed, dribble=True))
+    assert (rule, robot, way) == ("pushing", "cyan2", pytest.approx(0.5, abs=0.02))
+    assert rig.at("magenta2").x < 0.7

@@ -3,7 +3,7 @@
 from typing import Any
 
 from schemas.side import Side
-from schemas.soccer.game import EventKind, Phase
+from schemas.soccer.game import EventKind, Phase, Score
 from sim_host.soccer.referee.game.restart import Restart
 from sim_host.soccer.referee.procedures import advantage, discipline
 from sim_host.soccer.referee.ruling_draft import RulingDraft
@@ -60,10 +60,10 @@ def end_if_forfeited(draft: RulingDraft) -> bool:
 
 
 def forfeit(draft: RulingDraft, loser: Side, reason: str, **figures: Any) -> None:
-    """End the match: the other side wins, at least by the number of goals that the rule book sets."""
-    state, winner = draft.state, loser.opponent
-    goals = max(0, state.score.of(loser) + draft.book.people.forfeit_goals - state.score.of(winner))
-    draft.state = state._replace(score=state.score.plus(winner, goals))
+    """End the match: the other side wins by the goals that the rule book sets to none, or by more if it leads by more."""
+    state, winner, goals = draft.state, loser.opponent, draft.book.people.forfeit_goals
+    if state.score.of(winner) - state.score.of(loser) < goals:
+        draft.state = state._replace(score=Score().plus(winner, goals))
     draft.add_event(
         EventKind.FORFEIT, RULE, f"{loser} forfeits: {reason}", side=loser, score=draft.state.score, **figures
     )

@@ -265,12 +265,15 @@ def test_a_side_that_cannot_field_two_robots_forfeits_by_three_goals(rig, sent_o
         assert (event.side, event.measured, event.limit) == (CYAN, 1, 2)
 
 
-def test_a_forfeit_takes_nothing_from_a_greater_lead_and_turns_a_deficit_round(rig):
+@pytest.mark.parametrize(("goals", "score"), [((1, 0), (0, 3)), ((5, 1), (0, 3)), ((1, 2), (0, 3)), ((1, 5), (1, 5))])
+def test_a_forfeit_is_three_to_none_or_a_greater_lead_of_the_winner(rig, goals, score):
     rig.playing()
-    rig.ask("goal", CYAN)
+    for side, count in zip(Side, goals, strict=True):
+        for _ in range(count):
+            rig.ask("goal", side)
     for number in range(1, 5):
         rig.ask("red_card", robot=f"cyan{number}")
-    assert rig.state.score == Score(cyan=1, magenta=4)
+    assert rig.state.score == Score(cyan=score[0], magenta=score[1])
 
 
 def test_where_both_sides_have_as_few_robots_left_neither_wins(rig):
