@@ -123,7 +123,7 @@ class People:
     """How many robots a side has, and how they leave and return."""
 
     least_robots: Annotated[int, Quantity("1", "a side that cannot field as many robots forfeits; 0: never", 0, 11)]
-    forfeit_goals: Annotated[int, Quantity("1", "goals of the winner of a forfeited match, to none, unless it leads by more", 0, 20)]
+    forfeit_goals: Annotated[int, Quantity("1", "goals of a forfeit, to none; the winner keeps a greater lead", 0, 20)]
     repair: Annotated[float, Quantity("s", "time off the field of a robot in repair", 0, 600)]
     repairs_at_once: Annotated[int, Quantity("1", "robots of a side in repair at the same time", 0, 11)]
     substitutions: Annotated[int, Quantity("1", "substitutions of a side in one match", 0, 20)]

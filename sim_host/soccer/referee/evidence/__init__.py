@@ -73,18 +73,18 @@ def evidence_after(
     flight = before.flight
     if flight is not None or snapshot.kicked is not None:
         flight = flight_after(match, flight, snapshot)
+    shoves = before.shoves
+    if (shoves or snapshot.impacts) and match.book.fouls.charging != "off":
+        shoves = shoves_after(shoves, snapshot, dt)
     stays = before.stays
     if zones.deep or stays is not NO_STAYS:
-        stays = stays_after(match, stays, zones, snapshot, dt)
+        stays = stays_after(match, stays, zones, shoves, snapshot, dt)
     pushes = before.pushes
     if pushes or snapshot.contacts:
         pushes = pushes_after(match, pushes, snapshot, dt)
     outside = before.outside
     if outside or zones.outside:
         outside = outside_after(match, outside, zones, dt)
-    shoves = before.shoves
-    if (shoves or snapshot.impacts) and match.book.fouls.charging != "off":
-        shoves = shoves_after(shoves, snapshot, dt)
     progress = before.progress
     if in_play:
         progress = progress_after(match, progress, dribble, snapshot)

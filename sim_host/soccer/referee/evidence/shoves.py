@@ -10,6 +10,8 @@ from sim_host.soccer.referee.match_constants import MatchConstants
 
 MEMORY = 1.0
 """s for which an impact explains the motion of a robot; by then its drive has made more of it."""
+SHOVED = 0.5
+"""s for which an opponent's impact explains where a robot goes."""
 AGAIN = 0.2
 """s; two robots that touch again within this time have hit each other once."""
 
@@ -58,6 +60,19 @@ def own_speed(
         if driven < speed:
             speed, cause = driven, shove
     return speed, cause
+
+
+def is_pushed(match: MatchConstants, shoves: tuple[Shove, ...], snapshot: Snapshot, robot: int, spot: complex) -> bool:
+    """Whether an opponent pushes a robot toward a spot, x + iy in m, or has just hit it."""
+    sides, robots = match.roster.sides, snapshot.robots
+    for pair in snapshot.contacts:
+        if robot in pair and sides[pair[0]] is not sides[pair[1]]:
+            other = pair[0] if pair[1] == robot else pair[1]
+            if abs(complex(robots[other].x, robots[other].y) - spot) > abs(
+                complex(robots[robot].x, robots[robot].y) - spot
+            ):
+                return True
+    return any(one.robot == robot and one.age <= SHOVED and sides[one.by] is not sides[robot] for one in shoves)
 
 
 def _both(impact: Impact) -> tuple[Shove, Shove]:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from schemas.side import Side
 from sim_host.snapshot import Snapshot
 from sim_host.soccer.referee.areas import in_goal_area, in_penalty_area
+from sim_host.soccer.referee.evidence.shoves import Shove, is_pushed
 from sim_host.soccer.referee.evidence.zones import Zones
 from sim_host.soccer.referee.match_constants import MatchConstants
 
@@ -53,8 +54,10 @@ NO_STAYS = Stays()
 """No clock runs or runs down."""
 
 
-def stays_after(match: MatchConstants, before: Stays, zones: Zones, snapshot: Snapshot, dt: float) -> Stays:
-    """The stays after one more tick of `dt` in s."""
+def stays_after(
+    match: MatchConstants, before: Stays, zones: Zones, shoves: tuple[Shove, ...], snapshot: Snapshot, dt: float
+) -> Stays:
+    """The stays after one more tick of `dt` in s. No clock begins for a robot that an opponent pushes in."""
     pitch, robots, sides, areas = match.pitch, snapshot.robots, match.roster.sides, match.book.areas
     in_goal: list[tuple[int, int]] = []
     in_penalty: list[tuple[int, int]] = []
@@ -63,6 +66,8 @@ def stays_after(match: MatchConstants, before: Stays, zones: Zones, snapshot: Sn
         x, y = robots[index].x, robots[index].y
         end = 1 if x > 0 else -1
         if not in_penalty_area(pitch, end, x, y):
+            continue
+        if is_pushed(match, shoves, snapshot, index, complex(end * pitch.goal_line, 0.0)):
             continue
         in_penalty.append((index, end))
         crowds.setdefault((sides[index], end), []).append(index)

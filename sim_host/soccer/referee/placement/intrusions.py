@@ -5,14 +5,11 @@ excused as long as it retreats.
 """
 
 from sim_host.snapshot import Snapshot
+from sim_host.soccer.referee.evidence.shoves import is_pushed
 from sim_host.soccer.referee.game.referee_state import RefereeState
-from sim_host.soccer.referee.game.restart import Restart, Spot
 from sim_host.soccer.referee.game.set_piece import Intrusion, SetPiece
 from sim_host.soccer.referee.match_constants import MatchConstants
 from sim_host.soccer.referee.placement.positions import distance_violations
-
-SHOVED = 0.5
-"""s for which an opponent's impact explains that a robot comes nearer."""
 
 
 def intrusions_after(
@@ -22,10 +19,11 @@ def intrusions_after(
     found = distance_violations(match, state, piece.restart, snapshot)
     if not found and piece.intrusions == ():
         return piece
+    spot = complex(*piece.restart.spot)
     first_look, known = piece.intrusions is None, {one.robot: one for one in piece.intrusions or ()}
     now = []
     for robot, violation in found.items():
-        depth, pushed = violation.depth, _is_pushed(match, state, piece.restart, snapshot, robot)
+        depth, pushed = violation.depth, is_pushed(match, state.evidence.shoves, snapshot, robot, spot)
         old = known.get(robot)
         if old is None:
             now.append(Intrusion(robot, depth, depth, excused=first_look or pushed))
@@ -34,23 +32,3 @@ def intrusions_after(
         else:
             now.append(old._replace(depth=depth, least=min(old.least, depth), lasted=old.lasted + dt))
     return piece._replace(intrusions=tuple(now))
-
-
-def _is_pushed(match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot, robot: int) -> bool:
-    """Whether an opponent pushes a robot toward the spot, or has just hit it."""
-    sides, (x, y) = match.roster.sides, restart.spot
-    for pair in snapshot.contacts:
-        if robot in pair:
-            other = pair[0] if pair[1] == robot else pair[1]
-            behind = _squared(snapshot, other, (x, y)) > _squared(snapshot, robot, (x, y))
-            if behind and sides[other] is not sides[robot]:
-                return True
-    return any(
-        shove.robot == robot and shove.age <= SHOVED and sides[shove.by] is not sides[robot]
-        for shove in state.evidence.shoves
-    )
-
-
-def _squared(snapshot: Snapshot, robot: int, spot: Spot) -> float:
-    dx, dy = snapshot.robots[robot].x - spot[0], snapshot.robots[robot].y - spot[1]
-    return dx * dx + dy * dy

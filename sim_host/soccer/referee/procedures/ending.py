@@ -60,7 +60,7 @@ def end_if_forfeited(draft: RulingDraft) -> bool:
 
 
 def forfeit(draft: RulingDraft, loser: Side, reason: str, **figures: Any) -> None:
-    """End the match: the other side wins by the goals that the rule book sets to none, or by more if it leads by more."""
+    """End the match: the other side wins by the goals that the rule book sets to none, or keeps a greater lead."""
     state, winner, goals = draft.state, loser.opponent, draft.book.people.forfeit_goals
     if state.score.of(winner) - state.score.of(loser) < goals:
         draft.state = state._replace(score=Score().plus(winner, goals))

@@ -6,8 +6,9 @@ illegal attack. The opponents of the offender get a free kick.
 
 Section: play, illegal defence and attack.
 Measures: the time for which the centre of a robot has been inside the outer edges of the area's lines, or in the goal
-behind it. Outside, the time runs down, and does not begin anew.
-Not judged: whether it was pushed there; a hull that reaches over the line.
+behind it. Outside, the time runs down, and does not begin anew; so it does while an opponent pushes the robot in, and
+for half a second after an opponent has hit it.
+Not judged: a hull that reaches over the line.
 """
 
 from sim_host.soccer.referee.game.decision import Decision

@@ -6,8 +6,9 @@ The opponents of the offenders get a free kick.
 Section: play, illegal defence and attack.
 Measures: the time for which more robots of one side than allowed have had their centres in the area, even if the robots
 changed, and the time of each robot. Outside, both run down, and do not begin anew. Of too
-many robots, the one that came last is named first, of those that came together the one farthest from the ball.
-Not judged: whether a robot was pushed there.
+many robots, the one that came last is named first, of those that came together the one farthest from the ball. While an
+opponent pushes a robot in, and for half a second after an opponent has hit it, its time runs down.
+Not judged: how a robot that was pushed there leaves.
 """
 
 import math

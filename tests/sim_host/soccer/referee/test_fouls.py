@@ -333,6 +333,33 @@ def test_behind_the_goal_line_and_outside_the_goal_no_robot_is_in_an_area(new_ri
     assert EventKind.FOUL not in rig.kinds()
 
 
+def fouls(rig):
+    return [event.robot for event in rig.events if event.kind is EventKind.FOUL]
+
+
+@pytest.mark.parametrize(("from_behind", "called"), [(True, []), (False, ["cyan3"])])
+def test_a_robot_that_an_opponent_pushes_into_its_goal_area_is_not_called_for_it(new_rig, from_behind, called):
+    rig = new_rig().playing()
+    inside = -rig.pitch.goal_line + 0.5
+    rig.robots |= {"cyan3": (inside, 0.5), "magenta2": (inside + (0.5 if from_behind else -0.5), 0.5)}
+    for _ in range(round(0.6 / rig.dt)):
+        rig.tick(contacts=[("cyan3", "magenta2")])
+    assert fouls(rig) == called
+    rig.run(0.6)
+    assert fouls(rig) == ["cyan3"]  # nobody holds it there
+
+
+def test_robots_that_an_opponent_has_hit_are_not_too_many_in_a_penalty_area_for_a_moment(new_rig):
+    rig = new_rig(rules="msl").playing()
+    inside = -rig.pitch.goal_line + 1.5
+    rig.robots |= {"cyan3": (inside, 1.0), "cyan4": (inside, -1.0), "magenta2": (inside + 0.5, -1.0)}
+    rig.tick(motions={"magenta2": (0.0, -1.0, 0.0)}, impacts=[("cyan4", "magenta2")])
+    rig.run(0.4)
+    assert fouls(rig) == []
+    rig.run(0.6)
+    assert fouls(rig) == ["cyan4"]
+
+
 def test_two_robots_may_take_turns_in_a_penalty_area_but_not_be_too_many_together(new_rig):
     rig = new_rig().playing()
     inside, outside = (rig.pitch.goal_line - 1.5, 1.0), (5.0, 1.0)
