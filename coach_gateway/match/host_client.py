@@ -40,14 +40,17 @@ class HostClient:
         self._sequence = 0
         self._watch: OrderFollower | None = None
 
-    def ask(self, topic: Topic, request: Message) -> Any:
+    def ask(self, topic: Topic, request: Message, patience: float | None = None) -> Any:
         """The reply to a query; of a request that changes something, it has whether it was accepted, and why not.
+
+        It may take `patience` s of wall time; by default that of this client.
 
         Raises:
             TouchlineError: no host answers for this match, or on the topic of replays no replay.
         """
         try:
-            return self._bus.query(topic, request, self._patience).result(self._patience)
+            wait = self._patience if patience is None else patience
+            return self._bus.query(topic, request, wait).result(wait)
         except NoReplyError as error:
             raise TouchlineError(
                 f'match "{self._bus.match}": {error}; name the match that the host plays with --match'
@@ -71,13 +74,13 @@ class HostClient:
         except TouchlineError:
             return SIDES_ALONE
 
-    def act(self, action: RefereeAction) -> ActionReply:
-        """Ask the referee for an action; the reply has whether it was accepted, and why not.
+    def act(self, action: RefereeAction, patience: float | None = None) -> ActionReply:
+        """Ask the referee for an action; the reply, within `patience` s, has whether it was accepted, and why not.
 
         Raises:
             TouchlineError: no host answers for this match.
         """
-        reply: ActionReply = self.ask(ACTION, action if action.referee else self._named(action))
+        reply: ActionReply = self.ask(ACTION, action if action.referee else self._named(action), patience)
         return reply
 
     def referee_seat(self, operation: SeatOperation, source: str = "coach") -> SeatReply:

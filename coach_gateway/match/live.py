@@ -131,12 +131,20 @@ class LiveMatch:
 
         When it returns, `state` is at least as new as the action: the next request never rests on an older state.
         """
-        urgent = action.action is ActionName.STOP or action.source == REFBOX
-        threads = self._urgent if urgent else self._threads
         try:
-            reply = await self._in_thread(lambda: self._client.act(action), threads)
+            return await self.act_in_time(action)
         except TouchlineError as error:
             return ActionReply(accepted=False, reason=str(error))
+
+    async def act_in_time(self, action: RefereeAction, patience: float | None = None) -> ActionReply:
+        """As `act`, for a caller that repeats what no host has answered within `patience` s of wall time.
+
+        Raises:
+            TouchlineError: no reply.
+        """
+        urgent = action.action is ActionName.STOP or action.source == REFBOX
+        threads = self._urgent if urgent else self._threads
+        reply = await self._in_thread(lambda: self._client.act(action, patience), threads)
         if reply.tick is not None:
             await self._catch_up(reply.tick)
         return reply

@@ -26,7 +26,7 @@ from support.in_process_bus import SharedState
 from support.messages import make_event, make_robot, make_world
 
 MATCH = "friendly"
-Answer = Callable[[Any], Message]
+Answer = Callable[[Any], Message | None]
 
 
 class FakeHost:
@@ -53,7 +53,8 @@ class FakeHost:
         self.state = GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
         self.asked: list[Any] = []
         """Requests, in order, without those for the setup."""
-        self.answer: Callable[[RefereeAction], ActionReply] = lambda _: ActionReply(accepted=True)
+        self.answer: Callable[[RefereeAction], ActionReply | None] = lambda _: ActionReply(accepted=True)
+        """The reply to an action; None for none at all."""
         self.hands, self.orders = self.bus.subscribe(MANUAL), self.bus.subscribe(ORDER)
         self._given: list[tuple[Side, CoachOrder]] = []
         self._publishers: dict[str, Publisher] = {}
@@ -92,7 +93,9 @@ class FakeHost:
             return
         request = query.message()
         self.asked.append(request)
-        query.reply(self._answers[query.key](request))
+        answer = self._answers[query.key](request)
+        if answer is not None:
+            query.reply(answer)
 
     @property
     def given_orders(self) -> list[tuple[Side, CoachOrder]]:

@@ -20,9 +20,10 @@ from coach_gateway.soccer.refbox.framing import Framer
 from coach_gateway.soccer.refbox.own_world_state import own_world_state
 from coach_gateway.soccer.refbox.signal_queue import BoxSignal, SignalQueue
 from coach_gateway.timing import BOX_FIRST_PAUSE_S, BOX_PERIOD_S, SILENCE_S, START_AGAIN_S, UNREAD_S
+from runtime.process.timing import GIVE_UP_S
 from schemas.errors import TouchlineError
 from schemas.messages.coach import CoachMode
-from schemas.messages.soccer.game import RefereeAction
+from schemas.messages.soccer.game import ActionReply, RefereeAction
 from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.messages.soccer.league.robot_numbers import numbers_of
 from schemas.messages.soccer.league.signals import BY_CHARACTER, Signal
@@ -208,10 +209,22 @@ class RefBoxClient:
                 await self._ask(action)
 
     async def _ask(self, action: RefereeAction) -> None:
-        reply = await self._live.act(self._named(action))
+        """Ask for an action until the host has replied: the box does not repeat it, and START must not overtake it."""
+        while (reply := await self._reply_to(action)) is None:
+            self.counts["repeated"] += 1
+            about = " ".join(filter(None, (action.action, action.side, action.robot)))
+            self._note_refusal(f"{about}: no reply of the host; it is repeated, and later signals wait for it")
+            await asyncio.sleep(START_AGAIN_S)
         self.counts["forwarded" if reply.accepted else "refused"] += 1
         if not reply.accepted:
             self._note_refusal(reply.reason)
+
+    async def _reply_to(self, action: RefereeAction) -> ActionReply | None:
+        """The reply; None without one. A host that is only slow replies within the patience, and acts once."""
+        try:
+            return await self._live.act_in_time(self._named(action), GIVE_UP_S)
+        except TouchlineError:
+            return None
 
     def _named(self, action: RefereeAction) -> RefereeAction:
         """The action with the name of the box, which is one referee for all base stations that are connected to it."""

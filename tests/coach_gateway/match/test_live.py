@@ -69,8 +69,8 @@ async def test_a_stop_waits_for_no_other_request() -> None:
     async with opened() as bench:
         held = threading.Event()
         act = bench.live._client.act
-        bench.live._client.act = lambda action: (
-            held.wait(30.0) and act(action) if action.action is ActionName.GOAL else act(action)
+        bench.live._client.act = lambda action, *patience: (
+            held.wait(30.0) and act(action) if action.action is ActionName.GOAL else act(action, *patience)
         )
         goals = [asyncio.create_task(bench.live.act(RefereeAction(action=ActionName.GOAL))) for _ in range(50)]
         await asyncio.sleep(0)

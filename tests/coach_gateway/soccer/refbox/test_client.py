@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.soccer.refbox import client as client_module
 from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.timing import BOX_PERIOD_S
 from schemas.messages.coach import CoachMode
@@ -93,6 +94,22 @@ async def test_start_lets_the_game_run_though_our_referee_takes_it_in_steps() ->
         await asyncio.sleep(0.2)
         assert asked(bench) == ["start", "start", "start"]
         assert not any("put back" in line for line in bench.logged)
+
+
+async def test_a_command_without_a_reply_is_repeated_and_later_ones_wait_for_it(monkeypatch) -> None:
+    """The box sends it once; a START that overtook a repair would let the game run with the broken robot."""
+    monkeypatch.setattr(client_module, "GIVE_UP_S", 0.1)
+    async with connected() as (bench, box, client):
+        bench.stage.say(phase=Phase.STOPPED)
+        replies = [None, None, ActionReply(accepted=True), ActionReply(accepted=True)]
+        bench.stage.answer = lambda _: replies.pop(0)
+        box.say("REPAIR", MAGENTA_AT, robotID=3)
+        box.say("KICKOFF", CYAN_AT)
+        await until(lambda: len(bench.stage.asked) == 4)
+        assert asked(bench) == ["repair magenta3"] * 3 + ["kick_off cyan"]
+        await until(lambda: client.counts["forwarded"] == 2)
+        assert client.counts["repeated"] == 2
+        assert any("repair magenta3: no reply of the host" in line for line in bench.logged)
 
 
 async def test_a_card_right_behind_start_does_not_keep_the_game_from_running() -> None:
