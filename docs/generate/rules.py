@@ -44,6 +44,7 @@ DECIDED_BY_PEOPLE = (
         "Goal crash",
         "A robot that runs into a goal frame is not called (a yellow card in the simulation league of 2020).",
     ),
+    ("Obstruction", "A robot that stands in the way of an opponent without the ball is not called (law 12)."),
     ("Delay", "A team that delays the game on purpose is not called; a ball without progress is dropped."),
     ("Handling", "The depth of the ball in a hull is fixed by the robot's model, and not judged."),
     ("Size, weight, markers, radio", "The profile defines the robots, and the host enforces the radio's budget."),

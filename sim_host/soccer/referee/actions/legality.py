@@ -52,6 +52,11 @@ def named_robot(action: RefereeAction) -> str:
     return action.robot
 
 
+def is_away(draft: RulingDraft, robot: str) -> bool:
+    """Whether a robot is off the field."""
+    return robot in draft.state.participation.absences
+
+
 def off_field(draft: RulingDraft, action: RefereeAction) -> str | None:
     """The robot must be on the field."""
     away = draft.state.participation.absences.get(named_robot(action))

@@ -2,7 +2,7 @@
 
 from schemas.messages.soccer.game import RefereeAction
 from schemas.soccer.game import OffField
-from sim_host.soccer.referee.actions.legality import named_robot, no_match, no_robot, off_field
+from sim_host.soccer.referee.actions.legality import is_away, named_robot, no_match, no_robot, off_field
 from sim_host.soccer.referee.game.participation import Absence
 from sim_host.soccer.referee.procedures import discipline
 from sim_host.soccer.referee.ruling_draft import RulingDraft
@@ -19,9 +19,12 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
 
 
 def _too_many(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """Only a limited number of robots of a side may be in repair at the same time."""
+    """Only a limited number of robots of a side may be in repair at the same time, and never its last on the field."""
     roster, limit = draft.match.roster, draft.book.people.repairs_at_once
     side = roster.side_of(named_robot(action))
+    on_field = [name for name in roster.names if roster.side_of(name) is side and not is_away(draft, name)]
+    if on_field == [action.robot]:
+        return f"{action.robot} is the last robot of {side} on the field"
     repaired = [
         name
         for name, away in draft.state.participation.absences.items()

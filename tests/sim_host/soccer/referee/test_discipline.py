@@ -145,6 +145,14 @@ def test_so_many_robots_of_a_side_are_in_repair_at_once(rig):
     assert "already" in refused(rig.ask("repair", robot="cyan2"))
 
 
+def test_the_last_robot_of_a_side_on_the_field_is_not_repaired(new_rig):
+    rig = halted(new_rig(size=3))
+    for name in ("cyan1", "cyan2"):
+        assert rig.ask("repair", robot=name).replies[0].accepted
+    assert "cyan3 is the last robot of cyan on the field" in refused(rig.ask("repair", robot="cyan3"))
+    assert rig.ask("repair", robot="magenta2").replies[0].accepted
+
+
 def test_substitutions_are_counted_and_made_in_stoppages(new_rig):
     rig = new_rig()
     rig.playing()
