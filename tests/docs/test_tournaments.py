@@ -24,7 +24,7 @@ def test_the_cup_that_ships_is_a_double_round_robin_of_twelve_matches_with_valid
 
 
 def test_the_cup_file_of_the_document_loads_and_shows_every_key(root: Path, tmp_path: Path) -> None:
-    (example,) = re.findall(r"```toml\n(.*?)```", document(root), re.DOTALL)
+    example, _ = re.findall(r"```toml\n(.*?)```", document(root), re.DOTALL)
     more = "".join(f'[[teams]]\nname = "{name}"\nbrain = "simple"\n' for name in "ABC")
     (tmp_path / "autumn.toml").write_text(f"{example}\n{more}")
     cup = load_cup(tmp_path / "autumn.toml")
@@ -34,6 +34,15 @@ def test_the_cup_file_of_the_document_loads_and_shows_every_key(root: Path, tmp_
     asked = {key for model in (CupConfig, FormatConfig, TableConfig) for key in model.model_fields}
     asked |= set(TeamEntry.model_fields) - {"command", "stdio", "size"}
     assert asked - {"until_significant"} <= words
+
+
+def test_the_rule_book_of_the_document_shortens_the_breaks_of_a_cup(root: Path, tmp_path: Path) -> None:
+    _, rules = re.findall(r"```toml\n(.*?)```", document(root), re.DOTALL)
+    (tmp_path / "short.toml").write_text(rules)
+    cup = load_cup(root / "matches" / "cup.toml")
+    short = cup.model_copy(update={"match": {**cup.match, "rules": str(tmp_path / "short.toml")}})
+    long_, short_ = (one.match_config().load_rule_book().periods for one in (cup, short))
+    assert [one.half_time_break + 2 * one.parking for one in (long_, short_)] == [60.0, 2.0]
 
 
 def test_orders_and_criteria_are_those_of_the_program(root: Path) -> None:

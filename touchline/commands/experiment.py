@@ -76,7 +76,7 @@ def run(
     from touchline.matches.study.cells import cells_of
     from touchline.matches.study.comparisons import answers, compared, unread_factors
     from touchline.matches.study.run_study import run_study
-    from touchline.matches.study.sentences import sentence_of, sentence_of_unread
+    from touchline.matches.study.sentences import sentence_of, sentence_of_missing, sentence_of_unread
     from touchline.matches.study.study_config import load_study
     from touchline.matches.study.study_folder import REPORT, read_study
     from touchline.matches.study.study_plan import StudyPlan
@@ -101,7 +101,8 @@ def run(
         raise typer.Exit(128 + signal.SIGINT)
     failed = result.failed
     stored = read_study(folder)
-    sentences = [sentence_of_unread(key) for key in unread_factors(plan, stored.table)]
+    sentences = [sentence_of_missing(name) for name in study.responses if name not in stored.table]
+    sentences += [sentence_of_unread(key) for key in unread_factors(plan, stored.table)]
     sentences += [
         sentence_of(one, name) for name, groups in compared(plan, stored.table).items() for one in answers(groups)
     ]

@@ -1,6 +1,7 @@
 """The plots of a report, as SVG to be placed in a page."""
 
 import io
+import logging
 import re
 import textwrap
 from collections.abc import Sequence
@@ -17,6 +18,8 @@ from touchline.matches.statistics.paired import Comparison, estimate_of
 from touchline.matches.study.cells import Cell, level_text
 from touchline.matches.study.match_figures import DIFFERENCE
 from touchline.matches.study.sentences import response_text
+
+logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)  # it says that it builds a cache of fonts
 
 _SIZE = (4.2, 3.0)
 """Width and height in inches: small, so that the texts can be read where a phone scales the plot down."""

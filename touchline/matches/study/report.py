@@ -11,7 +11,14 @@ from touchline.matches.statistics.paired import estimate_of, seed_means, widest
 from touchline.matches.study.comparisons import ComparisonGroup, answers, compared, unread_factors
 from touchline.matches.study.digests import as_text
 from touchline.matches.study.plots import plot_of_comparisons, plot_of_means
-from touchline.matches.study.sentences import UNKNOWN, number, response_text, sentence_of, sentence_of_unread
+from touchline.matches.study.sentences import (
+    UNKNOWN,
+    number,
+    response_text,
+    sentence_of,
+    sentence_of_missing,
+    sentence_of_unread,
+)
 from touchline.matches.study.study_plan import StudyPlan
 
 
@@ -33,7 +40,7 @@ def report_of(
         seeds=len(seeds),
         interval=_interval_text(plan, table),
         failed=failed,
-        missing=[name for name in study.responses if name not in table],
+        missing=[sentence_of_missing(name) for name in study.responses if name not in table],
         unread=map(sentence_of_unread, unread_factors(plan, table)),
         answers=[(one.is_found, sentence_of(one, name)) for name in groups for one in answers(groups[name])],
         responses=[_response(plan, table, name, groups[name]) for name in groups],

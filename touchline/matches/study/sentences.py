@@ -36,6 +36,11 @@ def sentence_of_unread(key: str) -> str:
     return f"{key}: all matches are equal to the byte at each of its levels; does the team read it?"
 
 
+def sentence_of_missing(response: str) -> str:
+    """That no match has a figure of this name."""
+    return f"No match has a figure {response}; the columns of the table of results are its names."
+
+
 def response_text(response: str) -> str:
     """The name of a response as words."""
     text = response.removesuffix(DIFFERENCE)

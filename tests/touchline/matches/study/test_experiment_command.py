@@ -1,4 +1,5 @@
 import json
+import logging
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,18 @@ def test_a_study_file_alone_runs_the_study_and_its_folder_is_reproduced(tmp_path
     status, text = run("reproduce", folder, "--jobs", "1")
     assert status == 0
     assert "the table of results is the same to the byte" in text
+
+
+def test_a_response_that_no_match_has_is_named_where_the_answers_are(tmp_path: Path) -> None:
+    (tmp_path / "try.toml").write_text(STUDY.replace('["distance"]', '["distance", "goal"]'))
+    status, text = run(tmp_path / "try.toml", "--into", tmp_path / "out", "--jobs", "1")
+    assert status == 0
+    assert "No match has a figure goal; the columns of the table of results are its names." in text.splitlines()
+
+
+def test_matplotlib_does_not_say_that_it_builds_a_cache_of_fonts() -> None:
+    pytest.importorskip("touchline.matches.study.plots")
+    assert not logging.getLogger("matplotlib.font_manager").isEnabledFor(logging.WARNING)
 
 
 def test_json_has_a_line_for_each_match_on_stderr_and_the_summary_on_stdout(tmp_path: Path) -> None:

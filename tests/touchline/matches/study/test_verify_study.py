@@ -77,6 +77,14 @@ def test_a_study_is_verified_from_its_recordings_without_its_teams(run: Run, hom
     assert any("its configuration is not that of the plan" in fault for fault in faults)
 
 
+def test_a_sample_reads_no_recording_of_another_match(run: Run, home: Path) -> None:
+    run(f"record = true\n{ONE_CELL}")
+    for path in (home / "recordings").glob("*.mcap"):
+        path.write_bytes(path.read_bytes()[:-1])
+    assert verdict_of(home, 0).faults == []
+    assert sum("was changed after the study" in fault for fault in verdict_of(home, 1).faults) == 1
+
+
 def test_a_study_that_is_older_than_a_figure_is_reproduced_without_it(played: Path, home: Path) -> None:
     table = pd.read_csv(home / "results.csv").drop(columns="fouls")
     (home / "results.csv").write_bytes(study_folder.csv_bytes(table))
