@@ -53,10 +53,7 @@ export function listenForKeys({ match, buttons, manualControl, drag, replay, lay
     }
     if (event.key === "Enter" && event.target.type === "checkbox") event.target.click();
     if (isTyping(event.target)) return;
-    if (manualControl.key(event, true)) {
-      event.preventDefault();
-      return;
-    }
+    if (manualControl.key(event, true)) return event.preventDefault();
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const winds = !match.live && match.may("replay") && event.target.type !== "range";
     const does = typed[event.key] ?? (winds ? replayed[event.key] : undefined);

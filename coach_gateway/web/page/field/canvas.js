@@ -34,14 +34,10 @@ export class PitchCanvas {
   #readings = new Readings();
   #second = 0;
   #inSecond = 0;
-  #ground;
-  #moving;
   #ends = "";
 
   constructor(ground, moving, match, layers, selection) {
-    this.#ground = ground;
-    this.#moving = moving;
-    Object.assign(this, { match, layers, selection });
+    Object.assign(this, { ground, moving, match, layers, selection });
     const draw = (now) => {
       this.#draw(now);
       requestAnimationFrame(draw);
@@ -54,7 +50,7 @@ export class PitchCanvas {
     if (match.setup === null) return;
     this.#fit();
     this.world = match.frames.at(performance.now());
-    const context = this.#moving.getContext("2d");
+    const context = this.moving.getContext("2d");
     context.setTransform(this.projection.density, 0, 0, this.projection.density, 0, 0);
     context.clearRect(0, 0, this.projection.width, this.projection.height);
     if (this.world !== null) this.#drawWorld(context, this.world);
@@ -65,14 +61,14 @@ export class PitchCanvas {
   #fit() {
     const { match, projection } = this;
     const { pitch, teams } = match.setup, sign = signOf(this.layers.seenFrom, match);
-    const changed = projection.fit(pitch, this.#moving.parentElement.clientWidth, undefined, sign);
+    const changed = projection.fit(pitch, this.moving.parentElement.clientWidth, undefined, sign);
     const defends = match.attack("cyan") > 0 ? ["cyan", "magenta"] : ["magenta", "cyan"];
     const ends = `${defends} ${teams.cyan.name} ${teams.magenta.name}`;
     if (!changed && ends === this.#ends) return;
     this.#ends = ends;
-    projection.resize(this.#moving);
+    projection.resize(this.moving);
     document.documentElement.style.setProperty("--ratio", String(projection.ratio));
-    const context = projection.resize(this.#ground);
+    const context = projection.resize(this.ground);
     drawGrass(context, projection, pitch, match.free !== null);
     if (match.free) return drawFloor(context, projection, pitch, match.free.zones);
     fillGoals(context, projection, pitch, defends);

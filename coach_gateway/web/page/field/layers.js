@@ -2,17 +2,12 @@
 
 import { byId, choice, element, offer, show } from "../shared/elements.js";
 import { keep, kept } from "../parts/storage.js";
+import { capitalized } from "../parts/text.js";
 import { TRAILS } from "./trails.js";
 import { SEEN_FROM } from "./seen_from.js";
 
 const KEY = "touchline.layers";
-const SWITCHES = [
-  ["roles", "Roles", true],
-  ["velocities", "Velocities", true],
-  ["passes", "Passes", true],
-  ["distances", "Distances", true],
-  ["obstacles", "Obstacles", true],
-];
+const SWITCHES = ["roles", "velocities", "passes", "distances", "obstacles"];
 
 export class Layers {
   trails = "short";
@@ -21,7 +16,7 @@ export class Layers {
   seenFrom = "fixed";
 
   constructor(match) {
-    for (const [name, , initial] of SWITCHES) this[name] = initial;
+    for (const name of SWITCHES) this[name] = true;
     Object.assign(this, JSON.parse(kept("localStorage", KEY) ?? "{}"));
     this.#lay(match);
   }
@@ -33,10 +28,10 @@ export class Layers {
   }
 
   #lay(match) {
-    const boxes = SWITCHES.map(([name, text]) => {
+    const boxes = SWITCHES.map((name) => {
       const box = element("input", { type: "checkbox", id: `layer-${name}`, on: { change: () => this.#set(name, box.checked) } });
       box.checked = this[name];
-      return element("label", { class: "switch" }, box, text);
+      return element("label", { class: "switch" }, box, capitalized(name));
     });
     byId("layers").append(
       this.#chosen("seenFrom", "Field", SEEN_FROM), this.#chosen("beliefs", "Believed", [["none", "nothing"]]),
@@ -77,7 +72,7 @@ export class Layers {
     const input = byId(`layer-${name}`);
     if (input.type === "checkbox") input.checked = value;
     else input.value = value;
-    const all = Object.fromEntries([...SWITCHES.map(([word]) => word), "trails", "seenFrom"].map((word) => [word, this[word]]));
+    const all = Object.fromEntries([...SWITCHES, "trails", "seenFrom"].map((word) => [word, this[word]]));
     keep("localStorage", KEY, JSON.stringify(all));
   }
 }

@@ -40,9 +40,8 @@ export class Scoreboard {
     const before = this.#score;
     this.#score = state?.score ?? null;
     if (before === null || this.#score === null) return;
+    if (["cyan", "magenta"].every((side) => this.#score[side] === before[side])) return;
     const scored = ["cyan", "magenta"].filter((side) => this.#score[side] > before[side]);
-    const changed = scored.length > 0 || ["cyan", "magenta"].some((side) => this.#score[side] < before[side]);
-    if (!changed) return;
     const what = scored.length ? `Goal for ${scored.map((side) => teams[side].name).join(" and ")}.` : "The score is corrected.";
     setText(byId("announcer"), `${what} ${teams.cyan.name} ${this.#score.cyan}, ${teams.magenta.name} ${this.#score.magenta}.`);
   }
