@@ -24,7 +24,6 @@ from touchline.commands.cli.option_groups import FieldsOf, from_options, with_op
 
 if TYPE_CHECKING:
     from touchline.launch.processes.programs import MatchPlan, Page
-    from touchline.launch.result import MatchResult
 
 
 @with_option_groups
@@ -175,19 +174,15 @@ def _play(plan: "MatchPlan", clock: Clock, *, quiet: bool) -> None:
         left = plan.recording is not None and plan.recording.exists()
         typer.echo(f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True)
         raise typer.Exit(128 + stopped.number) from None
-    _print_result(result, json=quiet)
+    if quiet:
+        typer.echo(result.json())
+    else:
+        from touchline.launch.terminal.console import console
+
+        console().print(result.render())
     if plan.page is not None:
         from touchline.launch.match_page import result_parts
 
         run.stay(result_parts(plan))
     if faults := [fault for fault in (disturbance(result.missed), result.recording.fault) if fault]:
         raise MatchFailedError("\ntouchline: ".join(faults))
-
-
-def _print_result(result: "MatchResult", *, json: bool) -> None:
-    if json:
-        typer.echo(result.json())
-        return
-    from touchline.launch.terminal.console import console
-
-    console().print(result.render())

@@ -40,7 +40,7 @@ def list_all(
 
     Example: touchline parameters list --json | jq '.[] | select(.live).name'
     """
-    _show(_query(connection, ParametersRequest(operation=ParameterOperation.LIST)), json=json)
+    _show(_query(connection, operation=ParameterOperation.LIST), json=json)
 
 
 @app.command("get")
@@ -55,7 +55,7 @@ def get(
 
     Example: touchline parameters get ball radio.loss
     """
-    _show(_query(connection, _request(operation=ParameterOperation.GET, names=names)), json=json)
+    _show(_query(connection, operation=ParameterOperation.GET, names=names), json=json)
 
 
 @app.command("set")
@@ -70,9 +70,7 @@ def set_values(
 
     Example: touchline parameters set radio.loss=0.3 noise.preset=perfect
     """
-    _show(
-        _query(connection, _request(operation=ParameterOperation.SET, values=dict(map(_setting, settings)))), json=json
-    )
+    _show(_query(connection, operation=ParameterOperation.SET, values=dict(map(_setting, settings))), json=json)
 
 
 @app.command("reset")
@@ -89,7 +87,7 @@ def reset(
 
     Example: touchline parameters reset ball
     """
-    _show(_query(connection, _request(operation=ParameterOperation.RESET, names=names or [])), json=json)
+    _show(_query(connection, operation=ParameterOperation.RESET, names=names or []), json=json)
 
 
 def _setting(argument: str) -> tuple[str, Value]:
@@ -110,16 +108,13 @@ def _value(text: str) -> Value:
     return value if are_numbers and all(math.isfinite(item) for item in items) else text
 
 
-def _request(**content: object) -> ParametersRequest:
+def _query(connection: ClientSettings, **content: object) -> ParametersReply:
     try:
-        return validated(ParametersRequest, content)
+        request = validated(ParametersRequest, content)
     except FaultError as error:
         raise TouchlineError(
             f"{error.fault.value!r} is no parameter; touchline parameters list shows all of them"
         ) from None
-
-
-def _query(connection: ClientSettings, request: ParametersRequest) -> ParametersReply:
     with bus_client(connection, Account.OPERATOR) as bus:
         reply: ParametersReply = HostClient(bus).ask(PARAMETERS, request)
     if not reply.accepted:

@@ -153,21 +153,12 @@ def reset(
 
 
 def _send(connection: ClientSettings, **content: Any) -> None:
-    request = _request(**content)
+    try:
+        request = validated(SceneRequest, content)
+    except FaultError as error:
+        raise table_error(error.fault, f"scene {content['operation']}", REMEDIES) from None
     with bus_client(connection, Account.OPERATOR) as bus:
         reply: SceneReply = HostClient(bus).ask(SCENE, request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")
     typer.echo(f"{request.operation.value} accepted, episode {reply.episode}")
-
-
-def _request(**content: Any) -> SceneRequest:
-    """The request for these command-line values.
-
-    Raises:
-        TouchlineError: a value is invalid.
-    """
-    try:
-        return validated(SceneRequest, content)
-    except FaultError as error:
-        raise table_error(error.fault, f"scene {content['operation']}", REMEDIES) from None
