@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from recordings.container.manifest import KeyCount
 from recordings.reading.command_check import CommandCheck
 from recordings.reading.record_order import RecordOrder
 from recordings.reading.recording import RecordedMessage, Recording
@@ -46,7 +45,8 @@ def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
     driven = manually_driven(recording)
     checked = {key.split("/")[1]: key for key in keys if key.split("/")[1] not in driven}
     counts = recording.result.keys if recording.result is not None else {}
-    without_loss = [key.split("/")[1] for key in keys if _none_missing(counts.get(key))]
+    complete = [key for key, one in counts.items() if one.lost == one.missed_before_start == one.restarts == 0]
+    without_loss = [key.split("/")[1] for key in keys if key in complete]
     return CommandCheck(checked, without_loss, segment.answers_from)
 
 
@@ -55,10 +55,6 @@ def manually_driven(recording: Recording) -> set[str]:
     events: Iterator[GameEvent] = (event for _, event in recording.decoded(EVENT.key))
     changes = (event for event in events if event.kind is EventKind.AGENT and event.rule == "manual_control")
     return {event.robot for event in changes if event.robot is not None}
-
-
-def _none_missing(count: KeyCount | None) -> bool:
-    return count is not None and count.lost == count.missed_before_start == count.restarts == 0
 
 
 def tick_records(

@@ -16,7 +16,7 @@ from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatches
 from schemas.recovery_window import KEPT_BATCHES
 from schemas.topic import Party
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES, SIGHT, recorded_topic
-from schemas.wire.message import BadMessageError
+from schemas.wire.message import BadMessageError, valid
 
 _FEWER = 8
 """A reply of 512 KiB has some 30 batches: the third request, after two seconds, is for a few."""
@@ -186,9 +186,8 @@ class BatchReader:
         self._next_request_at = now if self._sequence.expected > before else now + REPEAT_S
 
     def _add_reply(self, payload: bytes) -> None:
-        try:
-            reply = RecordBatchesReply.decode(payload)
-        except BadMessageError:
+        reply = valid(RecordBatchesReply.decode, payload)
+        if reply is None:
             self.unreadable += 1
             return
         first, sequence = max(self._requested_first, reply.oldest), self._sequence
@@ -201,11 +200,9 @@ class BatchReader:
                     sequence.add(batch)
 
     def _batch(self, payload: bytes) -> RecordBatch | None:
-        try:
-            return RecordBatch.decode(payload)
-        except BadMessageError:
-            self.unreadable += 1
-            return None
+        batch: RecordBatch | None = valid(RecordBatch.decode, payload)
+        self.unreadable += batch is None
+        return batch
 
 
 class Unbatcher:

@@ -39,11 +39,15 @@ class MatchProgress:
     def update(self, received: ReceivedMessage) -> None:
         """Process a message on a followed key."""
         if received.topic is APPLIED:
-            self._on_applied(received)
+            self._newest_applied = received
+            if changes_in(received.payload).robots is not None:
+                applied: Applied | None = self.read(received)
+                self.roster_changed(applied.robots or [] if applied is not None else [])
         elif received.topic is STATE:
             self.state = self.read(received) or self.state
         else:
-            self._on_event(received)
+            event: GameEvent | None = self.read(received)
+            self.goals += event is not None and event.kind is EventKind.GOAL
 
     def catch_up(self) -> None:
         """Decode the newest inputs: once for many ticks, for speed."""
@@ -54,16 +58,11 @@ class MatchProgress:
     def result(self, ended: EndReason, finished: str, keys: dict[str, KeyCount]) -> Result:
         """The result of a recording with these counts that ends now; `finished` is the wall time."""
         state, applied = self.state, self.applied
-        result = Result(
-            ended=ended,
-            finished=finished,
-            phase=state.phase if state is not None else None,
-            score=state.score if state is not None else None,
-            value=state.value if state is not None else None,
-            clock=state.clock if state is not None else 0.0,
-            tick=applied.tick if applied is not None else -1,
-            time=applied.time if applied is not None else 0.0,
-        )
+        result = Result(ended=ended, finished=finished)
+        if state is not None:
+            result = result.replace(phase=state.phase, score=state.score, value=state.value, clock=state.clock)
+        if applied is not None:
+            result = result.replace(tick=applied.tick, time=applied.time)
         return result.counted(keys)
 
     def read(self, received: ReceivedMessage) -> Any:
@@ -73,14 +72,3 @@ class MatchProgress:
         except BadMessageError:
             self.unreadable[received.key] += 1
             return None
-
-    def _on_applied(self, received: ReceivedMessage) -> None:
-        self._newest_applied = received
-        if changes_in(received.payload).robots is not None:
-            applied: Applied | None = self.read(received)
-            self.roster_changed(applied.robots or [] if applied is not None else [])
-
-    def _on_event(self, received: ReceivedMessage) -> None:
-        event: GameEvent | None = self.read(received)
-        if event is not None and event.kind is EventKind.GOAL:
-            self.goals += 1

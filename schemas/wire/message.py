@@ -47,10 +47,10 @@ class BadMessageError(ValueError):
     """A payload that is not a valid message; the text is one sentence with the reason."""
 
 
-def valid(decode: Callable[[], Any]) -> Any:
-    """The message that `decode` returns; None if the payload is not valid."""
+def valid(decode: Callable[..., Any], *payload: bytes) -> Any:
+    """The message that `decode` returns of a payload, by default of its own; None if that is not valid."""
     try:
-        return decode()
+        return decode(*payload)
     except BadMessageError:
         return None
 
