@@ -55,31 +55,24 @@ class Membership:
             TouchlineError: the credentials are none of a team, the host refuses, or it does not reply for `patience` s
                 of wall time.
         """
-        self._check_account()
-        if not self._is_declared:
-            self._declare(setup)
-            self._is_declared = True
-        if not self.fits(setup) and self._bus.account is not None and self._bus.account.side is not None:
-            self._key = setup.teams[self._bus.account.side].robots[0]
-        if setup.claims:
-            reply = self._ask(patience)
-            if not reply.accepted:
-                raise TouchlineError(f"{self._claim.robot}: refused by the host: {reply.reason}")
-
-    def _check_account(self) -> None:
         account = self._bus.account
         if account is not None and account not in (Account.CYAN, Account.MAGENTA):
             raise TouchlineError(
                 f"{self._claim.robot}: these are the credentials of {account.value}; robots join with those of their "
                 f"side, {Account.CYAN.value}.json or {Account.MAGENTA.value}.json"
             )
-
-    def _declare(self, setup: Setup) -> None:
-        """Declare the liveliness token; a replay, which has no claims, knows those of robots only."""
+        if not self._is_declared:
+            if setup.claims:
+                self._bus.declare_alive(PresenceKind.SESSION, self._claim.session)
+            else:  # a replay, which knows the tokens of robots only
+                self._bus.declare_alive(PresenceKind.AGENT, self._claim.robot)
+            self._is_declared = True
+        if not self.fits(setup) and account is not None and account.side is not None:
+            self._key = setup.teams[account.side].robots[0]
         if setup.claims:
-            self._bus.declare_alive(PresenceKind.SESSION, self._claim.session)
-        else:
-            self._bus.declare_alive(PresenceKind.AGENT, self._claim.robot)
+            reply = self._ask(patience)
+            if not reply.accepted:
+                raise TouchlineError(f"{self._claim.robot}: refused by the host: {reply.reason}")
 
     def _ask(self, patience: float) -> AgentClaimReply:
         clock = self._bus.clock

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from schemas.config.sections import Pitch
 from schemas.frames import rotate
-from sim_host.physics.pitch import Box, goals
+from sim_host.physics.pitch import goals
 
 MAX_OVERLAP = 0.02
 """m; the engine pushes bodies apart gently from this depth, and a held ball lies a little inside the hull."""
@@ -47,11 +47,10 @@ Body = Disc | Block
 def goal_blocks(pitch: Pitch) -> list[Block]:
     """Frames and nets of both goals."""
     boxes = [box for goal in goals(pitch) for box in (*goal.frame, *goal.net)]
-    return [_block(box) for box in boxes]
-
-
-def _block(box: Box) -> Block:
-    return Block("a goal", box.x, box.y, 0.0, box.half_x, box.half_y, box.z - box.half_z, box.z + box.half_z)
+    return [
+        Block("a goal", box.x, box.y, 0.0, box.half_x, box.half_y, box.z - box.half_z, box.z + box.half_z)
+        for box in boxes
+    ]
 
 
 def why_outside(pitch: Pitch, body: Disc) -> str | None:

@@ -107,11 +107,8 @@ _STATE_DIFFERS = "the recorded state of the referee is not the simulated one"
 
 def _reason(same_chain: bool, world_differs: bool, game_differs: bool, has_world: bool) -> str:
     if same_chain and game_differs:
-        return (
-            "the referee decides otherwise than recorded"
-            if not world_differs
-            else ("the referee decides otherwise than recorded, and the recorded world differs")
-        )
+        also = ", and the recorded world differs" if world_differs else ""
+        return f"the referee decides otherwise than recorded{also}"
     if same_chain:
         return "the hash chain is the same, but the recorded world differs"
     if world_differs:

@@ -11,6 +11,7 @@ import contextlib
 import socket
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from coach_gateway.access.refusals import Refusals
@@ -88,7 +89,8 @@ class RefBoxServer:
         """Listen until `stop` is set."""
         async with contextlib.AsyncExitStack() as stack:
             for address, bound in zip(self._server_addresses, self._bound, strict=True):
-                server = await stack.enter_async_context(await self._open(address, bound))
+                connect = partial(self._run_connection, address=address)
+                server = await stack.enter_async_context(await asyncio.start_server(connect, sock=bound, backlog=16))
                 self.ports.append(server.sockets[0].getsockname()[1])
                 whom = f"{address.side}'s base station" if address.side is not None else "base stations"
                 how = ", in characters" if address.protocol is BoxProtocol.CHARACTERS else ""
@@ -97,9 +99,6 @@ class RefBoxServer:
             for peer in self._peers:
                 peer.writer.transport.abort()
             self.refusals.log_summary()
-
-    async def _open(self, address: ServerAddress, bound: socket.socket) -> asyncio.Server:
-        return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound, backlog=16)
 
     def send(self, calls: Sequence[Call]) -> None:
         """Send these commands to all base stations."""

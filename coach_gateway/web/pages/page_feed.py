@@ -100,12 +100,10 @@ class PageFeed:
         """The orders of these sides."""
         shown: dict[str, SideOrders] = {}
         for side in sides:
-            active = self._match.orders.active(side)
-            shown[side.value] = SideOrders()
+            active, orders = self._match.orders.active(side), SideOrders()
             if active is not None:
-                shown[side.value] = SideOrders(
-                    order=active.order, acknowledged=active.acknowledged, refused=active.refused
-                )
+                orders = SideOrders(order=active.order, acknowledged=active.acknowledged, refused=active.refused)
+            shown[side.value] = orders
         return OrdersUpdate(**shown).json()
 
     def _host(self) -> str:

@@ -66,7 +66,9 @@ class PresenceTracker:
         for _ in range(_MAX_CHANGES):
             if presence is None:
                 break
-            self._remember(presence)
+            known = self._known.get(presence.kind)
+            if known is not None and (presence.name in known or len(known) < _MAX_NAMES):
+                known[presence.name] = presence.alive
             if presence.kind is PresenceKind.RECORDER:
                 self._recorder(presence)
             elif presence.kind is PresenceKind.AGENT:
@@ -80,7 +82,8 @@ class PresenceTracker:
             presence = self._watch.receive(0.0)
         changed += self._claim_handler.decide()
         self.receive_progress(0.0)
-        self._drop_lost_recorders()
+        for name in [name for name, until in self._lost.items() if self._clock.now() >= until]:
+            self._forget(name)
         changes = [presence for robot in changed if (presence := self._refresh(robot)) is not None]
         self._changes += changes
         return changes
@@ -136,11 +139,6 @@ class PresenceTracker:
                 if progress.sights:
                     self._sight_recorders.add(name)
 
-    def _remember(self, presence: Presence) -> None:
-        known = self._known.get(presence.kind)
-        if known is not None and (presence.name in known or len(known) < _MAX_NAMES):
-            known[presence.name] = presence.alive
-
     def _recorder(self, presence: Presence) -> None:
         """Add a recorder. An admitted one that loses its link may only be suspended: it stays until its patience has
         passed.
@@ -155,12 +153,6 @@ class PresenceTracker:
             self._forget(name)
         elif name in self.recorders:
             self._lost[name] = self._clock.now() + self._patience
-
-    def _drop_lost_recorders(self) -> None:
-        if self._lost:
-            now = self._clock.now()
-            for name in [name for name, until in self._lost.items() if now >= until]:
-                self._forget(name)
 
     def _forget(self, name: str) -> None:
         self.recorders.pop(name, None)

@@ -84,7 +84,8 @@ class RefereeSeat:
         elif not reason and request.operation is SeatOperation.LEAVE:
             self._changes.append(f"{self.holder} officiates no more")
             self._set(None)
-        return SeatReply(accepted=not reason, reason=reason, holder=self._shown_holder())
+        shown = self.holder or ("a league's referee box" if self._box_connected else None)
+        return SeatReply(accepted=not reason, reason=reason, holder=str(shown) if shown is not None else None)
 
     def pop_changes(self) -> list[str]:
         """What has changed since the last call, as sentences."""
@@ -119,8 +120,3 @@ class RefereeSeat:
             sender = Holder(action.referee, action.source)
             self._changes.append(f"{sender} is refused as referee ({action.action}): {reason.partition('; ')[0]}")
         return reason
-
-    def _shown_holder(self) -> str | None:
-        if self.holder is not None:
-            return str(self.holder)
-        return "a league's referee box" if self._box_connected else None
