@@ -28,17 +28,11 @@ def ledger_of_recording(path: Path, start: float | None, end: float | None) -> L
         else:
             last = health
     if last is None:
-        raise TouchlineError(f"{path}: no report of the host's health {_stretch(start, end)}; {_remedy(start, end)}")
+        parts = [f"after {start:g} s" if start is not None else "", f"before {end:g} s" if end is not None else ""]
+        stretch = " and ".join(filter(None, parts))
+        remedy = "reports come four times a second of wall time; choose a longer stretch"
+        if not stretch:
+            stretch, remedy = "is in it", f"record the key {HEALTH.key}, too"
+        raise TouchlineError(f"{path}: no report of the host's health {stretch}; {remedy}")
     setup = recording.manifest.setup
     return ledger_of(last, setup.sides if setup is not None else {}, first)
-
-
-def _stretch(start: float | None, end: float | None) -> str:
-    parts = [f"after {start:g} s" if start is not None else "", f"before {end:g} s" if end is not None else ""]
-    return " and ".join(filter(None, parts)) or "is in it"
-
-
-def _remedy(start: float | None, end: float | None) -> str:
-    if start is None and end is None:
-        return f"record the key {HEALTH.key}, too"
-    return "reports come four times a second of wall time; choose a longer stretch"
