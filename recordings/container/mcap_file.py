@@ -29,6 +29,9 @@ _FOOTER = struct.Struct("<BQQQI")
 DERIVED = "derived"
 """Key in the metadata of a channel whose messages are derived from other channels, for viewers."""
 
+ROW = "row"
+"""Key in the metadata of a channel of a match: its row in the table of topics."""
+
 
 @dataclass(slots=True)
 class ChannelRecord:

@@ -23,15 +23,15 @@ def record_places(content: mmap.mmap) -> list[int]:
 
 def _chunk_places(content: mmap.mmap) -> Iterator[int]:
     """A chunk has times, size and checksum before the name of its compression, and its own size behind it."""
-    name = _text("zstd")
-    for found in _occurrences(content, name):
-        at = found - 28 - RECORD_HEADER.size
-        end = _record_end(content, at, Opcode.CHUNK)
-        packed = found + len(name)
-        if end is not None and packed + _CHUNK_PACKED.size <= end:
-            (size,) = _CHUNK_PACKED.unpack_from(content, packed)
-            if packed + _CHUNK_PACKED.size + size == end:
-                yield at
+    for name in (_text("zstd"), _text("lz4")):
+        for found in _occurrences(content, name):
+            at = found - 28 - RECORD_HEADER.size
+            end = _record_end(content, at, Opcode.CHUNK)
+            packed = found + len(name)
+            if end is not None and packed + _CHUNK_PACKED.size <= end:
+                (size,) = _CHUNK_PACKED.unpack_from(content, packed)
+                if packed + _CHUNK_PACKED.size + size == end:
+                    yield at
 
 
 def _metadata_places(content: mmap.mmap, name: str) -> Iterator[int]:

@@ -19,7 +19,7 @@ from recordings.container.mcap_file import is_derived, summary_is_whole, summary
 from recordings.container.mcap_writer import CHUNK_BYTES, mcap_writer
 from recordings.container.parts import locked
 from recordings.container.sealed_metadata import from_metadata, sealed, to_metadata
-from recordings.editing.intact_records import Findings, intact_records
+from recordings.editing.intact_records import Findings, chunks_are_intact, intact_records, profile_of
 from runtime.process.whole_file import written_whole
 from schemas.errors import TouchlineError
 
@@ -84,13 +84,16 @@ def _free_name(path: Path) -> Path:
 
 
 def _is_intact(content: mmap.mmap) -> bool:
-    """Whether the checksum at the end of the data section is right; False if there is none."""
+    """Whether the checksum at the end of the data section is right; where a writer has left it out, those of chunks."""
     content.seek(0)
     reader = StreamReader(
         cast(IO[bytes], content), emit_chunks=True, validate_crcs=True, record_size_limit=len(content)
     )
     try:
-        return any(isinstance(record, DataEnd) and record.data_section_crc for record in reader.records)
+        for record in reader.records:
+            if isinstance(record, DataEnd):
+                return bool(record.data_section_crc) or chunks_are_intact(content)
+        return False
     except BROKEN:
         return False
 
@@ -113,7 +116,7 @@ class _Copy:
     def fill(self, content: mmap.mmap, summary: Summary | None) -> Findings:
         """Copy what is intact, and note what is not."""
         found = Findings()
-        self._mcap.start(profile="", library=library())
+        self._mcap.start(profile=profile_of(content), library=library())
         if summary is not None:
             self._schemas, self._channels = dict(summary.schemas), dict(summary.channels)
         for record in intact_records(content, summary, found):

@@ -2,15 +2,16 @@
 
 import math
 import re
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import groupby, islice
+from itertools import groupby, islice, zip_longest
 from typing import Any, NamedTuple
 
 from pydantic_core import from_json
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
+from recordings.reading.log_order import Log, LogMessage
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.natural_order import natural_order
 from schemas.topics import COMMAND, HEALTH, INVALID, recorded_topic
@@ -230,3 +231,58 @@ def _fields(path: str, one: Any, other: Any) -> Iterator[FieldDifference]:
             yield from _fields(f"{path}[{index}]", left, right)
     elif one != other or (isinstance(one, float) and math.copysign(1.0, one) != math.copysign(1.0, other)):
         yield FieldDifference(path, one, other)
+
+
+def compare_logs(one: Log, other: Log) -> RecordingComparison:
+    """Compare MCAP files of any writers, key by key, in the order of the messages on each key, without their times.
+
+    Raises:
+        TouchlineError: a file is damaged inside.
+    """
+    counts = [Counter[str](), Counter[str]()]
+    for side, log in enumerate((one, other)):
+        for key, channel in log.channels:
+            counts[side][key] += channel.messages
+    keys = sorted({*counts[0], *counts[1]}, key=natural_order)
+    comparison = RecordingComparison(keys=len(keys))
+    waiting: dict[str, deque[tuple[int, LogMessage]]] = {key: deque() for key in keys}
+    numbers: Counter[str] = Counter()
+    for pair in zip_longest(one.messages(), other.messages()):
+        for side, message in enumerate(pair):
+            if message is None or numbers[message.key] >= min(count[message.key] for count in counts):
+                continue  # what the other file does not have is found below
+            queue = waiting[message.key]
+            if not queue or queue[0][0] == side:
+                queue.append((side, message))
+                continue
+            first, second = (message, queue.popleft()[1])[:: 1 if side == 0 else -1]
+            if (first.payload, first.topic.encoding) != (second.payload, second.topic.encoding):
+                comparison.messages = numbers.total()
+                comparison.first = Difference(
+                    message.key, numbers[message.key], min(first.time, second.time), _content(first, second)
+                )
+                return comparison
+            numbers[message.key] += 1
+    comparison.messages = numbers.total()
+    for key in keys:
+        if counts[0][key] != counts[1][key]:
+            lacking = "second" if counts[0][key] > counts[1][key] else "first"
+            end = (one if lacking == "second" else other).end_ns / 1e9
+            comparison.first = Difference(key, min(count[key] for count in counts), end, [], lacking)
+            break
+    return comparison
+
+
+def _content(one: LogMessage, other: LogMessage) -> list[FieldDifference]:
+    """The fields of JSON that differ; of other payloads, their encodings, lengths, and first different byte."""
+    if one.topic.encoding != other.topic.encoding:
+        return [FieldDifference("encoding", one.topic.encoding, other.topic.encoding)]
+    if one.topic.encoding == "json":
+        return list(islice(_fields("", _read(one.payload), _read(other.payload)), _MAX_FIELDS))
+    pairs = enumerate(zip_longest(one.payload, other.payload))
+    at = next(number for number, (ours, theirs) in pairs if ours != theirs)
+    return [
+        FieldDifference(
+            f"byte {at}", *(f"{side.payload[at : at + 8].hex(' ')} of {len(side.payload)}" for side in (one, other))
+        )
+    ]

@@ -12,7 +12,8 @@ from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 
 from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in
-from recordings.container.mcap_file import DAMAGED, ChannelRecord, McapFile, open_mcap_file
+from recordings.container.manifest import MANIFEST
+from recordings.container.mcap_file import DAMAGED, ROW, ChannelRecord, McapFile, open_mcap_file
 from schemas.errors import TouchlineError
 
 _WINDOW = 10_000
@@ -119,6 +120,11 @@ class Log:
             yield heapq.heappop(waiting)[2]
 
 
+def seconds_ns(seconds: float) -> int:
+    """A time in s as messages of a log have it, in ns."""
+    return round(seconds * 1e9)
+
+
 def files_of(paths: Sequence[Path]) -> list[Path]:
     """The MCAP files at these paths; a folder, as a ROS 2 bag is, stands for those in it.
 
@@ -139,7 +145,7 @@ def _in_folder(folder: Path) -> list[Path]:
 
 
 def is_match(paths: Sequence[Path]) -> bool:
-    """Whether this is the recording of a match, which one path names.
+    """Whether this is the recording of a match, which one path names, or a file that cannot be anything else.
 
     Raises:
         TouchlineError: a file cannot be read, or is not MCAP.
@@ -147,7 +153,7 @@ def is_match(paths: Sequence[Path]) -> bool:
     if len(paths) != 1 or paths[0].is_dir():
         return False
     file = open_mcap_file(paths[0])
-    return not file.channels or "manifest" in file.metadata
+    return not file.channels or MANIFEST in file.metadata or any(ROW in one.metadata for one in file.channels.values())
 
 
 def open_log(paths: Sequence[Path], key_of: Callable[[str], str | None] = lambda topic: topic) -> Log:

@@ -15,6 +15,7 @@ from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
 from recordings.container.json_schema import flat_schema
 from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
+from recordings.container.mcap_file import ROW
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError, create_part
 from recordings.container.sealed_metadata import digest, to_metadata
@@ -172,7 +173,7 @@ class RecordingWriter:
         metadata = {
             "key": self._root + key,
             "topic": name,
-            "row": topic.key,
+            ROW: topic.key,
             "message": topic.message.__name__,
             "version": VERSION,
             **self._roster.metadata_of(received.chunks),

@@ -1,5 +1,6 @@
 """`touchline diff`: the first difference between two recordings."""
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,11 +12,12 @@ from touchline.commands.cli.errors import FAILED
 from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
+    from recordings.container.key_selection import KeySelection
     from recordings.inspection.difference import FieldDifference, RecordingComparison
 
 
 def diff(
-    first: Annotated[Path, typer.Argument(metavar="A", help="A recording, *.mcap.")],
+    first: Annotated[Path, typer.Argument(metavar="A", help="A recording, or any *.mcap file or bag folder.")],
     second: Annotated[Path, typer.Argument(metavar="B", help="The recording to compare with A.")],
     include: options.Include = None,
     exclude: options.Exclude = None,
@@ -28,17 +30,25 @@ def diff(
 ) -> None:
     """Find the first message in which two recordings differ; exit status 1 if there is one.
 
-    Two lockstep runs of one match file and one seed are identical.
+    Two lockstep runs of one match file and one seed are identical. Any other MCAP files are compared key by key,
+    without their times: what was recorded, replayed and recorded again is identical if nothing was lost.
 
     Example: touchline diff a.mcap b.mcap --from 10 --to 20
     """
-    from recordings.inspection.difference import compare
+    from recordings.inspection.difference import compare, compare_logs
+    from recordings.reading.log_order import is_match, open_log
     from recordings.reading.recording import open_recording
 
     chosen = options.selection(include, exclude)
     options.check_span(start, end)
-    one, other = open_recording(first), open_recording(second)
-    found = compare(one, other, chosen, everything=everything, start=start, end=end)
+    if is_match([first]) or is_match([second]):
+        one, other = open_recording(first), open_recording(second)
+        found = compare(one, other, chosen, everything=everything, start=start, end=end)
+    elif start is not None or end is not None:
+        raise TouchlineError("--from and --to are times of a match; cut these files by `touchline filter` first")
+    else:
+        logs = (open_log([path], partial(_key_of, chosen)) for path in (first, second))
+        found = compare_logs(*logs)
     if found.identical and not found.messages:
         raise TouchlineError(
             f"{first} and {second}: no message is selected; change --include, --exclude, --from or --to"
@@ -46,6 +56,11 @@ def diff(
     typer.echo(json_text(_facts(found)) if json else _sentence(found, first, second))
     if not found.identical:
         raise typer.Exit(FAILED)
+
+
+def _key_of(chosen: "KeySelection", topic: str) -> str | None:
+    key = topic.removeprefix("/")
+    return key if chosen.includes(key) else None
 
 
 def _sentence(found: "RecordingComparison", first: Path, second: Path) -> str:

@@ -9,7 +9,7 @@ from touchline.commands.cli import options
 
 
 def filter(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, or any *.mcap file or bag folder.")],
     out: Annotated[Path, typer.Option(help="The file to write, *.mcap.")],
     include: options.Include = None,
     exclude: options.Exclude = None,
@@ -18,11 +18,19 @@ def filter(
 ) -> None:
     """Copy a part of a recording, selected by key and time. Messages keep their bytes, times and numbers.
 
+    Of any other MCAP file, times are seconds since its first message.
+
     Example: touchline filter match.mcap --out commands.mcap --include "robot/*/command" --from 10 --to 20
     """
     from recordings.editing.filtering import filter_recording
+    from recordings.editing.log_copy import copy_log
+    from recordings.reading.log_order import is_match
     from recordings.reading.recording import open_recording
 
     options.check_span(start, end)
-    messages = filter_recording(open_recording(file), out, options.selection(include, exclude), start, end)
+    selection = options.selection(include, exclude)
+    if is_match([file]):
+        messages = filter_recording(open_recording(file), out, selection, start, end)
+    else:
+        messages = copy_log([file], out, selection, start, end)
     typer.echo(f"{out}: {messages} messages")

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def recover(
-    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings, *.mcap.")],
+    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings, any *.mcap files, bag folders.")],
     json: options.Json = False,
 ) -> None:
     """Repair truncated or damaged recordings.
@@ -26,12 +26,14 @@ def recover(
     """
     from recordings.container.parts import parts_of
     from recordings.editing.recovery import recover
+    from recordings.reading.log_order import files_of, is_match
     from recordings.reading.recording import open_recording
 
     done = []
-    for file in chain.from_iterable(parts_of(file) or [file] for file in files):
+    for file in chain.from_iterable(parts_of(file) or [file] for file in files_of(files)):
         done.append(recover(file))
-        open_recording(done[-1].path)  # raises if the rest is not a recording
+        if is_match([file]):
+            open_recording(file)  # raises if the rest is not a recording
         if not json:
             typer.echo(_sentence(done[-1]))
     if json:

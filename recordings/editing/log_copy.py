@@ -1,0 +1,76 @@
+"""Copies a part of MCAP files of any writer: each message keeps its payload, times and sequence number."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from mcap.reader import make_reader
+
+from recordings.container.chunks import BROKEN
+from recordings.container.environment import library
+from recordings.container.key_selection import KeySelection
+from recordings.container.mcap_writer import mcap_writer
+from recordings.container.parts import NotWritableError
+from recordings.reading.log_order import open_log, seconds_ns
+from runtime.process.whole_file import written_whole
+from schemas.errors import TouchlineError
+
+
+def copy_log(
+    paths: Sequence[Path], out: Path, selection: KeySelection, start: float | None = None, end: float | None = None
+) -> int:
+    """Copy the selected topics, from `start` up to but not including `end`, in s since the first message.
+
+    Returns the number of messages in the copy, which has metadata and attachments of all files, too.
+
+    Raises:
+        TouchlineError: no message is selected, a file is damaged inside, or the copy cannot be written.
+    """
+    log = open_log(paths, lambda topic: topic if selection.includes(topic.removeprefix("/")) else None)
+    if any(out.exists() and out.samefile(file.path) for file in log.files):
+        raise TouchlineError(f"{out}: would overwrite the file that is read; give another name for --out")
+    stop_ns = seconds_ns(end) if end is not None else None
+    copied = 0
+    try:
+        with written_whole(out) as draft, draft.open("wb") as file:
+            mcap = mcap_writer(file)
+            mcap.start(profile=_profile(log.files[0].path), library=library())
+            schemas: dict[tuple[str, str, bytes], int] = {}
+            channels: dict[int, int] = {}
+            for message in log.messages(seconds_ns(start or 0.0)):
+                if stop_ns is not None and message.log_ns >= stop_ns:
+                    break
+                channel = message.topic
+                if id(channel) not in channels:
+                    number = 0
+                    if channel.schema is not None:
+                        described = channel.schema.name, channel.schema.encoding, channel.schema.data
+                        number = schemas.get(described) or schemas.setdefault(
+                            described, mcap.register_schema(*described)
+                        )
+                    channels[id(channel)] = mcap.register_channel(
+                        channel.key, channel.encoding, number, channel.metadata
+                    )
+                log_ns = message.log_ns + log.base_ns
+                mcap.add_message(channels[id(channel)], log_ns, message.payload, message.sent_ns, message.sequence)
+                copied += 1
+            if not copied:
+                raise TouchlineError(f"{paths[0]}: has no message in this time; it lasts {log.end_ns / 1e9:.2f} s")
+            mcap.flush()  # type: ignore[no-untyped-call]
+            for source in log.files:
+                for name, content in source.attachments.items():
+                    mcap.add_attachment(0, 0, name, "application/octet-stream", content)
+                for name, metadata in source.metadata.items():
+                    mcap.add_metadata(name, metadata)
+            mcap.finish()  # type: ignore[no-untyped-call]
+    except OSError as error:
+        raise NotWritableError(out, error.strerror or str(error)) from None
+    return copied
+
+
+def _profile(path: Path) -> str:
+    """The profile of a file, `ros2` of a bag."""
+    with path.open("rb") as file:
+        try:
+            return str(make_reader(file).get_header().profile)
+        except BROKEN:
+            return ""

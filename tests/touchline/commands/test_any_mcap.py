@@ -1,0 +1,122 @@
+"""`touchline info`, `filter`, `diff` and `recover` on files that this project did not write."""
+
+import json
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+from mcap.writer import CompressionType, IndexType
+from typer.testing import CliRunner, Result
+
+from support.foreign import START_NS, drive, write_mcap
+from touchline.commands.cli.command_line import app
+
+WRITERS = {
+    "lz4": {},
+    "zstd with checksums": {"compression": CompressionType.ZSTD, "enable_data_crcs": True},
+    "uncompressed": {"compression": CompressionType.NONE},
+    "without chunks": {"use_chunking": False},
+    "without indexes": {"index_types": IndexType.NONE},
+    "without statistics": {"use_statistics": False},
+    "small chunks": {"chunk_size": 200},
+}
+every_writer = pytest.mark.parametrize("options", WRITERS.values(), ids=WRITERS)
+
+
+def touchline(*words: str | Path) -> Result:
+    return CliRunner().invoke(app, [str(word) for word in words], prog_name="touchline")
+
+
+def read(path: Path) -> list[tuple[str, bytes, int]]:
+    with path.open("rb") as file:
+        return [(channel.topic, one.data, one.log_time) for _, channel, one in make_reader(file).iter_messages()]
+
+
+@every_writer
+def test_info_lists_the_channels_of_any_file(tmp_path, options):
+    file = write_mcap(tmp_path / "log.mcap", [*drive(51), *drive(11, "robot2", 50)], **options)
+    result = touchline("info", file, "--json")
+    assert result.exit_code == 0, result.output
+    facts = json.loads(result.output)
+    assert (facts["started"], facts["duration"]) == ("2023-11-14T22:13:20.000+00:00", 0.5)
+    assert (facts["messages"], facts["lost"], facts["complete"]) == (62, 0, True)
+    one, other = facts["channels"]
+    assert (one["topic"], one["encoding"], one["schema"], one["messages"]) == ("/robot1/odom", "json", "any", 51)
+    assert (other["topic"], other["start"], other["end"]) == ("/robot2/odom", 0.0, 0.5)
+    table = touchline("info", file).output
+    assert "/robot1/odom" in table and "100.0" in table
+
+
+def test_info_adds_up_several_files_and_a_bag_folder(tmp_path):
+    bag = tmp_path / "bag"
+    bag.mkdir()
+    write_mcap(bag / "bag_0.mcap", drive(10))
+    write_mcap(bag / "bag_1.mcap", drive(10), start_ns=START_NS + 1_000_000_000)
+    other = write_mcap(tmp_path / "other.mcap", drive(5, "robot2"))
+    facts = json.loads(touchline("info", bag, other, "--json").output)
+    assert [(one["topic"], one["messages"]) for one in facts["channels"]] == [("/robot1/odom", 20), ("/robot2/odom", 5)]
+    assert facts["duration"] == pytest.approx(1.09)
+    result = touchline("info", tmp_path)
+    assert result.exit_code == 0
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    assert "has no *.mcap" in touchline("info", empty).output
+
+
+@every_writer
+def test_filter_copies_a_part_of_any_file_by_key_and_time(tmp_path, options):
+    file = write_mcap(tmp_path / "log.mcap", [*drive(50), *drive(50, "robot2")], **options)
+    out = tmp_path / "part.mcap"
+    result = touchline("filter", file, "--out", out, "--include", "robot1/*", "--from", "0.1", "--to", "0.2")
+    assert result.exit_code == 0, result.output
+    expected = [(topic, payload, START_NS + ms * 1_000_000) for topic, ms, payload in drive(20)[10:]]
+    assert read(out) == expected
+    with out.open("rb") as copy:
+        schema, channel, _ = next(make_reader(copy).iter_messages())
+    assert (schema.name, channel.metadata) == ("any", {"by": "them"})
+
+
+@every_writer
+def test_diff_compares_any_files_by_key_whatever_their_times(tmp_path, options):
+    one = write_mcap(tmp_path / "one.mcap", [*drive(50), *drive(50, "robot2")], **options)
+    other = write_mcap(tmp_path / "other.mcap", [*drive(50, "robot2", 7), *drive(50, step=9)], start_ns=5)
+    assert touchline("diff", one, other).output == "identical: 100 messages on 2 keys\n"
+
+
+def test_diff_names_the_first_message_that_differs_or_is_missing(tmp_path):
+    changed = drive(50)
+    changed[20] = ("/robot1/odom", 200, b'{"x": 7.5}')
+    one, other = write_mcap(tmp_path / "one.mcap", drive(50)), write_mcap(tmp_path / "other.mcap", changed)
+    result = touchline("diff", one, other)
+    assert result.exit_code == 1
+    assert "robot1/odom, message 20 at 0.200 s" in result.output
+    assert "x: 2.0 – 7.5" in result.output
+    short = write_mcap(tmp_path / "short.mcap", drive(49))
+    assert f"message 49 at 0.490 s is missing in {short}" in touchline("diff", one, short).output
+    raw = {"encoding": "raw", "schema": None}
+    ours = write_mcap(tmp_path / "ours.mcap", [("image", 0, b"\x00" * 1000)], **raw)
+    theirs = write_mcap(tmp_path / "theirs.mcap", [("image", 0, b"\x00" * 500 + b"\x01")], **raw)
+    assert "byte 500: '00 00 00 00 00 00 00 00 of 1000' – '01 of 501'" in touchline("diff", ours, theirs).output
+
+
+@every_writer
+def test_recover_leaves_an_intact_file_of_any_writer_as_it_is(tmp_path, options):
+    file = write_mcap(tmp_path / "log.mcap", drive(50), **options)
+    before = file.read_bytes()
+    result = touchline("recover", file)
+    assert result.exit_code == 0, result.output
+    assert len(read(file)) == 50
+    if options.get("use_statistics", True):  # else it gets its statistics
+        assert "intact, 50 messages" in result.output
+        assert file.read_bytes() == before
+
+
+@every_writer
+def test_recover_repairs_a_truncated_file_of_any_writer(tmp_path, options):
+    file = write_mcap(tmp_path / "log.mcap", drive(2000), **{"chunk_size": 10_000, **options})
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    result = touchline("recover", file)
+    assert result.exit_code == 0, result.output
+    rest = [payload for _, payload, _ in read(file)]
+    assert len(rest) > (0 if options.get("chunk_size") else 300)
+    assert rest == [payload for _, _, payload in drive(len(rest))]
