@@ -45,8 +45,8 @@ def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
     driven = manually_driven(recording)
     checked = {key.split("/")[1]: key for key in keys if key.split("/")[1] not in driven}
     counts = recording.result.keys if recording.result is not None else {}
-    complete = [key for key, one in counts.items() if one.lost == one.missed_before_start == one.restarts == 0]
-    without_loss = [key.split("/")[1] for key in keys if key in complete]
+    whole = [key for key, it in counts.items() if it.lost == it.missed_before_start == it.restarts == 0]
+    without_loss = [key.split("/")[1] for key in keys if key in whole]
     return CommandCheck(checked, without_loss, segment.answers_from)
 
 

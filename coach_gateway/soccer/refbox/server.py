@@ -89,8 +89,9 @@ class RefBoxServer:
         """Listen until `stop` is set."""
         async with contextlib.AsyncExitStack() as stack:
             for address, bound in zip(self._server_addresses, self._bound, strict=True):
-                connect = partial(self._run_connection, address=address)
-                server = await stack.enter_async_context(await asyncio.start_server(connect, sock=bound, backlog=16))
+                serves = partial(self._run_connection, address=address)
+                server = await asyncio.start_server(serves, sock=bound, backlog=16)
+                await stack.enter_async_context(server)
                 self.ports.append(server.sockets[0].getsockname()[1])
                 whom = f"{address.side}'s base station" if address.side is not None else "base stations"
                 how = ", in characters" if address.protocol is BoxProtocol.CHARACTERS else ""

@@ -100,10 +100,10 @@ class PageFeed:
         """The orders of these sides."""
         shown: dict[str, SideOrders] = {}
         for side in sides:
-            active, orders = self._match.orders.active(side), SideOrders()
-            if active is not None:
-                orders = SideOrders(order=active.order, acknowledged=active.acknowledged, refused=active.refused)
-            shown[side.value] = orders
+            own, shown[side.value] = self._match.orders.active(side), SideOrders()
+            if own is not None:
+                orders = SideOrders(order=own.order, acknowledged=own.acknowledged, refused=own.refused)
+                shown[side.value] = orders
         return OrdersUpdate(**shown).json()
 
     def _host(self) -> str:
