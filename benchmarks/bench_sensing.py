@@ -88,8 +88,8 @@ def main() -> None:
         f"a tick of ten robots: sensing {sensing:.0f} us, sights with it {sights:.0f} us; physics {physics_us:.0f} us "
         f"raw (set, step, read), {world:.0f} us with actuation; sensing / raw physics {sensing / physics_us:.2f} "
         f"(below 1), sights / physics {sights / world:.2f} (below 1); "
-        f"100 beams {scans:.0f} us, beams / sensing {scans / sensing:.2f} (at most 1), "
-        f"{frequent / sensing:.2f} at the camera's rate"
+        f"100 beams {scans:.0f} us, beams / sensing {scans / sensing:.2f}, "
+        f"{frequent / sensing:.2f} at the camera's rate (at most 1)"
     )
 
 

@@ -6,6 +6,8 @@ There is no state: draws do not affect each other, and can be made in any order,
 
 from collections.abc import Callable, Sequence
 from enum import IntEnum
+from functools import cache
+from statistics import NormalDist
 from typing import Generic, TypeVar
 from zlib import crc32
 
@@ -108,6 +110,15 @@ class RandomStreams:
         u = self.uniforms(stream, robots, ticks, blocks * 4).reshape(len(ticks), len(robots), blocks, 2, 2)
         return normal_pairs(u).reshape(len(ticks), len(robots), blocks * _NORMALS_PER_BLOCK)[:, :, :count]
 
+    def errors(self, stream: StreamId, robots: Sequence[str], ticks: Sequence[int], count: int, lost: float) -> Floats:
+        """Like `normals`, at a third of their cost: each number is one of `_quantiles`, a share `lost` of them NaN."""
+        values = _quantiles()
+        place = self.uniforms(stream, robots, ticks, count) * len(values)
+        part = place.astype(np.intp)
+        numbers: Floats = values.take(part)
+        numbers[place - part < lost] = np.nan
+        return numbers
+
     def pairwise_uniforms(
         self, stream: StreamId, robots: Sequence[str], others: Sequence[str], ticks: Sequence[int]
     ) -> Floats:
@@ -144,6 +155,12 @@ def normal_pairs(uniform: Floats) -> Floats:
     np.multiply(radius, np.cos(angle), out=pairs[..., 0])
     np.multiply(radius, np.sin(angle), out=pairs[..., 1])
     return pairs
+
+
+@cache
+def _quantiles() -> Floats:
+    """The middles of 2¹⁴ equally likely parts of the standard normal distribution; the last is 4.01."""
+    return np.array([NormalDist().inv_cdf((part + 0.5) / 2**14) for part in range(2**14)])
 
 
 def name_words(names: Sequence[str]) -> Words:

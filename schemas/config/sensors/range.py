@@ -15,8 +15,8 @@ class RangeFinder(Sensor):
     """A range finder. The beams part the span evenly, each in the middle of its part; the own hull is transparent.
 
     They meet hulls of robots, obstacles, the boundary, and optionally the ball; goals are not seen. Noise is Gaussian,
-    with the standard deviation √(noise² + (noise_share·distance)²). A distance that is measured beyond the limits gives
-    no return.
+    with the standard deviation √(noise² + (noise_share·distance)²), and cut off at four of them. A distance that is
+    measured beyond the limits gives no return.
     """
 
     kind: Annotated[str, Choice("kind of the sensor", ("range",))] = "range"

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
 from schemas.config.sections import Pitch
@@ -38,9 +39,9 @@ class Carried:
         """Standard normal numbers by number of the reading, shape (robots, count)."""
         return self._draws(self.streams.normals, self._keys("normal"), count)
 
-    def uniforms(self, count: int) -> BatchedDraws[Floats]:
-        """Uniform numbers in (0, 1) by number of the reading, shape (robots, count)."""
-        return self._draws(self.streams.uniforms, self._keys("uniform"), count)
+    def errors(self, count: int, lost: float) -> BatchedDraws[Floats]:
+        """The same of `RandomStreams.errors`: NaN for a share `lost` of them."""
+        return self._draws(partial(self.streams.errors, lost=lost), self._keys("error"), count)
 
     def _draws(self, draw: Callable[..., Floats], keys: list[str], count: int) -> BatchedDraws[Floats]:
         def of(numbers: range) -> list[Floats]:

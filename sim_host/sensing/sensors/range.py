@@ -18,85 +18,82 @@ from sim_host.sensing.sensors.shapes import Shapes
 from sim_host.snapshot import Snapshot
 
 _TURN = 2.0 * np.pi
-_LEAST = 1e-12
-"""m, to avoid a division by zero."""
-_SHIFTS = np.array([[0.0], [1.0]])
-"""Whole turns back: a body may cover the end of the span and its beginning."""
+_MARGIN = np.array(1e-9)
+"""rad by which a shadow is widened, and m by which an eye is within the boundary, for rounding errors."""
+_EDGES = np.array([-1.0, 1.0])[:, None, None]
 
 
 class ComputedRange:
-    """A range finder on several robots; arrays are robots × beams."""
+    """A range finder on several robots; arrays are robots × beams, and bearings are counted from the first beam."""
 
     def __init__(self, carried: Carried) -> None:
         s: RangeFinder = carried.numbers
         self._numbers, pitch = s, carried.pitch
         self._robots = np.array(carried.robots)
-        self._angles = s.angle_min + s.angle_increment * np.arange(s.beams)
-        self._ways = np.exp(1j * self._angles)
-        self._place = complex(s.x, s.y)
+        self._bearings = {"angle_min": s.angle_min, "angle_increment": s.angle_increment}
+        self._place, self._first = complex(s.x, s.y), np.exp(1j * s.angle_min)
+        self._ways = np.exp(1j * s.angle_increment * np.arange(s.beams))
+        self._step = np.maximum(s.angle_increment, _MARGIN)
+        self._shifts = np.array([[0.0], [_TURN]]) + self._step
+        """rad; a body may cover the end of the span and its beginning. The first beam after a bearing is counted."""
         walls = pitch.goal_line + pitch.border, pitch.touch_line + pitch.border
-        self._walls = walls if pitch.boundary_height >= s.height else (np.inf, np.inf)
-        self._shapes = Shapes(carried.roster.models, s.height, carried.ball_radius if s.ball == "seen" else None)
-        self._noise = carried.normals(s.beams) if s.noise or s.noise_share else None
-        self._dropout = carried.uniforms(s.beams) if s.dropout else None
+        self._walls = np.array(walls if pitch.boundary_height >= s.height else (1e9, 1e9))[:, None, None]
+        self._shapes = Shapes(carried)
+        self._errors = carried.errors(s.beams, s.dropout) if s.noise or s.noise_share or s.dropout else None
 
     def read(self, snapshot: Snapshot, number: int) -> Sequence[Reading]:
         """A reading for each robot."""
         s, distance = self._numbers, self.distances(snapshot)
-        if self._noise is not None:
-            share = s.noise_share * np.minimum(distance, s.max_distance) if s.noise_share else 0.0
-            sigma = np.hypot(s.noise, share)
-            distance = np.maximum(distance + sigma * self._noise.at(number), 0.0)
-        lost = (distance < s.min_distance) | (distance > s.max_distance)
-        if self._dropout is not None:
-            lost |= self._dropout.at(number) < s.dropout
-        distance = rounded(distance)
-        distance[lost] = np.nan  # is written as null
-        angles = {"angle_min": s.angle_min, "angle_increment": s.angle_increment}
-        return [RangeReading(age=0.0, **angles, distances=one) for one in distance.tolist()]
+        if self._errors is not None:
+            sigma: float | Floats = s.noise
+            if s.noise_share:
+                sigma = np.hypot(s.noise, s.noise_share * np.minimum(distance, s.max_distance))
+            distance += sigma * self._errors.at(number)
+            np.maximum(distance, 0.0, out=distance)
+        returns = (distance >= s.min_distance) & (distance <= s.max_distance)
+        distances = np.empty(distance.shape, dtype=object)  # None in each place
+        distances[returns] = rounded(distance[returns])
+        return [RangeReading(age=0.0, **self._bearings, distances=one) for one in distances.tolist()]
 
     def distances(self, snapshot: Snapshot) -> Floats:
         """The true distances in m, shape (robots, beams)."""
-        motions = snapshot.robots.motions
-        turn = np.exp(1j * motions.heading[self._robots])
-        eyes = motions.position[self._robots] + self._place * turn
-        ways = self._ways * turn[:, None]
-        found = self._to_walls(eyes, ways)
-        shapes = self._shapes.at(snapshot)
-        away = (shapes.centre - eyes[:, None]) / turn[:, None]
+        motions, shapes = snapshot.robots.motions, self._shapes.at(snapshot)
+        turn = np.exp(1j * motions.heading.take(self._robots))
+        eyes = (motions.position.take(self._robots) + self._place * turn)[:, None]
+        turn = (turn * self._first)[:, None]
+        found = self._to_walls(eyes, turn * self._ways)
+        away = (shapes.centre - eyes) * turn.conj()
         gap = np.abs(away)
-        near = gap < self._numbers.max_distance + shapes.reach
-        near &= shapes.owner != self._robots[:, None]
+        near = gap < shapes.farthest
         robot, shape = near.nonzero()
         if not len(robot):
             return found
-        pair, beam = self._beams_near(away[near], gap[near], shapes.reach[shape])
-        robot, shape = robot[pair], shape[pair]
-        hit = shapes.distances(shape, eyes[robot], ways[robot, beam])
+        away = away[near]
+        pair, beam = self._beams_near(away, gap[near], shapes.reach.take(shape))
+        robot = robot.take(pair)
+        hit = shapes.distances(shape.take(pair), away.take(pair), self._ways.take(beam), turn.take(robot))
         np.minimum.at(found, (robot, beam), hit)
         return found
 
     def _to_walls(self, eyes: Vectors, ways: Vectors) -> Floats:
-        """Distance from each eye, within the boundary, to the wall along each beam."""
-        to_x, to_y = ways.real, ways.imag
-        with np.errstate(divide="ignore", invalid="ignore"):  # along a wall
-            x = (np.copysign(self._walls[0], to_x) - eyes.real[:, None]) / to_x
-            found: Floats = np.minimum(x, (np.copysign(self._walls[1], to_y) - eyes.imag[:, None]) / to_y)
-        found[~(found >= 0.0)] = np.inf  # outside the boundary, or not a number
-        return found
+        """Distance from each eye to the boundary along each beam; an eye beyond it is on it."""
+        eye, way = np.array((eyes.real, eyes.imag)), np.array((ways.real, ways.imag))
+        ahead, behind = np.maximum(self._walls - eye, _MARGIN), np.minimum(-self._walls - eye, -_MARGIN)
+        nearness = np.maximum(way / ahead, way / behind)
+        distance: Floats = 1.0 / np.maximum(nearness[0], nearness[1])
+        return distance
 
     def _beams_near(self, away: Vectors, gap: Floats, reach: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Index of the pair of sensor and shape, and beam, for all beams within the bearings that the shape covers.
 
-        `away` are the centres in the robot's frame.
+        `away` are the centres as seen from the sensor along its first beam.
         """
-        step = self._numbers.angle_increment or 1.0
-        half = np.where(gap > reach, np.arcsin(reach / np.maximum(gap, reach + _LEAST)), np.pi) + 1e-9
-        low, turn = (np.angle(away) - half - self._angles[0]) / step, _TURN / step
-        low = low - (np.floor(low / turn) + _SHIFTS) * turn
-        first = np.maximum(np.ceil(low), 0.0)
-        last = np.minimum(np.floor(low + 2.0 * half / step), self._numbers.beams - 1.0)
-        count = np.maximum(last - first + 1.0, 0.0).astype(np.intp).ravel()
-        pair = np.arange(len(count)).repeat(count)
-        start = count.cumsum() - count - first.astype(np.intp).ravel()
-        return pair % len(gap), np.arange(len(pair)) - start[pair]
+        half = np.arcsin(reach / np.maximum(gap, reach))
+        half[gap <= reach] = np.pi
+        half += _MARGIN
+        edges = (np.arctan2(away.imag, away.real) + self._shifts + _EDGES * half) / self._step
+        start, stop = np.minimum(np.maximum(edges, 0.0), self._numbers.beams).astype(np.intp).reshape(2, -1)
+        count = stop - start
+        pair = np.arange(len(away))
+        pair = np.concatenate((pair, pair)).repeat(count)
+        return pair, np.arange(len(pair)) + (stop - count.cumsum()).repeat(count)

@@ -73,6 +73,20 @@ def test_normal_draws_are_normal() -> None:
     assert (draws**4).mean() == approx(3, rel=0.05)
 
 
+def test_errors_are_normal_within_their_cut_and_a_share_is_lost_whatever_the_others_are() -> None:
+    streams = RandomStreams(1)
+    many = streams.errors(StreamId.SENSOR, NAMES, range(3000), 6, 0.2)
+    alone = streams.errors(StreamId.SENSOR, NAMES[1:2], range(42, 43), 3, 0.2)
+    assert np.array_equal(many[42, 1, :3], alone[0, 0], equal_nan=True)
+    errors = many[~np.isnan(many)]
+    assert errors.size / many.size == approx(0.8, abs=0.01)
+    assert errors.mean() == approx(0, abs=4 / np.sqrt(errors.size)) and errors.std() == approx(1, rel=0.01)
+    assert (np.abs(errors) < 1.959964).mean() == approx(0.95, abs=0.004)
+    assert 3.5 < np.abs(errors).max() < 4.01
+    for lost in (0.0, 1.0):
+        assert (np.isnan(streams.errors(StreamId.SENSOR, NAMES, range(100), 6, lost)) == lost).all()
+
+
 def test_uniform_draws_lie_strictly_between_nought_and_one() -> None:
     draws = RandomStreams(1).uniforms(StreamId.AIR, NAMES, range(5000), 4)
     assert 0 < draws.min() < 0.001 and 0.999 < draws.max() < 1

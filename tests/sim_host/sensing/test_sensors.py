@@ -120,7 +120,7 @@ def test_each_beam_has_the_distance_of_the_first_body_on_it(play) -> None:
 
 @pytest.mark.parametrize(
     ("beams", "span", "heading"),
-    [(37, math.tau, 0.0), (24, math.tau, 2.0), (1, 0.0, -3.0), (1, 0.0, 3.1), (2, 6.2, 1.0)],
+    [(37, math.tau, 0.0), (24, math.tau, 2.0), (1, 0.0, -3.0), (1, 0.0, 3.1), (2, 6.2, 1.0), (4, 0.0, -3.0)],
 )
 def test_beams_all_round_and_single_ones_meet_bodies_at_the_seam_of_the_span(play, beams, span, heading) -> None:
     numbers = {"beams": (beams, "1"), "span": (span, "rad"), "heading": (heading, "rad"), "y": (-0.2, "m")}
@@ -150,8 +150,10 @@ def test_beams_pass_over_what_is_lower_and_meet_the_slice_of_a_ball_at_their_hei
         + sensor("over", "range", **common, height=(field.boundary_height + 0.01, "m"))
         + sensor("crate", "range", **common, height=(low, "m"))
         + sensor("air", "range", **common, height=(low + 0.001, "m"))
-        + sensor("ball", "range", **common, height=(radius + 0.05, "m")).rstrip()
-        + '\nball = { value = "seen", origin = "test" }\n',
+        + sensor("ball", "range", **common, height=(radius + 0.05, "m"))
+        + 'ball = { value = "seen", origin = "test" }\n'
+        + sensor("low_ball", "range", **common, height=(2 * radius + 0.01, "m"))
+        + 'ball = { value = "seen", origin = "test" }\n',
         obstacles=[{**BOX, "place": [8.0, -4.0], "heading": 0.0, "size": [0.6, 0.9, 0.6]}],
     )
     place = [
@@ -167,6 +169,7 @@ def test_beams_pass_over_what_is_lower_and_meet_the_slice_of_a_ball_at_their_hei
     assert boxed["crate"].distances[0] == approx(8.0 - 0.3 - 5.0, abs=1e-3)
     assert boxed["air"].distances[0] != approx(8.0 - 0.3 - 5.0, abs=0.1)
     assert clear["ball"].distances == [approx(1.0 - math.sqrt(radius**2 - 0.05**2), abs=2e-3)]
+    assert clear["low_ball"].distances == clear["top"].distances
 
 
 def test_beams_have_noise_dropouts_and_a_rate_and_readings_grow_older(play) -> None:
