@@ -1,5 +1,7 @@
 """The cup file: one frozen `CupConfig` from TOML, with errors that name file, key, value and remedy."""
 
+import json
+from collections.abc import Mapping
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
@@ -31,6 +33,8 @@ REMEDIES = {
 """Key → remedy for an invalid value."""
 _OWN_KEYS = ("teams", "seed", "name", "pace", "record")
 """Keys of a match file that a cup decides itself."""
+_FILES = ("scene", "profile", "profile_tables", "rules", "rule_book_tables")
+"""Keys of a match that are read from files."""
 _PROGRAMS = ("brain", "command", "stdio")
 MOST_TEAMS = 64
 
@@ -205,13 +209,25 @@ class CupConfig(ConfigModel):
             seed=self.seed,
         )
 
-    def match_config(self, **keys: Any) -> MatchConfig:
-        """A match of the cup, with these further keys.
+    def match_config(self, files: Mapping[str, Any] | None = None, **keys: Any) -> MatchConfig:
+        """A match of the cup, with these further keys; `files` is in place of what `[match]` names.
 
         Raises:
             TouchlineError: a key of `[match]` is invalid.
         """
-        return load_match(None, {**self.match, **keys})
+        if files is None:
+            return load_match(None, {**self.match, **keys})
+        own = {key: value for key, value in self.match.items() if key not in files}
+        return MatchConfig.model_validate(load_match(None, {**own, **keys}).model_dump() | dict(files))
+
+    def read_files(self) -> dict[str, Any]:
+        """Scene, profile and rule book of the matches, as JSON: a cup goes on with these, and without the files.
+
+        Raises:
+            TouchlineError: a key of `[match]` is invalid.
+        """
+        content: dict[str, Any] = json.loads(self.match_config().model_dump_json(include=set(_FILES)))
+        return content
 
 
 def load_cup(path: Path) -> CupConfig:

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig
@@ -46,13 +47,15 @@ class CupPlan:
     """The folder of the cup, an absolute path."""
     digests: Mapping[str, str]
     """Team → digest of its files."""
+    files: Mapping[str, Any] | None = None
+    """Scene, profile and rule book, as `CupConfig.read_files` has read them; None to read them now."""
     _matches: dict[Slot, PlannedMatch] = field(default_factory=dict, init=False, compare=False, repr=False)
     """Slot → match; its identity is computed once."""
 
     @cached_property
     def forfeit_goals(self) -> int:
         """Goals of a forfeit, by the rule book."""
-        return self.cup.match_config().load_rule_book().people.forfeit_goals
+        return self.cup.match_config(self.files).load_rule_book().people.forfeit_goals
 
     def due(self, outcomes: Mapping[str, Outcome]) -> Sequence[PlannedMatch]:
         """The matches that can be played now."""
@@ -75,7 +78,7 @@ class CupPlan:
         """
         if slot not in self._matches:
             self._matches[slot] = PlannedMatch(
-                config=match_config(self.cup, slot),
+                config=match_config(self.cup, slot, self.files),
                 code={side: self.digests[name] for side, name in zip(Side, slot.sides, strict=True)},
                 way=self.cup.way,
                 brain_folder=self.code_folder,
@@ -110,6 +113,7 @@ class _Begun(ConfigModel):
     cup: CupConfig
     digests: dict[str, str]
     code_folder: Path
+    files: dict[str, Any] | None = None
 
 
 def stored_plan(store: RunStore) -> CupPlan | None:
@@ -118,12 +122,13 @@ def stored_plan(store: RunStore) -> CupPlan | None:
     if text is None:
         return None
     begun = _Begun.model_validate_json(text)
-    return CupPlan(begun.cup, begun.code_folder, store.folder, begun.digests)
+    return CupPlan(begun.cup, begun.code_folder, store.folder, begun.digests, begun.files)
 
 
 def store_plan(store: RunStore, plan: CupPlan) -> None:
     """Store the plan of a cup that begins."""
-    begun = _Begun(cup=plan.cup, digests=dict(plan.digests), code_folder=plan.code_folder)
+    files = dict(plan.files) if plan.files is not None else None
+    begun = _Begun(cup=plan.cup, digests=dict(plan.digests), code_folder=plan.code_folder, files=files)
     store.set_document(_DOCUMENT, begun.model_dump_json())
 
 
@@ -151,14 +156,14 @@ def check_submitted(cup: CupConfig, digests: Mapping[str, str]) -> None:
             )
 
 
-def match_config(cup: CupConfig, slot: Slot) -> MatchConfig:
-    """The config of a match; it has the cup's name, so that its place in the cup is no part of it.
+def match_config(cup: CupConfig, slot: Slot, files: Mapping[str, Any] | None = None) -> MatchConfig:
+    """The config of a match; it has the cup's name, so that its place is no part of it. `files` are those of the plan.
 
     Raises:
         TouchlineError: a team is none that ships, or a key of the match is invalid.
     """
     entries = {team.name: team for team in cup.teams}
-    config = cup.match_config(name=cup.name, seed=slot.seed(cup))
+    config = cup.match_config(files, name=cup.name, seed=slot.seed(cup))
     cyan, magenta = (_team(entries[name], cup) for name in slot.sides)
     changes: dict[str, object] = {"teams": TeamConfigs(cyan=cyan, magenta=magenta)}
     if slot.fixture.decisive:

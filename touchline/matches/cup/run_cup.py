@@ -36,7 +36,7 @@ class CupRun:
         """
         digests = digests_of(cup, code_folder)
         check_submitted(cup, digests)
-        self.plan = CupPlan(cup, code_folder.absolute(), folder.absolute(), digests)
+        self.plan = CupPlan(cup, code_folder.absolute(), folder.absolute(), digests, cup.read_files())
         for slot in state_of(cup, lambda _: None).due[:1]:
             match_config(cup, slot)
         self._store = RunStore(folder.absolute())
@@ -94,6 +94,10 @@ class CupRun:
             raise TouchlineError(f"{folder}: has a cup already; add --resume to go on, or give another --out")
         if stored.cup != plan.cup:
             raise TouchlineError(f"{folder}: its cup is another one than that of the file; give another --out")
+        if stored.files not in (None, plan.files):
+            raise TouchlineError(
+                f"{folder}: its scene, profile or rule book has changed since; restore it, or give another --out"
+            )
         for team, digest in stored.digests.items():
             if plan.digests[team] != digest:
                 raise TouchlineError(

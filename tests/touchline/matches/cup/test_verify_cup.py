@@ -10,8 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from schemas.errors import TouchlineError
 from schemas.side import Side
-from support.cups import CUP, mini_cup
+from support.brisk import BRISK
+from support.cups import CUP, mini_cup, play
 from touchline.matches.cup.cup_config import load_cup
 from touchline.matches.cup.cup_plan import CupPlan, digests_of
 from touchline.matches.cup.verify_cup import CupVerdict, verify_cup
@@ -44,6 +46,22 @@ def test_a_cup_whose_folder_was_moved_is_verified(cup: Path) -> None:
     part = verified(cup, 1)
     assert (part.faults, part.simulated) == ([], 1)
     assert 0 < part.ticks < whole.ticks
+
+
+def test_a_cup_by_a_rule_book_of_its_own_is_verified_where_that_file_is_not(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(BRISK, "own.toml")
+    Path("mini.toml").write_text(CUP.replace(str(BRISK), "own.toml"))
+    with closing(mini_cup(tmp_path)) as run:
+        assert play(run, 1).is_complete
+    Path("own.toml").write_text(Path("own.toml").read_text().replace("0.2", "0.3"))
+    with pytest.raises(TouchlineError, match="its scene, profile or rule book has changed since; restore it"):
+        mini_cup(tmp_path, resume=True)
+    Path("own.toml").unlink()
+    verdict = verified(tmp_path / "out")
+    assert (verdict.faults, verdict.simulated) == ([], 1)
 
 
 def test_a_stored_result_that_was_changed_is_named_with_its_match_and_the_table(cup: Path, undisturbed: Path) -> None:
