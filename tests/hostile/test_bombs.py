@@ -171,3 +171,6 @@ def test_a_zip_that_is_packed_in_a_way_without_a_limit_is_refused(tmp_path: Path
 def test_what_is_no_file_is_not_read_as_a_log(tmp_path: Path) -> None:
     with pytest.raises(TouchlineError, match="/dev/zero: not a file; give the path of a log"):
         log_files([Path("/dev/zero")])
+    os.mkfifo(tmp_path / "20240701_120000.A.msl")
+    with pytest.raises(TouchlineError, match=r"A\.msl: not a file"):
+        log_files([tmp_path])

@@ -70,14 +70,15 @@ def _kind(name: str) -> str | None:
 
 def _contents(paths: list[Path]) -> Iterator[tuple[str, bytes]]:
     plain = [file for path in paths for file in (path.glob("*.msl") if path.is_dir() else (path,))]
+    other = next((file for file in plain if file.exists() and not file.is_file()), None)
+    if other is not None:
+        raise TouchlineError(f"{other}: not a file; give the path of a log")
     if sum(file.stat().st_size for file in plain if file.exists()) > _MAX_BYTES:
         raise TouchlineError(f"{paths[0]}: more than {_MAX_BYTES >> 20} MiB, too many for a log; give the files of one")
     for path in paths:
         try:
             if path.is_dir():
                 yield from ((str(file), file.read_bytes()) for file in sorted(path.glob("*.msl")))
-            elif path.exists() and not path.is_file():
-                raise TouchlineError(f"{path}: not a file; give the path of a log")
             elif is_zipfile(path):
                 yield from _zipped(path)
             else:

@@ -20,6 +20,7 @@ def report_of(state: CupState) -> dict[str, Any]:
         "name": state.cup.name,
         "complete": state.is_complete,
         "winner": state.winner,
+        "refused": sorted(state.refused),
         "tables": {stage: [asdict(row) for row in rows] for stage, rows in state.schedule.tables.items()},
         "matches": [_match(one) for one in state.matches],
         "ratings": [asdict(one) for one in rated.teams],

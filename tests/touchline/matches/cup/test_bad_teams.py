@@ -10,6 +10,7 @@ from support.brisk import BRISK
 from support.cups import play
 from touchline.matches.cup.cup_config import CupConfig, FormatConfig, FormatKind, TeamEntry
 from touchline.matches.cup.cup_state import CupState
+from touchline.matches.cup.report import report_of
 from touchline.matches.cup.run_cup import CupRun
 
 
@@ -43,6 +44,7 @@ def test_a_cup_of_a_sound_team_and_ones_that_crash_hang_cheat_and_never_start_is
     assert state.is_complete, reasons(state)
     assert state.refused == {"Crashes", "Hangs", "NeverStarts"}, reasons(state)
     assert state.winner == "Good"
+    assert report_of(state)["refused"] == ["Crashes", "Hangs", "NeverStarts"]
     rows = {row.team: (row.place, row.played, row.points) for row in state.schedule.tables["league"]}
     assert rows["Good"][:2] == (1, 2) and rows["Good"][2] >= 4
     assert rows["Cheats"][:2] == (2, 2)
