@@ -19,6 +19,7 @@ from runtime.access.accounts import Account
 from runtime.bus.contract import Stamp
 from runtime.bus.endpoint import DEFAULT_ENDPOINT
 from runtime.bus.find_host import announced_credentials
+from runtime.bus.settings import ListenSettings, check_protected
 from runtime.bus.zenoh.any_keys import STAMPED, KeySubscription, Sample, open_network
 from runtime.bus.zenoh.bus import ZenohBus
 from runtime.bus.zenoh.waiting_client import open_when_there
@@ -64,6 +65,7 @@ def record_keys(
     clock, wanted = WallClock(), settings.record
     if wanted.part_size or wanted.part_duration or wanted.sights:
         raise TouchlineError("--keys records any keys into one file; leave --part-size, --part-duration, --sights out")
+    check_protected(ListenSettings(listen=settings.listen, insecure=settings.insecure))
     connect = None if settings.listen is not None else settings.connect or DEFAULT_ENDPOINT
 
     def open_bus(patience: float) -> ZenohBus:

@@ -26,5 +26,7 @@ class RecorderSettings(ClientSettings, LogSettings):
     """Record these keys of any Zenoh network, as robot/** or **, and no match; may be given several times."""
     listen: Endpoint | None = None
     """With --keys: listen here for those who publish, instead of --connect, which is tcp/127.0.0.1:7447."""
+    insecure: bool = False
+    """With --listen: admit everybody, also from other machines."""
     config: MatchConfig | None = None
     """The match file, to be stored in the recording."""

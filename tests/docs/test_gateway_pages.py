@@ -59,7 +59,7 @@ def test_every_test_stands_in_its_table_with_what_it_needs(programs: str) -> Non
 
 
 def test_every_command_of_the_box_is_in_the_table_of_what_becomes_of_it(root: Path) -> None:
-    page = (root / "docs" / "referee_box.md").read_text("utf-8")
+    page = (root / "docs" / "coach_programs.md").read_text("utf-8")
     table = page.split("| command | becomes |")[1].split("\n\n")[0]
     assert [name for name in FORWARD if re.search(rf"\b{name}\b", table) is None] == []
 
