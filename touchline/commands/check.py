@@ -56,9 +56,12 @@ def check(
     results = []
     for result in run_checks(Examination(subject, seconds)):
         results.append(result)
-        if not json:
+        if not json and result.kept is not None:
             typer.echo(f"{'kept' if result.kept else 'broken':<7} {result.name:<12} {result.sentence}")
     is_kept = all(result.kept for result in results)
+    unjudged = ", ".join(result.name for result in results if result.kept is None)
+    if unjudged and not json:
+        typer.echo(f"not judged because of this: {unjudged}")
     if json:
         typer.echo(json_text({"kept": is_kept, "checks": results}, indent=2))
     raise typer.Exit(0 if is_kept else 1)

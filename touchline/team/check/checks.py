@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from touchline.team.check import situations
 from touchline.team.check.examination import (
     Examination,
+    check_answers,
     check_build,
     check_limits,
     check_repeatable,
@@ -26,9 +27,11 @@ class Check:
     kept: str
     """The sentence where the contract is kept; a template for the check's figures."""
     remedy: str
-    """What to change where it is broken."""
+    """What to change where it is broken; empty where the sentence itself says it."""
     run: Callable[[Examination], dict[str, float]]
     """Returns figures; raises `BreachError` where the contract is broken."""
+    is_needed: bool = False
+    """Where it is broken, no further check can be judged."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +39,9 @@ class CheckResult:
     """The result of one check."""
 
     name: str
-    kept: bool
-    sentence: str
+    kept: bool | None
+    """None if it could not be judged, because of a fault that another check reports."""
+    sentence: str = ""
     figures: dict[str, float] = field(default_factory=dict)
 
 
@@ -48,17 +52,26 @@ CHECKS = (
         "all {robots:.0f} robots are built",
         "build a robot from its briefing alone",
         check_build,
+        is_needed=True,
+    ),
+    Check(
+        "answers",
+        "plays two matches with equal seeds, in which each sight gets a valid command",
+        "all {commands:.0f} sights are answered",
+        "",
+        check_answers,
+        is_needed=True,
     ),
     Check(
         "time",
-        "times each decision of a match",
+        "times each decision of these matches",
         "a decision takes {p50:.2f} ms (p50), {p99:.2f} ms (p99), {max:.2f} ms at most; a tick lasts {tick:.0f} ms",
         "make act faster: in real time a late command misses its tick",
         check_time,
     ),
     Check(
         "repeatable",
-        "plays two matches with equal seeds, and compares all commands",
+        "compares all commands of these matches",
         "two equal runs have the same {commands:.0f} commands",
         "seed all random numbers, and decide by sight.time, not by the clock of the machine",
         check_repeatable,
@@ -117,18 +130,23 @@ CHECKS = (
 
 
 def run_checks(examination: Examination) -> Iterator[CheckResult]:
-    """Run all checks; if the first one, of the build, fails, the others are not run."""
+    """Run all checks. Those that cannot be judged after a fault, or fail by an exception reported before, say so."""
+    raised: set[str] = set()
+    is_over = False
     for check in CHECKS:
-        result = run_check(check, examination)
+        result = CheckResult(check.name, kept=None) if is_over else run_check(check, examination, raised)
         yield result
-        if check is CHECKS[0] and not result.kept:
-            return
+        is_over = is_over or (result.kept is False and (check.is_needed or examination.is_slow))
 
 
-def run_check(check: Check, examination: Examination) -> CheckResult:
-    """Run one check."""
+def run_check(check: Check, examination: Examination, raised: set[str] | None = None) -> CheckResult:
+    """Run one check; `raised` has the exceptions that were reported, and gets those of this check."""
+    raised = set() if raised is None else raised
     try:
         figures = check.run(examination)
     except BreachError as error:
-        return CheckResult(check.name, kept=False, sentence=f"{error}; {check.remedy}")
+        if error.raised and error.raised in raised:
+            return CheckResult(check.name, kept=None)
+        raised.add(error.raised)
+        return CheckResult(check.name, kept=False, sentence="; ".join(filter(None, (str(error), check.remedy))))
     return CheckResult(check.name, kept=True, sentence=check.kept.format(**figures), figures=figures)

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,6 +13,7 @@ from schemas.messages.sight import Sight
 from schemas.wire.part import encode
 from touchline.play.play_match import play_match
 from touchline.team.check.subject import CheckedRobot, Subject
+from touchline.timing import HANG_S
 
 OPPONENT = "robot_agent.teams.simple:Simple"
 _MARGIN = 1.001
@@ -41,10 +43,14 @@ class Played:
     """A sentence for each part of a command that the host has refused."""
     sights: dict[str, Sight] = field(default_factory=dict)
     """Robot → its last sight."""
+    excess_s: float = 0.0
+    """By how much all decisions after the first tick took longer than a tick each."""
+    is_slow: bool = False
+    """The decisions took much longer than their ticks, and the match was ended early."""
 
 
 def play_checked(subject: Subject, seconds: float, clock: Clock) -> Played:
-    """Play a match of `seconds` of simulated time against the team `simple`.
+    """Play a match of `seconds` of simulated time against the team `simple`; it ends early if a robot is too slow.
 
     Raises:
         BreachError: the checked team breaks the contract.
@@ -57,11 +63,16 @@ def play_checked(subject: Subject, seconds: float, clock: Clock) -> Played:
         for robot in subject.robots:
             robots[robot] = subject.start(robot, setup)
         brains: dict[str, Any] = {name: _Measured(one, setup, played, clock.now) for name, one in robots.items()}
-        play_match(config.model_copy(update={"teams": teams}), brains, until=seconds, brain_folder=subject.folder)
+        with suppress(_TooSlowError):
+            play_match(config.model_copy(update={"teams": teams}), brains, until=seconds, brain_folder=subject.folder)
     finally:
         for one in robots.values():
             one.close()
     return played
+
+
+class _TooSlowError(Exception):
+    """The decisions take longer than their ticks: a whole match would take minutes, and show nothing else."""
 
 
 class _Measured:
@@ -81,6 +92,11 @@ class _Measured:
         played.refusals += [f"{name} at tick {sight.tick}: {reason}" for reason in sight.outcome.refused]
         played.excesses += [f"{name} at tick {sight.tick}: {excess}" for excess in excesses(command, self._limits)]
         played.sights[name] = sight
+        if sight.tick > 0:
+            played.excess_s += took - self._limits.time.tick
+        if played.excess_s > HANG_S:
+            played.is_slow = True
+            raise _TooSlowError
         return command
 
 

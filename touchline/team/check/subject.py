@@ -1,11 +1,14 @@
 """What is checked: a brain or a program of lines, the match that it is checked for, and its answers."""
 
-from collections.abc import Sequence
+import signal
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from robot_agent.loading.brain_error import BrainError
 from robot_agent.loading.brain_loader import load_brain
+from robot_agent.loading.user_code import place_of
 from robot_agent.process.stdio.command_line import command_line
 from robot_agent.process.stdio.program import StdioProgram
 from robot_agent.sdk.contract import Brain, Briefing
@@ -17,6 +20,7 @@ from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
 from touchline.team.check.bus_program import BusProgram
+from touchline.timing import HANG_S
 
 SIDE = Side.CYAN
 """The side that the checked team plays for."""
@@ -24,6 +28,37 @@ SIDE = Side.CYAN
 
 class BreachError(Exception):
     """The contract is broken; the text is the sentence that reports how."""
+
+    def __init__(self, sentence: str, raised: str = "") -> None:
+        """`raised` is the exception of a brain and its place; empty without one."""
+        super().__init__(sentence)
+        self.raised = raised
+
+
+class _HangError(BaseException):
+    """Raised in a brain that does not return; a brain that catches `Exception` does not catch it."""
+
+
+@contextmanager
+def _in_time(what: str) -> Iterator[None]:
+    """Interrupt a brain that does not return within `HANG_S`; needs the main thread.
+
+    Raises:
+        BreachError: it was interrupted; the sentence has the line.
+    """
+
+    def interrupt(*_: object) -> None:
+        raise _HangError
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    signal.setitimer(signal.ITIMER_REAL, HANG_S)
+    try:
+        yield
+    except _HangError as error:
+        raise BreachError(f"{what} has not returned after {HANG_S:g} s{place_of(error)}") from None
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +104,8 @@ class Subject:
             return StdioProgram(command_line(self.stdio, self.folder), briefing, log=log.append)
         if self.command:
             return BusProgram(command_line(self.command), briefing, log)
-        return load_brain(self.brain, briefing, self.folder)
+        with _in_time(f"{briefing.robot}: building {self.brain}"):
+            return load_brain(self.brain, briefing, self.folder)
 
 
 @dataclass(slots=True)
@@ -88,13 +124,16 @@ class CheckedRobot:
             BreachError: it raises, or what it returns is no valid command for that sight.
         """
         try:
-            command = self.brain.act(sight)
+            command = self._answer(sight)
+        except BreachError:
+            raise
         except TouchlineError as error:
             raise BreachError(str(error)) from None
         except (Exception, SystemExit) as error:
             failure = BrainError(sight.tick, self.brain.act)
             failure.__cause__ = error
-            raise BreachError(f"{self.robot}: {failure.report().splitlines()[-1]}") from None
+            raised = f"{type(error).__name__}{place_of(error)}"
+            raise BreachError(f"{self.robot}: {failure.report().splitlines()[-1]}", raised) from None
         if not isinstance(command, Command):
             raise BreachError(f"{self.robot}: {BrainError(sight.tick, self.brain.act, command).report().strip()}")
         if self.log:
@@ -108,6 +147,12 @@ class CheckedRobot:
             return Command.decode(command.encode())
         except BadMessageError as error:
             raise BreachError(f"{self.robot}: {error}") from None
+
+    def _answer(self, sight: Sight) -> object:
+        if isinstance(self.brain, StdioProgram | BusProgram):
+            return self.brain.act(sight)  # they have a limit of their own
+        with _in_time(f"{self.robot}: act at tick {sight.tick}"):
+            return self.brain.act(sight)
 
     def close(self) -> None:
         """End the program, if it is one."""

@@ -1,13 +1,17 @@
 """Each check passes a brain that keeps the contract, and names what one does that breaks it."""
 
+import itertools
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from runtime.process.clock import Clock
 from schemas.config.match_config import load_match
 from support.stepped_clock import SteppedClock
 from touchline.matches.series.team_names import brain_of, shipped_teams
+from touchline.team.check import play as play_module
+from touchline.team.check import subject as subject_module
 from touchline.team.check.checks import CHECKS, CheckResult, run_check, run_checks
 from touchline.team.check.examination import Examination
 from touchline.team.check.subject import Subject
@@ -33,6 +37,30 @@ class Unbuildable(Keeps):
 class Slow(Keeps):
     def act(self, sight):
         time.sleep(0.03)
+        return super().act(sight)
+
+class HangsInInit(Keeps):
+    def __init__(self, briefing):
+        while True:
+            pass
+
+class HangsInAct(Keeps):
+    def act(self, sight):
+        while sight.tick == 3:
+            try:
+                pass
+            except Exception:
+                pass
+        return super().act(sight)
+
+class Misspells(Keeps):
+    def act(self, sight):
+        return Command(answers_tick=self.breifing)
+
+class NeedsBall(Keeps):
+    def act(self, sight):
+        if sight.tick > 200:
+            sight.ball.x
         return super().act(sight)
 
 class Counts(Keeps):
@@ -143,8 +171,8 @@ BROKEN = [
     ("radio_fields", "ReadsPlan", "radio without fields: cyan1: act raised"),
     ("radio_fields", "ReadsNumber", "radio with text in place of each value in extra: cyan1: act raised"),
     ("twice", "OnceEach", "a sight twice: cyan1: act raised"),
-    ("time", "OtherTick", "answers_tick is 7 for the sight of tick 0; return Command(answers_tick=sight.tick"),
-    ("limits", "Nothing", "act returned None at tick 3"),
+    ("answers", "OtherTick", "answers_tick is 7 for the sight of tick 0; return Command(answers_tick=sight.tick"),
+    ("answers", "Nothing", "act returned None at tick 3"),
 ]
 
 
@@ -163,10 +191,74 @@ def test_every_check_has_a_brain_that_breaks_it() -> None:
     assert {check for check, _, _ in BROKEN} == {row.name for row in CHECKS}
 
 
-def test_without_a_brain_no_other_check_is_run(folder: Path) -> None:
-    subject = Subject(load_match(None, {"teams.cyan.remote": True}), f"{MODULE}:Unbuildable", folder=folder)
-    (result,) = run_checks(Examination(subject, clock=SteppedClock()))
-    assert (result.name, result.kept) == ("build", False)
+@pytest.fixture
+def run_all(folder: Path) -> Callable[..., list[CheckResult]]:
+    """Runs all checks on a brain of the module, by a clock that stands unless another is given."""
+
+    def run(brain: str, clock: Clock | None = None) -> list[CheckResult]:
+        config = load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 1, "teams.cyan.remote": True})
+        subject = Subject(config, f"{MODULE}:{brain}", folder=folder)
+        return list(run_checks(Examination(subject, 2.0, clock or SteppedClock())))
+
+    return run
+
+
+def assert_only_fault(results: list[CheckResult], name: str, words: str) -> None:
+    """The check `name` is broken, those before it are kept, and those after it are not judged."""
+    at = [row.name for row in CHECKS].index(name)
+    assert [result.kept for result in results] == [True] * at + [False] + [None] * (len(CHECKS) - at - 1)
+    assert words in results[at].sentence
+    assert not any(result.sentence for result in results[at + 1 :])
+
+
+def test_without_a_brain_no_other_check_is_judged(run_all: Callable[..., list[CheckResult]]) -> None:
+    assert_only_fault(run_all("Unbuildable"), "build", "KeyError")
+
+
+def test_an_exception_in_every_sight_is_one_line_and_the_rest_is_not_judged(
+    run_all: Callable[..., list[CheckResult]],
+) -> None:
+    assert_only_fault(run_all("Misspells"), "answers", "AttributeError: 'Misspells' object has no attribute 'breifing'")
+
+
+def test_an_exception_that_an_earlier_check_reported_is_not_reported_again(
+    run_all: Callable[..., list[CheckResult]],
+) -> None:
+    results = {result.name: result.kept for result in run_all("NeedsBall")}
+    assert (results["ball_unseen"], results["twice"], results["stopped"]) == (False, None, True)
+
+
+@pytest.mark.parametrize(
+    ("brain", "check", "words"),
+    [
+        (
+            "HangsInInit",
+            "build",
+            f"cyan1: building {MODULE}:HangsInInit has not returned after 0.2 s ({MODULE}.py, line",
+        ),
+        ("HangsInAct", "answers", f"cyan1: act at tick 3 has not returned after 0.2 s ({MODULE}.py, line"),
+    ],
+)
+def test_a_brain_that_never_returns_ends_the_check_with_its_line(
+    run_all: Callable[..., list[CheckResult]], monkeypatch: pytest.MonkeyPatch, brain: str, check: str, words: str
+) -> None:
+    monkeypatch.setattr(subject_module, "HANG_S", 0.2)
+    assert_only_fault(run_all(brain), check, words)
+
+
+def test_a_brain_much_slower_than_its_ticks_is_judged_slow_before_the_match_ends(
+    run_all: Callable[..., list[CheckResult]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(play_module, "HANG_S", 1.0)
+    times = itertools.count(step=0.05)
+
+    class Clock50ms(SteppedClock):
+        def now(self) -> float:
+            return next(times)
+
+    assert_only_fault(
+        run_all("Keeps", Clock50ms()), "time", "a decision takes 50.0 ms on average, and a tick lasts 20 ms"
+    )
 
 
 @pytest.mark.slow
