@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from robot_agent.loading.limit_reached import limit_reached
-from robot_agent.loading.user_code import definition_of, place_of
+from robot_agent.loading.user_code import ReturnedError, definition_of, place_of
 from schemas.wire.faults import FaultError
 
 _NO_TERMINAL = "a robot's process has no terminal; write breakpoint(), which it skips, in place of pdb.set_trace()\n"
@@ -42,7 +42,7 @@ class BrainError(RobotError):
             place = definition_of(self._act)
             return f"act returned {self._returned!r} at tick {self.tick}{place}; return a Command\n"
         place = place_of(cause)
-        if isinstance(cause, FaultError):
+        if isinstance(cause, FaultError | ReturnedError):
             return f"act failed at tick {self.tick}{place}: {cause}\n"
         failure = f"{type(cause).__name__}: {' '.join(str(cause).split())}"
         limit = limit_reached(cause)

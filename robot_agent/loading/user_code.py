@@ -12,21 +12,35 @@ OWN_PACKAGES = ("schemas", "runtime", "sim_host", "robot_agent", "coach_gateway"
 """The packages of this library."""
 _ROOT = Path(__file__).resolve().parents[2]
 _TEAMS = _ROOT / "robot_agent" / "teams"
+"""Its folders are the teams that ship; its files are what all teams have in common."""
 _NOT_USERS = [*(_ROOT / name for name in OWN_PACKAGES), Path(inspect.__file__).resolve().parent]
 _INSTALLED = {"site-packages", "dist-packages"}
+
+
+class ReturnedError(TypeError):
+    """A function of a brain returned something that it may not return."""
+
+    def __init__(self, name: str, what: str, function: Callable[..., Any], remedy: str) -> None:
+        """`what` is what it returned, in words; the text has its file and line, too."""
+        super().__init__(f"{name} returned {what}{definition_of(function)}; {remedy}")
 
 
 def is_users(file: str) -> bool:
     """Whether code of this file belongs to a brain: not to this library, to Python, or to an installed package."""
     path = Path(file).resolve()
-    if path.is_relative_to(_TEAMS):
+    if path.is_relative_to(_TEAMS) and path.parent != _TEAMS:
         return True
     is_other = any(path.is_relative_to(folder) for folder in _NOT_USERS) or not _INSTALLED.isdisjoint(path.parts)
     return not file.startswith("<") and not is_other
 
 
 def place_of(error: BaseException) -> str:
-    """Where the brain's own code raised, or called what raised: ` (my_team.py, line 17)`."""
+    """Where the brain's own code raised, or called what raised: ` (my_team.py, line 17)`.
+
+    Empty for what was returned, whose text has the place.
+    """
+    if isinstance(error, ReturnedError):
+        return ""
     frames = list(traceback.extract_tb(error.__traceback__))
     own = [frame for frame in frames if is_users(frame.filename)] or frames
     return f" ({shown_path(own[-1].filename)}, line {own[-1].lineno})" if own else ""

@@ -17,7 +17,7 @@ from robot_agent.soccer.skills.keep_hold import hold_deceleration
 from robot_agent.soccer.skills.let_go import let_go
 from robot_agent.soccer.skills.search import search_place
 from robot_agent.teams import coach_tests, shoot_out
-from robot_agent.teams.action import Action
+from robot_agent.teams.action import Action, checked
 from robot_agent.teams.area_turn import AreaTurn, leaves
 from robot_agent.teams.fair_play import Carry, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.teams.parking import park
@@ -173,7 +173,7 @@ class Player(ABC):
             return self._shoot_out(belief)
         if belief.ball is None and game.phase is TeamPhase.PLAY:
             return self._search(belief)
-        return self.play(belief, order)
+        return checked(self.play(belief, order), self.play)
 
     @abstractmethod
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from robot_agent.loading.user_code import definition_of
+from robot_agent.loading.user_code import ReturnedError
 from robot_agent.process.robot_code import end_robot, start_robot
 from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
@@ -115,7 +115,7 @@ class InProcessMatch:
 def _command(brain: Brain, sight: Sight) -> Command:
     command = brain.act(sight)
     if not isinstance(command, Command):
-        raise TypeError(f"act returned {command!r}{definition_of(brain.act)}; return a Command")
+        raise ReturnedError("act", repr(command), brain.act, "return a Command")
     return command
 
 
