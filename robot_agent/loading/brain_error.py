@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from robot_agent.loading.limit_reached import limit_reached
-from robot_agent.loading.user_code import ReturnedError, definition_of, place_of
+from robot_agent.loading.user_code import ReturnedError, definition_of, place_of, sentence_of
 from schemas.wire.faults import FaultError
 
 _NO_TERMINAL = "a robot's process has no terminal; write breakpoint(), which it skips, in place of pdb.set_trace()\n"
@@ -44,10 +44,9 @@ class BrainError(RobotError):
         place = place_of(cause)
         if isinstance(cause, FaultError | ReturnedError):
             return f"act failed at tick {self.tick}{place}: {cause}\n"
-        failure = f"{type(cause).__name__}: {' '.join(str(cause).split())}"
         limit = limit_reached(cause)
         remedy = f"limit reached: {limit}\n" if limit else _NO_TERMINAL if isinstance(cause, BdbQuit) else ""
-        return f"{_frames(cause)}act raised at tick {self.tick}{place}: {failure}\n{remedy}"
+        return f"{_frames(cause)}act raised at tick {self.tick}{place}: {sentence_of(cause)}\n{remedy}"
 
 
 def _frames(cause: BaseException) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 
 from robot_agent.loading.brain_folders import BrainFolders
 from robot_agent.loading.limit_reached import limit_reached
-from robot_agent.loading.user_code import OWN_PACKAGES, definition_of, place_of
+from robot_agent.loading.user_code import OWN_PACKAGES, definition_of, place_of, sentence_of
 from robot_agent.sdk.contract import Brain, Briefing
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
@@ -147,4 +147,4 @@ def _one_line(error: BaseException) -> str:
         return f"SyntaxError: {error.msg} ({error.filename}, line {error.lineno})"
     limit = limit_reached(error)
     remedy = f"; limit reached: {limit}" if limit else ""
-    return f"{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}{remedy}"
+    return f"{sentence_of(error)}{place_of(error)}{remedy}"

@@ -1,9 +1,12 @@
 """Places in the code of a brain, for messages: the file and line of a definition, or of what an exception came from."""
 
 import inspect
+import io
+import re
 import sys
 import traceback
 from collections.abc import Callable
+from contextlib import redirect_stderr
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -14,6 +17,7 @@ _ROOT = Path(__file__).resolve().parents[2]
 _TEAMS = _ROOT / "robot_agent" / "teams"
 """Its folders are the teams that ship; its files are what all teams have in common."""
 _NOT_USERS = [*(_ROOT / name for name in OWN_PACKAGES), Path(inspect.__file__).resolve().parent]
+_SUGGESTION = re.compile(r"\. Did you mean: '\w+'\?$")
 _INSTALLED = {"site-packages", "dist-packages"}
 
 
@@ -32,6 +36,15 @@ def is_users(file: str) -> bool:
         return True
     is_other = any(path.is_relative_to(folder) for folder in _NOT_USERS) or not _INSTALLED.isdisjoint(path.parts)
     return not file.startswith("<") and not is_other
+
+
+def sentence_of(error: BaseException) -> str:
+    """Type and message of an exception in one line, with the name that Python suggests for a misspelt one."""
+    printed = io.StringIO()
+    with redirect_stderr(printed):  # Python 3.11 suggests only where it prints an exception itself
+        sys.__excepthook__(type(error), error, error.__traceback__)
+    suggestion = _SUGGESTION.search(printed.getvalue().rstrip())
+    return f"{type(error).__name__}: {' '.join(str(error).split())}{suggestion[0] if suggestion else ''}"
 
 
 def place_of(error: BaseException) -> str:

@@ -95,6 +95,7 @@ class MatchRun:
                 self._supervisor.end(steps, should_abort=lambda: stop.received is not None, keep=keep)
             if follower is None or empty is not None or stop.received is not None:
                 self._supervisor.end(AT_ONCE)  # the remaining processes
+            self._log_watch.count()
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
         try:

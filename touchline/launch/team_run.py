@@ -88,6 +88,7 @@ class TeamRun:
                     self._clock.sleep_until(self._clock.now() + POLL_S)
             finally:
                 self._supervisor.end(AT_ONCE)
+                self._log_watch.count()
         self._report_end(follower, interrupted=stop.received is not None)
 
     def _has_ended(self, follower: MatchFollower) -> bool:

@@ -12,7 +12,7 @@ from typing import Any
 
 from recordings.reading.recording import Recording
 from robot_agent.loading.brain_loader import load_brain
-from robot_agent.loading.user_code import place_of
+from robot_agent.loading.user_code import place_of, sentence_of
 from robot_agent.sdk.contract import Brain, Briefing
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.command import Command
@@ -184,8 +184,7 @@ def checked_answer(spec: str, brain: Brain, sight: Sight, act: Act = plainly) ->
     except BdbQuit:
         raise
     except (Exception, SystemExit) as error:
-        what = f"{type(error).__name__}: {' '.join(str(error).split())}"
-        raise MatchFailedError(f"{spec} raised at tick {sight.tick}: {what}{place_of(error)}") from error
+        raise MatchFailedError(f"{spec} raised at tick {sight.tick}: {sentence_of(error)}{place_of(error)}") from error
     if not isinstance(command, Command):
         raise MatchFailedError(f"{spec} returned {command!r} at tick {sight.tick}; return a Command")
     return Command.decode(command.encode())

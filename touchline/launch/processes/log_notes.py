@@ -1,5 +1,7 @@
 """Watches the logs of a match: limits them, and finds what their processes want to be shown to the user."""
 
+import re
+from collections import Counter, defaultdict
 from pathlib import Path
 
 from runtime.process.process_log import NOTE, message_of
@@ -11,12 +13,18 @@ _MOST_BYTES = 1_000_000
 """Bytes of a log that one search reads; of a longer one, the newest."""
 
 
+_FAULT = re.compile(r"(act (?:raised|failed|returned).*?)( at tick \d+)(.*)")
+"""The line of a brain's fault. What is left without the tick is the same in all robots of a team."""
+
+
 class LogWatch:
     """Shows on the screen what is to be known of processes and their logs."""
 
     def __init__(self, screen: Screen) -> None:
         self._screen = screen
         self._limit, self._notes = LogLimit(), LogNotes()
+        self._faults: defaultdict[str, Counter[str]] = defaultdict(Counter)
+        """Fault of a brain → the robots that had it, and how often."""
 
     def update(self, log: Path) -> None:
         """Show what was added to a log since the last call."""
@@ -24,10 +32,25 @@ class LogWatch:
             self._screen.warn(sentence)
 
     def show(self, notice: Notice) -> None:
-        """Show a notice with the last lines of the log."""
+        """Show a notice with the last lines of the log; a fault of a brain as one line, and only the first time."""
+        for number, line in enumerate(notice.log):
+            if found := _FAULT.fullmatch(line):
+                counts = self._faults[found[1] + found[3]]
+                counts[notice.name] += 1
+                if counts.total() == 1:
+                    where = f"; {notice.name}.log has the traceback" if number else ""
+                    self._screen.warn("; ".join((f"{notice.sentence}: {line}", *notice.log[number + 1 :])) + where)
+                return
         self._screen.warn(notice.sentence)
         for line in notice.log:
             self._screen.warn(f"  {notice.name}: {line}")
+
+    def count(self) -> None:
+        """Show how often each fault of a brain came again; called once, at the end of the match."""
+        for fault, counts in self._faults.items():
+            if counts.total() > 1:
+                robots = ", ".join(f"{robot} {count}" for robot, count in sorted(counts.items()))
+                self._screen.warn(f"{counts.total()} times ({robots}): {fault}")
 
 
 class LogNotes:

@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import replace
 
 from recordings.container.parts import remove_parts
-from robot_agent.loading.user_code import place_of
+from robot_agent.loading.user_code import place_of, sentence_of
 from schemas.errors import TouchlineError
 from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
@@ -83,7 +83,7 @@ def reason_of(match: InProcessMatch, error: BaseException) -> str:
     if match.acting is None and isinstance(error, TouchlineError):
         return str(error)  # of the score of a free game
     who = f"{match.acting}, tick {match.simulation.now.tick}: " if match.acting is not None else ""
-    return f"{who}{type(error).__name__}: {' '.join(str(error).split())}{place_of(error)}"
+    return f"{who}{sentence_of(error)}{place_of(error)}"
 
 
 def recording_of(planned: PlannedMatch, simulation: Simulation) -> AbstractContextManager[MatchRecording | None]:

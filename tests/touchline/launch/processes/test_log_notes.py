@@ -1,7 +1,16 @@
 """Notes in the logs of robots, for the user at the terminal."""
 
+import io
+
+import pytest
+
 from runtime.process.process_log import NOTE
-from touchline.launch.processes.log_notes import LogNotes
+from support.stepped_clock import SteppedClock
+from touchline.launch.processes.log_notes import LogNotes, LogWatch
+from touchline.launch.processes.supervisor import Notice
+from touchline.launch.terminal.screen import Screen
+
+BUG = "(my_team.py, line 7): KeyError: 'plan'"
 
 
 def test_each_note_is_found_once_when_its_line_is_whole(tmp_path):
@@ -39,3 +48,42 @@ def test_a_log_that_was_cut_is_read_on(tmp_path):
     with log.open("a") as file:
         file.write(f"{NOTE}one: first\n")
     assert notes.update(log) == ["one: first"]
+
+
+@pytest.fixture
+def shown() -> io.StringIO:
+    return io.StringIO()
+
+
+@pytest.fixture
+def watch(shown: io.StringIO) -> LogWatch:
+    return LogWatch(Screen(shown, SteppedClock()))
+
+
+def test_one_fault_of_five_robots_is_a_line_and_at_the_end_a_count(watch: LogWatch, shown: io.StringIO) -> None:
+    for number in (1, 2, 3, 4, 5, 1, 2):
+        log = ("Traceback (most recent call last):", "    self.plan", f"act raised at tick {40 + number} {BUG}")
+        watch.show(Notice(f"cyan{number}", f"cyan{number} ended with status 1", log))
+    watch.count()
+    assert shown.getvalue().splitlines() == [
+        f"cyan1 ended with status 1: act raised at tick 41 {BUG}; cyan1.log has the traceback",
+        f"7 times (cyan1 2, cyan2 2, cyan3 1, cyan4 1, cyan5 1): act raised {BUG}",
+    ]
+
+
+def test_two_faults_are_two_lines_and_a_limit_is_named_with_its_remedy(watch: LogWatch, shown: io.StringIO) -> None:
+    limit = "limit reached: more than 1 GB; raise [limits] memory"
+    watch.show(Notice("cyan1", "cyan1 ended with status 1", ("act failed at tick 3: play returned None",)))
+    watch.show(Notice("cyan2", "cyan2 ended with status 1", (f"act raised at tick 9 {BUG}", limit)))
+    watch.count()
+    assert shown.getvalue().splitlines() == [
+        "cyan1 ended with status 1: act failed at tick 3: play returned None",
+        f"cyan2 ended with status 1: act raised at tick 9 {BUG}; {limit}",
+    ]
+
+
+def test_what_is_no_fault_of_a_brain_is_shown_with_its_log_each_time(watch: LogWatch, shown: io.StringIO) -> None:
+    for _ in range(2):
+        watch.show(Notice("cyan1", "cyan1 was ended by SIGKILL", ("printed",)))
+    watch.count()
+    assert shown.getvalue().splitlines() == ["cyan1 was ended by SIGKILL", "  cyan1: printed"] * 2
