@@ -4,9 +4,6 @@ POLL_S = 0.05
 """Between two looks at the processes of a match and at its bus: two and a half ticks."""
 PAGE_CLOSES_S = 1.0
 """After which the server of a page ends if it has a result and no page is open."""
-HANG_S = 10.0
-"""For which a brain may be silent in a planned match, a thousand times what a decision takes, and for it to be built
-where the match file allows less."""
 HANG_RENEW_S = 0.25
 """Between two renewals of the deadline of a brain: each starts a thread."""
 PROGRAM_ENDS_S = 1.5

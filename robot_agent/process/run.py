@@ -3,10 +3,11 @@
 import signal
 
 from robot_agent.loading.brain_reload import BrainReload
+from robot_agent.process.brain_runner import BrainRunner
 from robot_agent.process.breakpoints import skip_breakpoints
 from robot_agent.process.claim import Membership
 from robot_agent.process.robot_code import end_robot, start_robot
-from robot_agent.process.runner import Runner, serve
+from robot_agent.process.runner import serve
 from robot_agent.process.settings import AgentSettings
 from robot_agent.process.stdio.program_runner import ProgramRunner
 from robot_agent.sdk.contract import Brain, Briefing
@@ -54,7 +55,7 @@ def run(settings: AgentSettings) -> int:
                 return brain
 
             membership = Membership(bus, settings.robot, settings.launch_token, settings.match, settings.side)
-            runner_class = ProgramRunner if settings.stdio else Runner
+            runner_class = ProgramRunner if settings.stdio else BrainRunner
             reload = BrainReload(settings.robot, build) if settings.reload else None
             return serve(bus, build, settings.robot, settings.patience, membership, runner_class, reload)
     except KeyboardInterrupt:

@@ -42,6 +42,6 @@ def checked(action: object, play: Callable[..., Any]) -> Action:
         raise ReturnedError("play", repr(action), play, "return an Action")
     for name, (kind, words) in _PARTS.items():
         value = getattr(action, name)
-        if not isinstance(value, kind) or (words is _TEXT and len(value) > 80):
+        if not isinstance(value, kind) or (words is _TEXT and len(str(value)) > 80):
             raise ReturnedError("play", f"an Action with {name} {value!r}", play, f"give {words}")
     return action

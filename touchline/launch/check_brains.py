@@ -13,6 +13,7 @@ from pathlib import Path
 
 from robot_agent.loading.build_check import BuildCheckSettings
 from robot_agent.process.stdio.command_line import check_command_line
+from robot_agent.process.timing import HANG_S
 from runtime.process.clock import WallClock
 from schemas.config.confinement import Isolation
 from schemas.config.match_config import MatchConfig
@@ -25,7 +26,7 @@ from touchline.launch.processes.robot_process import ROBOT_ENVIRONMENT
 from touchline.launch.processes.supervisor import ending
 from touchline.launch.run_folder import RUNS
 from touchline.launch.team_error import TeamError
-from touchline.timing import HANG_S, STATUS_S
+from touchline.timing import STATUS_S
 
 _FAULT = "touchline: brain is "
 """What the line of a faulty brain begins with."""

@@ -8,8 +8,9 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from robot_agent.process.timing import HANG_S
 from runtime.process.clock import WallClock
-from touchline.timing import HANG_RENEW_S, HANG_S
+from touchline.timing import HANG_RENEW_S
 
 _ACTING, _STACK = "acting", "stack"
 _SIZE = 128

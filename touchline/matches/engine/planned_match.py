@@ -9,10 +9,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from robot_agent.process.timing import HANG_S
 from schemas.config.free import GameName
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.side import Side
-from touchline.timing import HANG_S
 
 
 class Way(StrEnum):

@@ -6,6 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from robot_agent.process.timing import HANG_S
 from runtime.process.clock import Clock
 from schemas.messages.command import Command, KickMode
 from schemas.messages.setup import Setup
@@ -13,7 +14,6 @@ from schemas.messages.sight import Sight
 from schemas.wire.part import encode
 from touchline.play.play_match import play_match
 from touchline.team.check.subject import CheckedRobot, Subject
-from touchline.timing import HANG_S
 
 OPPONENT = "robot_agent.teams.simple:Simple"
 _MARGIN = 1.001

@@ -1,6 +1,5 @@
 """What is checked: a brain or a program of lines, the match that it is checked for, and its answers."""
 
-import signal
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -8,9 +7,11 @@ from pathlib import Path
 
 from robot_agent.loading.brain_error import BrainError
 from robot_agent.loading.brain_loader import load_brain
+from robot_agent.loading.hang_alarm import hang_alarm
 from robot_agent.loading.user_code import place_of
 from robot_agent.process.stdio.command_line import command_line
 from robot_agent.process.stdio.program import StdioProgram
+from robot_agent.process.timing import HANG_S
 from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
@@ -20,7 +21,6 @@ from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
 from touchline.team.check.bus_program import BusProgram
-from touchline.timing import HANG_S
 
 SIDE = Side.CYAN
 """The side that the checked team plays for."""
@@ -41,24 +41,20 @@ class _HangError(BaseException):
 
 @contextmanager
 def _in_time(what: str) -> Iterator[None]:
-    """Interrupt a brain that does not return within `HANG_S`; needs the main thread.
+    """Interrupt a brain that does not return within `HANG_S`.
 
     Raises:
         BreachError: it was interrupted; the sentence has the line.
     """
 
-    def interrupt(*_: object) -> None:
+    def interrupt(_: object) -> None:
         raise _HangError
 
-    before = signal.signal(signal.SIGALRM, interrupt)
-    signal.setitimer(signal.ITIMER_REAL, HANG_S)
     try:
-        yield
+        with hang_alarm(HANG_S, interrupt):
+            yield
     except _HangError as error:
         raise BreachError(f"{what} has not returned after {HANG_S:g} s{place_of(error)}") from None
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
 
 
 @dataclass(frozen=True, slots=True)

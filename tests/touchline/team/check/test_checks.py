@@ -239,6 +239,7 @@ def test_an_exception_that_an_earlier_check_reported_is_not_reported_again(
         ("HangsInAct", "answers", f"cyan1: act at tick 3 has not returned after 0.2 s ({MODULE}.py, line"),
     ],
 )
+@pytest.mark.usefixtures("free_alarm")
 def test_a_brain_that_never_returns_ends_the_check_with_its_line(
     run_all: Callable[..., list[CheckResult]], monkeypatch: pytest.MonkeyPatch, brain: str, check: str, words: str
 ) -> None:

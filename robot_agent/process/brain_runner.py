@@ -1,0 +1,28 @@
+"""Runs a brain in its own process, whose log gets the stack where the brain does not return."""
+
+import traceback
+from types import FrameType
+
+from robot_agent.loading.hang_alarm import hang_alarm
+from robot_agent.loading.user_code import is_users, shown_path
+from robot_agent.process.runner import Runner
+from robot_agent.process.timing import HANG_S
+from runtime.process.process_log import Level, log_line, log_note
+from schemas.messages.sight import Sight
+
+
+class BrainRunner(Runner):
+    """Answers each sight by a brain; the brain is not interrupted."""
+
+    def _think(self, sight: Sight) -> bytes:
+        def report(frame: FrameType | None) -> None:
+            stack = [one for one in traceback.extract_stack(frame) if is_users(one.filename)]
+            if stack:
+                log_line("".join(traceback.format_list(stack)), Level.WARNING, tick=sight.tick)
+                log_note(
+                    f"act has not returned for {HANG_S:g} s in {shown_path(stack[-1].filename)}",
+                    f"{sight.robot} is in line {stack[-1].lineno} at tick {sight.tick}; its log has the stack",
+                )
+
+        with hang_alarm(HANG_S, report):
+            return super()._think(sight)
