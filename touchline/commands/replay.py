@@ -134,6 +134,7 @@ def replay(
             "--foxglove": foxglove,
             "--rate": rate != 1.0,
         }
+        on_the_bus |= {"--rename": rename, "a second FILE": files[1:]}
         robot, brain = parse_agent(agent, on_the_bus)
         debugged = AgentReplay(
             files[0], robot, brain, start, end, every_difference, pdb, brain_folder, live=live, out=out, json=json

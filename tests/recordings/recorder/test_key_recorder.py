@@ -13,10 +13,12 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.typesys import Stores, get_typestore
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.recorder.key_recorder import KeyRecorder, KeySummary
+from recordings.recorder.key_recorder import KeyRecorder, KeySummary, record_keys
+from recordings.recorder.settings import RecorderSettings
 from runtime.bus.contract import BusError
 from runtime.bus.zenoh.any_keys import open_network
 from runtime.process.clock import WallClock
+from schemas.errors import TouchlineError
 from support.foreign import LIMIT, Network
 
 Put = Callable[[zenoh.Session], None]
@@ -107,6 +109,19 @@ def test_what_is_no_key_expression_is_refused_in_one_line(tmp_path):
     with open_network("keys", WallClock(), None, "tcp/127.0.0.1:0") as bus, pytest.raises(BusError, match=fault):
         KeyRecorder(bus, tmp_path / "log.mcap", ["a//b"], EVERYTHING)
     assert not (tmp_path / "log.mcap").exists()
+
+
+@pytest.mark.parametrize(
+    ("settings", "fault"),
+    [
+        ({"listen": "tcp/0.0.0.0:0"}, "is open to other machines; .* or add --insecure to admit everybody"),
+        ({"record": {"sights": True}}, "leave --part-size, --part-duration, --sights out"),
+    ],
+)
+def test_a_recorder_of_keys_refuses_open_listening_and_options_of_matches(tmp_path, settings, fault):
+    wanted = RecorderSettings(out=tmp_path / "log.mcap", keys=["**"], patience=0.0, **settings)
+    with pytest.raises(TouchlineError, match=fault):
+        record_keys(wanted, lambda: True, lambda _: None)
 
 
 @pytest.mark.processes

@@ -111,7 +111,7 @@ def test_messages_of_several_files_come_in_the_order_of_log_time(tmp_path, netwo
 
 def test_keys_are_selected_renamed_and_put_below_a_prefix(tmp_path, network):
     file = write_mcap(tmp_path / "log.mcap", [*drive(1), *drive(1, "robot10"), ("/robot1/image", 1, b"")])
-    words = ["--only", "**/odom", "--rename", "/robot1=spare/7", "--prefix", "test/"]
+    words = ["--only", "/**/odom", "--rename", "/robot1=spare/7", "--prefix", "test/"]
     assert replay(network, file, "--fast", *words).exit_code == 0
     assert sorted(key for key, _ in payloads(network.received(2))) == ["test/robot10/odom", "test/spare/7/odom"]
 
@@ -158,6 +158,13 @@ def test_a_topic_that_cannot_be_a_key_is_named_with_the_remedy(tmp_path, network
     assert "leave it out with --exclude, or give --rename" in " ".join(replay(network, file).output.split())
     assert replay(network, file, "--fast", "--rename", "a//b=a/b").exit_code == 0
     assert [key for key, _ in payloads(network.received(2))] == ["a/b", "c"]
+
+
+def test_the_recording_of_a_match_is_not_mixed_with_other_files(tmp_path, network, recorded):
+    """Its times are simulated ones, and its keys those of a match."""
+    result = replay(network, recorded.path, write_mcap(tmp_path / "other.mcap", drive(5)))
+    assert result.exit_code == 2
+    assert "is the recording of a match, which is replayed alone" in " ".join(result.output.split())
 
 
 @pytest.fixture

@@ -173,12 +173,13 @@ def need_scipy() -> None:
 
 
 def selection(include: list[str] | None, exclude: list[str] | None) -> KeySelection:
-    """The selection for these key expressions.
+    """The selection for these key expressions; topics of other files may begin with `/`, keys do not.
 
     Raises:
         TouchlineError: an expression is invalid.
     """
-    return KeySelection(tuple(include or ()), tuple(exclude or ()))
+    chosen = (tuple(one.removeprefix("/") for one in expressions or ()) for expressions in (include, exclude))
+    return KeySelection(*chosen)
 
 
 def check_span(start: float | None, end: float | None) -> None:
