@@ -1,6 +1,7 @@
 """The messages of MCAP files of any writer, in the order of log time."""
 
 import heapq
+import re
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
@@ -140,6 +141,13 @@ def _in_folder(folder: Path) -> list[Path]:
         raise TouchlineError(
             f"{folder}: has no *.mcap; convert a bag of another storage with `ros2 bag convert` or `rosbags-convert`, "
             "and decompress *.mcap.zstd with `zstd -d`"
+        )
+    metadata = folder / "metadata.yaml"
+    if metadata.exists() and re.search(
+        r"compression_mode:\s*['\"]?message", metadata.read_text("utf-8", "replace"), re.I
+    ):
+        raise TouchlineError(
+            f"{folder}: each message is compressed; convert it with `ros2 bag convert` to no compression"
         )
     return found
 

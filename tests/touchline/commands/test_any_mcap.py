@@ -61,6 +61,8 @@ def test_info_adds_up_several_files_and_a_bag_folder(tmp_path):
     empty = tmp_path / "empty"
     empty.mkdir()
     assert "has no *.mcap" in touchline("info", empty).output
+    (bag / "metadata.yaml").write_text("rosbag2_bagfile_information:\n  compression_mode: MESSAGE\n")
+    assert "each message is compressed" in touchline("info", bag).output
 
 
 @every_writer
