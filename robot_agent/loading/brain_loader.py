@@ -3,6 +3,7 @@
 import importlib
 import inspect
 import pkgutil
+import sys
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
@@ -102,7 +103,14 @@ def _import(spec: str, module_name: str, folders: BrainFolders) -> ModuleType:
     importlib.invalidate_caches()
     try:
         return importlib.import_module(module_name)
-    except ModuleNotFoundError as error:
+    except ImportError as error:
+        package = (error.name or "").partition(".")[0]
+        own = folders.file_of(package) if package in OWN_PACKAGES else None
+        if own is not None and Path(sys.modules[package].__file__ or "").resolve() != own.resolve():
+            fault = f'brain is "{spec}"; importing {module_name} raised {_one_line(error)}'
+            raise TouchlineError(f"{fault}; {package} is Touchline's, not {own}; rename that file") from error
+        if not isinstance(error, ModuleNotFoundError):
+            raise TouchlineError(f'brain is "{spec}"; importing {module_name} raised {_one_line(error)}') from error
         missing = error.name or module_name
         if module_name != missing and not module_name.startswith(missing + "."):
             raise TouchlineError(

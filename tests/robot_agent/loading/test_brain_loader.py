@@ -191,3 +191,13 @@ def test_the_folders_of_brains_come_last_on_the_module_path(here, briefing):
     before = list(sys.path)
     load_brain("students_team:Team", briefing, cup)
     assert sys.path == [*before, str(cup), str(here)]
+
+
+@pytest.mark.parametrize("line", ["from recordings import Plan", "import recordings.tactics"])
+def test_a_module_of_the_team_that_one_of_touchline_hides_is_named_with_its_file(here, briefing, monkeypatch, line):
+    (here / "hidden_team.py").write_text(f"{line}\n")
+    (here / "recordings.py").write_text("class Plan:\n    pass\n")
+    monkeypatch.delitem(sys.modules, "hidden_team", raising=False)
+    with pytest.raises(TouchlineError, match=r"importing hidden_team raised .*hidden_team\.py, line 1") as caught:
+        load_brain("hidden_team:Team", briefing)
+    assert str(caught.value).endswith(f"recordings is Touchline's, not {here / 'recordings.py'}; rename that file")
