@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from schemas.config.quantity import merge_tables, read_section
+from schemas.config.toml_file import UNREADABLE
 from schemas.errors import TouchlineError, did_you_mean
 
 VERSION_KEY = "version"
@@ -59,7 +60,7 @@ class NumberFiles:
         """
         try:
             return deepcopy(_parsed(self._text(name)))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        except UNREADABLE as error:
             raise TouchlineError(f"{name}: not TOML: {error}") from None
 
     def _text(self, name: str) -> str:

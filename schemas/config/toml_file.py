@@ -13,6 +13,8 @@ from schemas.errors import TouchlineError
 from schemas.wire.faults import Fault
 from schemas.wire.model_faults import fault_of
 
+UNREADABLE = (ValueError, RecursionError)
+"""What is raised for no TOML, no UTF-8, an integer of thousands of digits, and lists in lists in lists."""
 M = TypeVar("M", bound=BaseModel)
 
 
@@ -22,11 +24,13 @@ def read_tables(path: Path, kind: str) -> dict[str, Any]:
     Raises:
         TouchlineError: there is no such file, or it is not TOML.
     """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise TouchlineError(f"{path}: a pipe or a device; give the path of {kind}")
     try:
         return tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
         raise TouchlineError(f"{path}: {error.strerror}; give the path of {kind}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UNREADABLE as error:
         raise TouchlineError(f"{path}: not TOML: {error}") from None
 
 
