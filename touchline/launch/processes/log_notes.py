@@ -25,6 +25,8 @@ class LogWatch:
         self._limit, self._notes = LogLimit(), LogNotes()
         self._faults: defaultdict[str, Counter[str]] = defaultdict(Counter)
         """Fault of a brain → the robots that had it, and how often."""
+        self._lasting: set[str] = set()
+        """Faults with which a robot has left the match."""
 
     def update(self, log: Path) -> None:
         """Show what was added to a log since the last call."""
@@ -32,12 +34,21 @@ class LogWatch:
             self._screen.warn(sentence)
 
     def show(self, notice: Notice) -> None:
-        """Show a notice with the last lines of the log; a fault of a brain as one line, and only the first time."""
+        """Show a notice with the last lines of the log; a fault of a brain as one line, and only the first time.
+
+        One more line, for all robots, says that a robot with that fault is not started again.
+        """
         for number, line in enumerate(notice.log):
             if found := _FAULT.fullmatch(line):
-                counts = self._faults[found[1] + found[3]]
-                counts[notice.name] += 1
-                if counts.total() == 1:
+                fault = found[1] + found[3]
+                self._faults[fault][notice.name] += 1
+                is_last = notice.sentence.endswith("not started again") and fault not in self._lasting
+                if is_last:
+                    self._lasting.add(fault)
+                if self._faults[fault].total() > 1:
+                    if is_last:
+                        self._screen.warn(notice.sentence)
+                else:
                     where = f"; {notice.name}.log has the traceback" if number else ""
                     self._screen.warn("; ".join((f"{notice.sentence}: {line}", *notice.log[number + 1 :])) + where)
                 return

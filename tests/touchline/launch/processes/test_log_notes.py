@@ -87,3 +87,12 @@ def test_what_is_no_fault_of_a_brain_is_shown_with_its_log_each_time(watch: LogW
         watch.show(Notice("cyan1", "cyan1 was ended by SIGKILL", ("printed",)))
     watch.count()
     assert shown.getvalue().splitlines() == ["cyan1 was ended by SIGKILL", "  cyan1: printed"] * 2
+
+
+def test_the_first_robot_that_leaves_the_match_with_a_fault_is_named(watch: LogWatch, shown: io.StringIO) -> None:
+    for name, then in (("cyan1", "started again"), ("cyan1", "not started again"), ("cyan2", "not started again")):
+        watch.show(Notice(name, f"{name} failed; {then}", (f"act raised at tick 9 {BUG}",)))
+    assert shown.getvalue().splitlines() == [
+        f"cyan1 failed; started again: act raised at tick 9 {BUG}",
+        "cyan1 failed; not started again",
+    ]
