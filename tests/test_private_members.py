@@ -19,6 +19,7 @@ DOCUMENTED = {"__struct_config__", "_asdict", "_exit", "_fields", "_make", "_rep
 """Of named tuples and `os`: public in spite of their names."""
 SPECIAL = {name for thing in (type, ast, ast.walk, list[int], IOBase, Exception()) for name in dir(thing)} | {
     "__all__",
+    "__excepthook__",
     "__post_init__",
     "__signature__",
     "__slots__",

@@ -58,7 +58,7 @@ class Floods(Sound):
         if self.flood is None:
             self.flood = threading.Thread(target=self._flood, daemon=True)
             self.flood.start()
-        time.sleep(0.01)
+        time.sleep(0.03)  # a flood breaks the limits after some seconds, in which the match must not end
         return super().act(sight)
 
     def _flood(self) -> None:
