@@ -20,8 +20,9 @@ BROKEN = (
 RECORD_HEADER = struct.Struct("<BQ")
 """Header of a record: opcode, and length of the content."""
 _LAST_OPCODE = max(Opcode)
-_MOST_BYTES = 32 * 2**20
-"""Most bytes of an uncompressed chunk: some kB may claim to be GB. Chosen here: writers end a chunk at some MB."""
+_MOST_BYTES, _MOST_RATIO = 32 * 2**20, 4
+"""Most bytes of an unpacked chunk, and how many more for each packed one: some kB may claim to be GB. Chosen here:
+writers end a chunk at some MB, or with a larger message, such as an image or a point cloud, which packs no better."""
 PRIVATE = 0x80
 """Readers ignore records with this opcode or a higher one."""
 MESSAGE = struct.Struct("<HIQQ")
@@ -48,16 +49,17 @@ def unpacked(chunk: Chunk) -> Chunk:
     """The chunk without compression.
 
     Raises:
-        BROKEN: its content is damaged, or has more than `_MOST_BYTES`.
+        BROKEN: its content is damaged, or has more bytes than such a chunk may have.
     """
     claimed, data = chunk.uncompressed_size, chunk.data
+    most = _MOST_BYTES + _MOST_RATIO * len(data)
     if chunk.compression == "zstd":
         claimed = max(claimed, zstandard.frame_content_size(data))  # the frame's own size decides what is unpacked
-        data = zstandard.decompress(data, claimed) if claimed <= _MOST_BYTES else b""
+        data = zstandard.decompress(data, claimed) if claimed <= most else b""
     elif chunk.compression == "lz4":
-        data = lz4.LZ4FrameDecompressor().decompress(data, max_length=_MOST_BYTES + 1)
-    if max(claimed, len(data)) > _MOST_BYTES:
-        raise ValueError(f"a chunk has more than {_MOST_BYTES >> 20} MiB")
+        data = lz4.LZ4FrameDecompressor().decompress(data, max_length=most + 1)
+    if max(claimed, len(data)) > most:
+        raise ValueError(f"a chunk of {len(chunk.data)} bytes unpacks to more than {most >> 20} MiB")
     return replace(chunk, compression="", data=data)
 
 
