@@ -218,6 +218,11 @@ def _wanted(key: str, patterns: tuple[str, ...]) -> bool:
     return not patterns or any(fnmatchcase(key, pattern) for pattern in patterns)
 
 
+def is_time(seconds: float) -> bool:
+    """Whether a file can have a message at this time, in s: log times have 64 bits, and count ns."""
+    return 0.0 <= seconds <= 2**64 / 1e9
+
+
 def nanoseconds(seconds: float | None, otherwise: int) -> int:
     """A simulated time in s as messages are filed under it, in ns; `otherwise` without one."""
     return round(seconds * 1e9) if seconds is not None else otherwise

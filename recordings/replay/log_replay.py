@@ -1,6 +1,5 @@
 """Replays MCAP files of any writer: their messages on keys named like their topics, at log time."""
 
-import math
 from collections.abc import Sequence
 
 from recordings.container.encodings import zenoh_encoding
@@ -11,6 +10,7 @@ from recordings.replay.log_cursor import LogCursor
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
 from recordings.replay.player import PlaybackRange, Player
 from recordings.replay.replay import ReplaySettings
+from recordings.replay.seek_targets import seconds_in
 from runtime.bus.contract import BusError, PresenceKind
 from runtime.bus.zenoh.any_keys import KeyPublisher, check_key
 from runtime.bus.zenoh.bus import ZenohBus
@@ -101,13 +101,10 @@ def seconds(text: str) -> float:
     """A time in s since the first message.
 
     Raises:
-        TouchlineError: it is no number.
+        TouchlineError: it is no number, or no file has this time.
     """
-    try:
-        time = float(text)
-    except ValueError:
-        time = math.inf
-    if not math.isfinite(time):
+    time = seconds_in(text)
+    if time is None:
         raise TouchlineError(f'"{text}" is no time in a log; give seconds since its first message')
     return time
 
@@ -118,7 +115,7 @@ def span_of(settings: ReplaySettings, end_ns: int) -> PlaybackRange:
     Raises:
         TouchlineError: a time is no number, or the part is empty.
     """
-    start_ns = max(0, round(seconds(settings.start or "0") * 1e9))
+    start_ns = round(seconds(settings.start or "0") * 1e9)
     stop_ns = round(seconds(settings.end) * 1e9) if settings.end is not None else None
     if start_ns > end_ns:
         raise TouchlineError(

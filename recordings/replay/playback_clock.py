@@ -23,7 +23,7 @@ class PlaybackClock:
         """Simulated time in ns up to which messages are due."""
         if self.paused or (now <= self.since and not math.isinf(self.rate)):
             return self.at_ns
-        return self.rate if math.isinf(self.rate) else self.at_ns + round((now - self.since) * self.rate * 1e9)
+        return self.rate if math.isinf(self.rate) else self.at_ns + (now - self.since) * self.rate * 1e9
 
     def wait(self, ns: int, now: float) -> float:
         """Wall time in s until this simulated time is due; infinite while paused."""

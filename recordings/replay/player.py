@@ -116,7 +116,7 @@ class Player:
             return self._position_ns
         message = self._next()
         ahead = message.log_ns if message is not None else self._position_ns
-        return max(self._position_ns, min(round(self._playback.due_ns(self._clock.now())), ahead))
+        return max(self._position_ns, round(min(self._playback.due_ns(self._clock.now()), ahead)))
 
     @property
     def end_ns(self) -> int:
@@ -270,8 +270,8 @@ class Player:
         if (request.to is None) == (request.by is None):
             raise TouchlineError("seek requires either to, a target, or by, a distance in seconds")
         if request.to is not None:
-            ns = round(self._time_of(request.to) * 1e9)
+            ns = self._time_of(request.to) * 1e9
         else:
-            ns = self.position_ns + round((request.by or 0.0) * 1e9)
+            ns = self.position_ns + (request.by or 0.0) * 1e9
         self._has_begun = True
-        self._jump_to(max(self._span.start_ns, min(ns, self.end_ns)))
+        self._jump_to(round(max(self._span.start_ns, min(ns, self.end_ns))))

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from recordings.reading.recording import Recording
+from recordings.reading.recording import Recording, is_time
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.soccer.game import EventKind, Phase
 from schemas.topics import EVENT, STATE
@@ -53,7 +53,7 @@ def time_in(text: str, recording: Recording) -> float:
     """
     setup = recording.manifest.setup
     tick_s = setup.time.tick if setup is not None else None
-    needs_events = not _TICK.fullmatch(text.strip()) and not _is_number(text)
+    needs_events = not _TICK.fullmatch(text.strip()) and seconds_in(text) is None
     return time_of(text, seek_targets_of(recording) if needs_events else [], tick_s)
 
 
@@ -64,15 +64,15 @@ def time_of(text: str, targets: list[SeekTarget], tick_s: float | None = None) -
     of a tick in s; None where the recording does not have it.
 
     Raises:
-        TouchlineError: neither a number nor an event, or an event that did not happen that often.
+        TouchlineError: neither a time nor an event, or an event that did not happen that often.
     """
-    if _is_number(text):
-        return float(text)
+    if (seconds := seconds_in(text)) is not None:
+        return seconds
     tick = _TICK.fullmatch(text.strip())
     if tick is not None:
         if tick_s is None:
             raise TouchlineError(f'"{text}": the recording lacks the setup with the length of a tick; give seconds')
-        return int(tick[1]) * tick_s
+        return checked(text, float(tick[1]) * tick_s)
     found = _EVENT.fullmatch(text.strip())
     names = [*EventKind, *Phase]
     if found is None:
@@ -88,12 +88,28 @@ def time_of(text: str, targets: list[SeekTarget], tick_s: float | None = None) -
         happened = {target.name: None for target in targets}
         count = f"{name} happened {len(times)} times" if times else f"there is no {name}"
         raise TouchlineError(f'"{text}" is not in this recording: {count}; it has {", ".join(happened) or "no events"}')
-    return times[number - 1 if number > 0 else number] + shift
+    return checked(text, max(0.0, times[number - 1 if number > 0 else number] + shift))
 
 
-def _is_number(text: str) -> bool:
+def seconds_in(text: str) -> float | None:
+    """The time in s that a text is; None if it is no number.
+
+    Raises:
+        TouchlineError: it is a number that no file has a time for.
+    """
     try:
-        float(text)
+        seconds = float(text)
     except ValueError:
-        return False
-    return True
+        return None
+    return checked(text, seconds)
+
+
+def checked(text: str, seconds: float) -> float:
+    """The time in s that a text stands for.
+
+    Raises:
+        TouchlineError: no file has it.
+    """
+    if not is_time(seconds):
+        raise TouchlineError(f'"{text}" is a time that no recording has; give seconds from 0 on')
+    return seconds

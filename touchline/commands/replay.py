@@ -1,5 +1,6 @@
 """`touchline replay`: a recording back onto the bus."""
 
+import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
@@ -149,6 +150,9 @@ def replay(
     from recordings.replay.replay import Replay, ReplaySettings
     from touchline.launch.page import open_page, serve_page_beside
 
+    for option, value in (("--rate", rate), ("--behind", behind)):
+        if not math.isfinite(value):
+            raise TouchlineError(f"{option} is {value}; give a number")
     settings = ReplaySettings(
         files[0],
         start=start,

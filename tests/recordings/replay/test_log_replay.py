@@ -137,7 +137,10 @@ def test_log_times_as_far_apart_as_mcap_can_say_are_played_as_fast_as_possible(t
     [
         (["--web"], "--web: .* is no recording of a match; leave --web out"),
         (["--from", "goal:1"], '"goal:1" is no time in a log; give seconds since its first message'),
-        (["--from", "inf"], '"inf" is no time in a log'),
+        *((["--from", time], f'"{time}" is a time that no recording has') for time in ("inf", "nan", "-1", "1e300")),
+        (["--to", "inf"], '"inf" is a time that no recording has'),
+        (["--rate", "inf"], "--rate is inf; give a number"),
+        (["--behind", "inf"], "--behind is inf; give a number"),
         (["--from", "9"], "--from 9 is after the last message at 0.49 s; begin earlier"),
         (["--from", "0.3", "--to", "0.2"], "--to 0.2 is before --from 0.3; end later"),
         (["--rename", "robot1"], '--rename is "robot1"; write the old and the new key: robot1/odom=robot2/odom'),

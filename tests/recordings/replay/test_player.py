@@ -117,7 +117,15 @@ def test_a_seek_from_here_goes_so_far_and_stays_within_the_recording(make_player
     assert ask(played, ReplayOperation.SEEK, by=2.0).time == pytest.approx(2.0)
     assert ask(played, ReplayOperation.SEEK, by=-0.5).time == pytest.approx(1.5)
     assert ask(played, ReplayOperation.SEEK, by=-9.0).time == 0.0
-    assert ask(played, ReplayOperation.SEEK, by=99.0).time == pytest.approx(199 * TICK)
+    for far in (99.0, 1e300, 1.7e308):
+        assert ask(played, ReplayOperation.SEEK, by=far).time == pytest.approx(199 * TICK)
+        assert ask(played, ReplayOperation.SEEK, by=-far).time == 0.0
+
+
+def test_the_highest_rate_that_a_number_can_say_plays_all_that_there_is(make_player_rig):
+    played = make_player_rig(rate=1.7e308)
+    played.run(0.1)
+    assert played.player.ended
 
 
 def test_a_change_of_rate_moves_it_on_from_where_it_is(make_player_rig):

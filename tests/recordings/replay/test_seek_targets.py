@@ -33,11 +33,14 @@ def test_seconds_and_events_name_a_seek_target(words, time):
         ("gaol", 'did you mean "goal"?'),
         ("goal;1", "give seconds, a tick as in tick:500"),
         ("", "give seconds, a tick as in tick:500"),
+        *((text, f'"{text}" is a time that no recording has') for text in ("inf", "-inf", "nan", "-1", "1e300")),
+        ("tick:" + "9" * 400, "is a time that no recording has"),
+        ("goal+" + "9" * 400, "is a time that no recording has"),
     ],
 )
 def test_an_unknown_seek_target_is_reported_in_one_line(words, answer):
     with pytest.raises(TouchlineError) as error:
-        time_of(words, TARGETS)
+        time_of(words, TARGETS, 0.02)
     said = str(error.value).replace("not in this recording: ", "").replace(": it has", "; it has")
     assert answer.split(";")[0] in said and "\n" not in said
 

@@ -186,8 +186,13 @@ def check_span(start: float | None, end: float | None) -> None:
     """Check that a span of simulated time has a length.
 
     Raises:
-        TouchlineError: it ends before it begins.
+        TouchlineError: it ends before it begins, or no file has such a time.
     """
+    from recordings.reading.recording import is_time
+
+    for option, time in (("--from", start), ("--to", end)):
+        if time is not None and not is_time(time):
+            raise TouchlineError(f"{option} is {time:g}, which no recording has; give seconds from 0 on")
     if start is not None and end is not None and start >= end:
         raise TouchlineError(f"--from is {start:g} and --to is {end:g}; give a --to that is greater than --from")
 
