@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from recordings.container.encodings import ENCODING
 from recordings.container.mcap_file import McapFile
+from recordings.inspection.recording_facts import CUT_OFF
 from recordings.reading.log_order import open_log
 from recordings.recorder.key_recorder import KEYS
 from schemas.natural_order import natural_order
@@ -28,8 +30,8 @@ class ChannelFacts:
     start: float
     """Time of the first message, in s since the first of all."""
     end: float
-    lost: int
-    """Messages that did not reach a recorder of keys; 0 in files of others."""
+    lost: int | None
+    """Messages that did not reach a recorder of keys; None if none has counted to its end."""
 
     @property
     def rate(self) -> float:
@@ -49,7 +51,12 @@ class LogFacts:
     duration: float
     """Log time from the first to the last message, in s."""
     messages: int
-    lost: int
+    lost: int | None
+    """Messages on all keys that did not reach a recorder of keys; None if none has counted to its end."""
+    unwritten: int
+    """Messages that had arrived at the end of a recorder of keys, and for which there was no time."""
+    ended: str | None
+    """`cut_off` if a recorder of keys was not ended, but killed; else None."""
     size: int
     """Bytes of all files."""
     attachments: list[str]
@@ -66,14 +73,20 @@ def log_facts(paths: Sequence[Path]) -> LogFacts:
     """
     log = open_log(paths)
     found: dict[tuple[str, str, str], ChannelFacts] = {}
-    losses = [_losses(file) for file in log.files]
+    counted = [_losses(file) for file in log.files]
+    ended = (
+        CUT_OFF
+        if any(lost is None and _is_of_keys(file) for file, lost in zip(log.files, counted, strict=True))
+        else None
+    )
+    losses = None if ended else [lost for lost in counted if lost is not None] or None
     for _, channel in log.channels:
         name, language = (channel.schema.name, channel.schema.encoding) if channel.schema is not None else ("", "")
         key = channel.key, channel.encoding, name
         start, end = ((ns - log.base_ns) / 1e9 for ns in (channel.first_ns, channel.last_ns))
         known = found.get(key)
         if known is None:
-            lost = sum(one.get(channel.key, 0) for one in losses)
+            lost = sum(one.get(channel.key, 0) for one in losses) if losses else None
             found[key] = ChannelFacts(
                 channel.key, channel.encoding, name, language, channel.messages, max(0.0, start), max(0.0, end), lost
             )
@@ -87,7 +100,9 @@ def log_facts(paths: Sequence[Path]) -> LogFacts:
         started=datetime.fromtimestamp(log.base_ns / 1e9, UTC).isoformat(timespec="milliseconds"),
         duration=log.end_ns / 1e9,
         messages=sum(one.messages for one in channels),
-        lost=sum(sum(one.values()) for one in losses),
+        lost=sum(sum(one.values()) for one in losses) if losses else None,
+        unwritten=sum(_unwritten(file) for file in log.files),
+        ended=ended,
         size=sum(file.size for file in log.files),
         attachments=sorted({name for file in log.files for name in file.attachments}),
         metadata=sorted({name for file in log.files for name in file.metadata}),
@@ -95,20 +110,34 @@ def log_facts(paths: Sequence[Path]) -> LogFacts:
     )
 
 
-def _losses(file: McapFile) -> dict[str, int]:
-    """Key → messages lost, as a recorder of keys has counted them."""
+def _losses(file: McapFile) -> dict[str, int] | None:
+    """Key → messages lost, as a recorder of keys has counted them; None without one that has reached its end."""
     try:
-        return {str(key): int(lost) for key, lost in json.loads(file.metadata.get(KEYS, {}).get("lost", "{}")).items()}
-    except (ValueError, TypeError, AttributeError):
-        return {}  # another writer uses this name
+        return {str(key): int(lost) for key, lost in json.loads(file.metadata[KEYS]["lost"]).items()}
+    except (LookupError, ValueError, TypeError, AttributeError):
+        return None  # another writer may use this name
+
+
+def _is_of_keys(file: McapFile) -> bool:
+    """Whether a recorder of keys wrote this file."""
+    return any(ENCODING in channel.metadata for channel in file.channels.values())
+
+
+def _unwritten(file: McapFile) -> int:
+    text = file.metadata.get(KEYS, {}).get("unwritten", "")
+    return int(text) if text.isdecimal() else 0
 
 
 def channel_rows(facts: LogFacts) -> list[tuple[str, ...]]:
     """One row for each channel, with the columns `HEADINGS`."""
     return [
-        (one.topic, one.encoding, one.schema, str(one.messages), f"{one.rate:.1f}", str(one.lost))
+        (one.topic, one.encoding, one.schema, str(one.messages), f"{one.rate:.1f}", _text(one.lost))
         for one in facts.channels
     ]
+
+
+def _text(count: int | None) -> str:
+    return "" if count is None else str(count)
 
 
 def log_lines(facts: LogFacts) -> list[tuple[str, str]]:
@@ -116,7 +145,10 @@ def log_lines(facts: LogFacts) -> list[tuple[str, str]]:
     values = {
         "started": facts.started,
         "duration": f"{facts.duration:.3f} s",
-        "messages": f"{facts.messages}, {facts.lost} lost",
+        "messages": f"{facts.messages}"
+        + (f", {facts.lost} lost" if facts.lost is not None else "")
+        + (f", {facts.unwritten} unwritten at the end" if facts.unwritten else ""),
+        "ended": f"{facts.ended}: the recorder was killed, and its losses are not known" if facts.ended else "",
         "files": str(len(facts.files)) if len(facts.files) > 1 else "",
         "attachments": " ".join(facts.attachments),
         "metadata": " ".join(facts.metadata),

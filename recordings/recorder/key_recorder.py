@@ -24,10 +24,12 @@ from runtime.bus.zenoh.any_keys import STAMPED, KeySubscription, Sample, open_ne
 from runtime.bus.zenoh.bus import ZenohBus
 from runtime.bus.zenoh.waiting_client import open_when_there
 from runtime.process.clock import Clock, WallClock
+from runtime.process.timing import PARTING_S
 from schemas.errors import TouchlineError
 
 KEYS = "keys"
-"""Name of the metadata record at the end: the recorded key expressions, and `lost`, key → messages lost, in JSON."""
+"""Name of the metadata record at the end: the recorded key expressions, `lost`, key → messages lost, in JSON, and
+`unwritten`, the number of messages that arrived before the end and are not in the file."""
 _HALF = 1 << 31
 """Half the range of Zenoh's numbers: a greater step is one backward."""
 
@@ -41,6 +43,8 @@ class KeySummary:
     messages: int
     losses: dict[str, int]
     """Key → messages that its publishers have numbered and that did not arrive; keys without loss are left out."""
+    unwritten: int
+    """Messages that had arrived at the end, and for which there was no time."""
     size: int
     """Bytes of the file."""
 
@@ -51,7 +55,8 @@ class KeySummary:
 
     def line(self) -> str:
         """The counts, for the terminal."""
-        return f"{self.path}: {self.messages} messages on {self.keys} keys, {self.lost} lost, {self.size} bytes"
+        left = f", {self.unwritten} unwritten: more arrived than could be written" if self.unwritten else ""
+        return f"{self.path}: {self.messages} messages on {self.keys} keys, {self.lost} lost, {self.size} bytes{left}"
 
 
 def record_keys(
@@ -126,13 +131,23 @@ class KeyRecorder:
                     self._mcap.flush()  # type: ignore[no-untyped-call]
                     self._file.flush()
                     flush_at = self._clock.now() + FLUSH_S
-            self._write_received()
-            return self._finish()
+            return self._finish(self._drain())
         except OSError as error:
             reason = error.strerror or "cannot be written"
             raise NotWritableError(self._path, reason, "what was written before is readable") from None
         finally:
             self._file.close()
+
+    def _drain(self) -> int:
+        """Write what had arrived at the end, as far as there is time; returns the number of messages left out."""
+        self._subscription.close()
+        deadline, left = self._clock.now() + PARTING_S, 0
+        while self._clock.now() < deadline:
+            if not self._write_received():
+                return 0
+        while samples := self._subscription.receive():
+            left += sum(self._selection.includes(sample.key) for sample in samples)
+        return left
 
     def _write_received(self) -> int:
         """Write what has arrived; returns the number of samples."""
@@ -169,17 +184,18 @@ class KeyRecorder:
             self._schemas[known] = self._mcap.register_schema(*known)
         return self._schemas[known]
 
-    def _finish(self) -> KeySummary:
+    def _finish(self, unwritten: int) -> KeySummary:
         losses: Counter[str] = Counter()
         for (key, _), numbers in self._numbers.items():
             losses[key] += numbers.lost
         lost = dict(sorted((+losses).items()))
         self._mcap.flush()  # type: ignore[no-untyped-call]
-        self._mcap.add_metadata(KEYS, {"keys": " ".join(self._expressions), "lost": json.dumps(lost)})
+        counts = {"lost": json.dumps(lost), "unwritten": str(unwritten)}
+        self._mcap.add_metadata(KEYS, {"keys": " ".join(self._expressions), **counts})
         self._mcap.finish()  # type: ignore[no-untyped-call]
         self._file.flush()
         keys = {key for (key, _), channel in self._channels.items() if channel is not None}
-        return KeySummary(self._path, len(keys), self.messages, lost, self._path.stat().st_size)
+        return KeySummary(self._path, len(keys), self.messages, lost, unwritten, self._path.stat().st_size)
 
 
 class _Numbers:

@@ -96,6 +96,8 @@ class KeySubscription:
             BusError: an expression is none of Zenoh.
         """
         self._subscribers: list[tuple[zenoh.KeyExpr, Any]] = []
+        self._arrived: list[Any] = []
+        """The channel of each subscriber, which outlives it."""
         self._owners: dict[str, int] = {}
         """Key → number of the subscriber that reads it, the first of those that match."""
         for expression in expressions:
@@ -106,15 +108,19 @@ class KeySubscription:
                     f'--keys "{expression}" is no key expression ({first_line(error)}); write it as robot/**'
                 ) from None
             self._subscribers.append((zenoh.KeyExpr(expression), subscriber))
+            self._arrived.append(subscriber.handler)
+
+    def close(self) -> None:
+        """Let nothing more arrive. What has arrived can still be received."""
+        for _, subscriber in self._subscribers:
+            subscriber.undeclare()
 
     def receive(self) -> list[Sample]:
-        """What has arrived, in order on each key; at most a thousand samples of each expression."""
-        found = []
-        for number, (_, subscriber) in enumerate(self._subscribers):
-            for _ in range(_AT_ONCE):
-                sample = subscriber.try_recv()
-                if sample is None:
-                    break
+        """What has arrived, in order on each key; at most a thousand samples of each expression, none if it was all."""
+        found: list[Sample] = []
+        for number, arrived in enumerate(self._arrived):
+            most = len(found) + _AT_ONCE
+            while len(found) < most and (sample := _next(arrived)) is not None:
                 if sample.kind == zenoh.SampleKind.PUT and self._owner(str(sample.key_expr)) == number:
                     found.append(_sample(sample))
         return found
@@ -124,6 +130,14 @@ class KeySubscription:
             expressions = enumerate(expression for expression, _ in self._subscribers)
             self._owners[key] = next(number for number, one in expressions if one.intersects(zenoh.KeyExpr(key)))
         return self._owners[key]
+
+
+def _next(arrived: Any) -> Any:
+    """The next sample of a channel; None if there is none."""
+    try:
+        return arrived.try_recv()
+    except zenoh.ZError:
+        return None  # its subscriber is closed
 
 
 def _sample(sample: zenoh.Sample) -> Sample:

@@ -2,6 +2,7 @@
 
 import signal
 import struct
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import monotonic
@@ -13,6 +14,8 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.typesys import Stores, get_typestore
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
+from recordings.editing.recovery import recover
+from recordings.inspection.log_facts import log_facts, log_lines
 from recordings.recorder.key_recorder import KeyRecorder, KeySummary, record_keys
 from recordings.recorder.settings import RecorderSettings
 from runtime.bus.contract import BusError
@@ -20,6 +23,7 @@ from runtime.bus.zenoh.any_keys import open_network
 from runtime.process.clock import WallClock
 from schemas.errors import TouchlineError
 from support.foreign import LIMIT, Network
+from support.stepped_clock import SteppedClock
 
 Put = Callable[[zenoh.Session], None]
 Record = Callable[..., KeySummary]
@@ -102,6 +106,55 @@ def test_a_key_that_two_expressions_match_is_recorded_once_and_one_that_is_exclu
 
     assert record(put, 2, "robot1/** **/odom", KeySelection(exclude=("**/camera",))).messages == 2
     assert sorted(channel.topic for _, channel, _ in read(tmp_path / "log.mcap")) == ["robot1/odom", "robot2/odom"]
+
+
+class SlowClock(SteppedClock):
+    """Each message takes 1 ms to write."""
+
+    def unix_ns(self) -> int:
+        self.sleep_until(self.now() + 0.001)
+        return super().unix_ns()
+
+
+@pytest.mark.parametrize(("clock", "written"), [(SteppedClock(), 6500), (SlowClock(), 5000)], ids=["in time", "slow"])
+def test_a_recorder_that_is_stopped_writes_what_has_arrived_and_counts_what_it_has_no_time_for(
+    tmp_path, clock, written
+):
+    with open_network("keys", clock, None, "tcp/127.0.0.1:0") as bus:
+        recorder = KeyRecorder(bus, tmp_path / "log.mcap", ["robot1/odom"], EVERYTHING)
+        arrived = threading.Event()
+        last = bus.session.declare_subscriber("last", lambda _: arrived.set())
+        robot = Network(bus.endpoint, "client")
+        robot.wait_for_subscriber("last")
+        for number in range(6500):
+            robot.session.put("robot1/odom", b"%d" % number, congestion_control=zenoh.CongestionControl.BLOCK)
+        robot.session.put("last", b"", congestion_control=zenoh.CongestionControl.BLOCK)
+        assert arrived.wait(LIMIT)
+        summary = recorder.run(lambda: True)
+        last.undeclare()
+        robot.close()
+    assert (summary.messages, summary.unwritten) == (written, 6500 - written)
+    assert [int(message.data) for _, _, message in read(tmp_path / "log.mcap")] == list(range(written))
+    assert (", 1500 unwritten" in summary.line()) == (written < 6500)
+    facts = log_facts([tmp_path / "log.mcap"])
+    assert (facts.lost, facts.unwritten) == (0, 6500 - written)
+    assert (", 0 lost, 1500 unwritten at the end" in dict(log_lines(facts))["messages"]) == (written < 6500)
+
+
+def test_of_a_recorder_of_keys_that_was_killed_info_says_that_its_losses_are_not_known(record, tmp_path):
+    """Its counts stand at the end of a file; what repairs the file does not know them either."""
+    record(lambda session: session.put("robot1/odom", b"{}" * 1000), 1)
+    path = tmp_path / "log.mcap"
+    assert log_facts([path]).ended is None
+    content = path.read_bytes()
+    path.write_bytes(content[: content.index(b"\x04\0\0\0keys")])
+    for repair in (lambda: None, lambda: recover(path)):
+        repair()
+        facts = log_facts([path])
+        assert (facts.ended, facts.messages, facts.lost) == ("cut_off", 1, None)
+        lines = dict(log_lines(facts))
+        assert lines["messages"] == "1"
+        assert lines["ended"] == "cut_off: the recorder was killed, and its losses are not known"
 
 
 def test_what_is_no_key_expression_is_refused_in_one_line(tmp_path):
