@@ -1,6 +1,7 @@
 """docs/debugging.md: its brains play and draw, and its bounds are those of the code."""
 
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -8,21 +9,23 @@ from typing import Any
 import pytest
 
 from robot_agent.sdk.contract import Briefing
-from robot_agent.teams.simple import Simple
 from schemas.config.match_config import load_match
 from schemas.messages import debug
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 from support.messages import make_setup, make_sight
 from touchline.play.play_match import InProcessMatch
+from touchline.team.new_team import make_team
 
 PAGE = (Path(__file__).parents[2] / "docs" / "debugging.md").read_text()
 SECTION = PAGE.partition("## Draw and plot")[2].partition("\n## ")[0]
 
 
-@pytest.fixture(scope="module")
-def brains(fenced: Callable[[str, str], list[str]]) -> dict[str, Any]:
-    """What the code of the page defines."""
+@pytest.fixture
+def brains(fenced: Callable[[str, str], list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+    """What the code of the page defines, beside a new team."""
+    monkeypatch.delitem(sys.modules, "my_team", raising=False)
+    monkeypatch.syspath_prepend(make_team("my_team", tmp_path))
     names: dict[str, Any] = {}
     for piece in fenced(PAGE, "python"):
         if re.search(r"class (Careful|Chaser)", piece):
@@ -32,8 +35,8 @@ def brains(fenced: Callable[[str, str], list[str]]) -> dict[str, Any]:
 
 def test_its_brain_is_slower_while_it_holds_the_ball(brains: dict[str, Any]) -> None:
     briefing, sight = Briefing.of("cyan3", make_setup()), make_sight(robot="cyan3", holding=True)
-    careful, simple = (brain(briefing).act(sight) for brain in (brains["Careful"], Simple))
-    assert careful.drive.vx == 0.5 * simple.drive.vx != 0.0
+    careful, team = (brain(briefing).act(sight) for brain in (brains["Careful"], brains["MyTeam"]))
+    assert careful.drive.vx == 0.5 * team.drive.vx != 0.0
 
 
 def test_the_example_plays_and_draws(brains: dict[str, Any]) -> None:

@@ -55,6 +55,24 @@ def brain(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]
 
 
 @pytest.fixture
+def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., str]:
+    """Writes a `Player` whose `play` has the given lines, which see `self`, `belief` and `order`."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [*sys.path])
+
+    def write(lines: str) -> str:
+        module = f"brain_of_test_{next(_NUMBERS)}"
+        body = "".join(f"        {line}\n" for line in lines.splitlines())
+        (tmp_path / f"{module}.py").write_text(
+            "from touchline import Action, Drive, Player, skills\n"
+            f"class Mine(Player):\n    def play(self, belief, order):\n{body}"
+        )
+        return f"{module}:Mine"
+
+    return write
+
+
+@pytest.fixture
 def replay(played: Recording) -> Callable[..., int]:
     """Replays the recorded match with a brain for cyan2; returns the exit status."""
 

@@ -21,6 +21,26 @@ def test_it_stops_before_act_at_the_given_tick(brain, replay, typed, capsys):
     assert left == []
 
 
+def test_with_a_player_it_stops_in_the_users_play_and_steps_from_one_to_the_next(player, replay, typed, capsys):
+    left = typed("p 'in', belief.tick", "n", "n", "n", "p 'in', belief.tick", "c")
+    spec = player("answer = 1\nreturn Action('', 'wait', Drive())")
+    assert replay(spec, pdb=True, start="tick:100", every_difference=True) == 1
+    out = capsys.readouterr().out
+    stops = [line for line in out.splitlines() if line.startswith("> ")]
+    assert all("brain_of_test" in stop and "play()" in stop for stop in stops), stops
+    assert "-> answer = 1" in out and "--Call--" not in out
+    first, second = (int(line.split(", ")[1][:-1]) for line in out.splitlines() if line.startswith("('in'"))
+    assert 100 <= first < second
+    assert left == []
+
+
+def test_a_failure_in_library_code_opens_the_debugger_in_the_users_code_that_called_it(player, replay, typed, capsys):
+    typed("p mine", "q")
+    with pytest.raises(MatchFailedError, match="AttributeError"):
+        replay(player("mine = None\nskills.go_to(mine, 0.0, 0.0, 0.0, self.limits)"), pdb=True, start="tick:40")
+    assert capsys.readouterr().out.splitlines()[-2:] == ["-> skills.go_to(mine, 0.0, 0.0, 0.0, self.limits)", "None"]
+
+
 def test_it_stops_before_the_first_difference_in_a_brain_that_has_seen_the_same(brain, replay, typed, capsys):
     counting = f"self.acts = getattr(self, 'acts', 0) + 1{SLOWER}"
     typed("p sight.tick, self.acts", "c")
