@@ -14,13 +14,14 @@ import sys
 from dataclasses import dataclass, field
 from typing import Any
 
+from touchline.matches.series.team_names import brain_of
+
 from schemas.config.match_config import load_match
 from touchline.matches.engine.play_list import play_list
 from touchline.matches.series.match_row import FailedMatch, MatchRow, rows_of
 from touchline.matches.series.plan import SeriesPlan, plan_series
 from touchline.matches.series.summary import summary_of
 from touchline.matches.series.table import figure_rows, longest_line
-from touchline.matches.series.team_names import brain_of
 
 LADDER = ("reference", "simple", "nubot", "random")
 """From the strongest team to the weakest."""

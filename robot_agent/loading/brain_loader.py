@@ -14,6 +14,7 @@ from robot_agent.loading.brain_folders import BrainFolders
 from robot_agent.loading.limit_reached import limit_reached
 from robot_agent.loading.user_code import OWN_PACKAGES, definition_of, place_of, sentence_of
 from robot_agent.sdk.contract import Brain, Briefing
+from schemas.config.shipped_teams import brain_of, wrong_team
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
@@ -27,7 +28,8 @@ class _FunctionBrain:
 
 
 def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, here: Path | None = None) -> Brain:
-    """The brain that `module:name` names: a class built with the briefing, or a function `act(sight)`.
+    """The brain that `module:name` names, or that of a shipped team: a class built with the briefing, or a function
+    `act(sight)`.
 
     Modules are also looked for in `beside_match`, the folder of the match file, and then in the current directory,
     or in `here` where the process has left that.
@@ -35,9 +37,9 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
     Raises:
         TouchlineError: one line with the wrong part of the spec, or with what its code raised, and where.
     """
-    module_name, _, name = spec.partition(":")
-    if not all(part.isidentifier() for part in (*module_name.split("."), name)):
-        raise TouchlineError(f'brain is "{spec}"; write it as "module:Class"')
+    if remedy := wrong_team(spec):
+        raise TouchlineError(f'brain is "{spec}"; {remedy}')
+    module_name, _, name = brain_of(spec).partition(":")
     folders = BrainFolders(beside_match, here)
     folders.add_to_module_path()
     module = _import(spec, module_name, folders)

@@ -63,8 +63,6 @@ REMEDIES = {
     "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
     "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
-    "teams.cyan.brain": 'write "module:Class"',
-    "teams.magenta.brain": 'write "module:Class"',
     "teams.cyan.stdio": 'write ["program", "argument"]',
     "teams.magenta.stdio": 'write ["program", "argument"]',
     "teams.cyan.types": 'write robot = "type", for example { cyan1 = "keeper" }',

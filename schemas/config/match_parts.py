@@ -10,6 +10,7 @@ from schemas.config.confinement import TeamLimits
 from schemas.config.noise import PRESETS
 from schemas.config.roster import MAX_ROBOTS
 from schemas.config.settings import RecordOptions
+from schemas.config.shipped_teams import brain_of, wrong_team
 from schemas.errors import did_you_mean
 from schemas.side import Side
 from schemas.soccer.game import OfficiatingMode
@@ -33,8 +34,9 @@ class TeamConfig(ConfigModel):
 
     name: str = ""
     """Name of the team, for display; where it is empty, the side's."""
-    brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
-    """`module:Class` of a brain in Python; each robot's process constructs one instance."""
+    brain: str | None = None
+    """`module:Class` of a brain in Python; each robot's process constructs one instance. In a match file also the name
+    of a shipped team."""
     command: list[str] | None = None
     """Command line of a program in any language, in place of a brain; environment variables name its robot."""
     stdio: list[str] | None = None
@@ -53,6 +55,13 @@ class TeamConfig(ConfigModel):
     """Limits of its robots that replace the match's."""
     pass_environment: list[Annotated[str, Field(pattern=r"^[A-Za-z_]\w*$")]] = Field(default_factory=list)
     """Names of environment variables that its programs get besides the usual ones, such as CUDA_VISIBLE_DEVICES."""
+
+    @field_validator("brain")
+    @classmethod
+    def _check_brain(cls, brain: str | None) -> str | None:
+        if brain is not None and (remedy := wrong_team(brain)):
+            raise ValueError(remedy)
+        return brain_of(brain) if brain is not None else None
 
     @field_validator("parameters", mode="before")
     @classmethod
@@ -80,12 +89,12 @@ class TeamConfig(ConfigModel):
 
 def default_cyan() -> TeamConfig:
     """The team in cyan of a match file that names none."""
-    return TeamConfig(name="Simple", brain="robot_agent.teams.simple:Simple")
+    return TeamConfig(name="Simple", brain="simple")
 
 
 def default_magenta() -> TeamConfig:
     """The team in magenta of a match file that names none."""
-    return TeamConfig(name="NuBot", brain="robot_agent.teams.nubot:NuBot")
+    return TeamConfig(name="NuBot", brain="nubot")
 
 
 class TeamConfigs(ConfigModel):

@@ -1,14 +1,14 @@
-"""Teams on a command line: the name of a shipped team, or `module:Class` of any brain."""
+"""The teams that ship, by name, and the brain that the name of a team stands for."""
 
-from importlib import import_module, resources
+import re
 
 from schemas.errors import TouchlineError, did_you_mean
 
-
-def shipped_teams() -> list[str]:
-    """The names of the teams that ship: the packages of `robot_agent.teams`."""
-    folders = (resources.files("robot_agent") / "teams").iterdir()
-    return sorted(folder.name for folder in folders if (folder / "__init__.py").is_file())
+SHIPPED_TEAMS = {
+    name.lower(): f"robot_agent.teams.{name.lower()}:{name}" for name in ("NuBot", "Random", "Reference", "Simple")
+}
+"""Name of a shipped team → `module:Class` of its brain."""
+_SPEC = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
 
 def brain_of(team: str) -> str:
@@ -17,12 +17,14 @@ def brain_of(team: str) -> str:
     Raises:
         TouchlineError: no team of this name ships, and it is no `module:Class`.
     """
-    if ":" in team:
-        return team
-    if team not in shipped_teams():
-        raise TouchlineError(
-            f'team is "{team}"; {did_you_mean(team, shipped_teams())} Or write module:Class, as my_team:Striker'
-        )
-    package = f"robot_agent.teams.{team}"
-    (name,) = (name for name in vars(import_module(package)) if name.lower() == team)
-    return f"{package}:{name}"
+    if remedy := wrong_team(team):
+        raise TouchlineError(f'team is "{team}"; {remedy}')
+    return SHIPPED_TEAMS.get(team, team)
+
+
+def wrong_team(team: str) -> str:
+    """What to write in place of a text that names no team; empty if it names one."""
+    if team in SHIPPED_TEAMS or _SPEC.fullmatch(team):
+        return ""
+    hint = "" if ":" in team else f"; {did_you_mean(team, SHIPPED_TEAMS)}"
+    return f'write "module:Class", or the name of a shipped team{hint}'

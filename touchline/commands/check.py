@@ -8,10 +8,10 @@ import typer
 
 from robot_agent.process.stdio.command_line import check_command_line
 from schemas.config.match_config import load_match
+from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.launch.terminal.json_text import json_text
-from touchline.matches.series.team_names import brain_of
 
 
 def check(

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from schemas.config.scene import load_scene, shipped_scenes
+from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
 from touchline.launch.terminal.json_text import json_text
 from touchline.matches.series.seeds import seeds_of
-from touchline.matches.series.team_names import brain_of
 
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome

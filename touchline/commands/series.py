@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from schemas.config.match_config import MatchConfig
+from schemas.config.shipped_teams import brain_of
 from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
@@ -14,7 +15,6 @@ from touchline.commands.cli.option_groups import FieldsOf, with_option_groups
 from touchline.launch.terminal.aligned import aligned
 from touchline.launch.terminal.json_text import json_text
 from touchline.matches.series.seeds import seeds_of
-from touchline.matches.series.team_names import brain_of
 
 if TYPE_CHECKING:
     from touchline.matches.engine.outcome import Outcome

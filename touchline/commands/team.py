@@ -13,6 +13,7 @@ from runtime.process.clock import WallClock
 from schemas.config.confinement import Limits
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
+from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.option_groups import FieldsOf, from_options, with_option_groups
@@ -25,7 +26,9 @@ _SHARED = tuple(name for name in AgentSettings.model_fields if name not in _OWN)
 @with_option_groups
 def team(
     side: options.ForSide,
-    brain: Annotated[str | None, typer.Option(help="module:Class of the robots' brain.")] = None,
+    brain: Annotated[
+        str | None, typer.Option(help="module:Class of the robots' brain, or a shipped team by name.")
+    ] = None,
     command: Annotated[str | None, typer.Option(help="The team's own program, in place of a brain.")] = None,
     stdio: options.StdioProgram = None,
     robot: Annotated[
@@ -55,8 +58,7 @@ def team(
 
     if [brain, command, stdio].count(None) != 2:
         raise TouchlineError("a team has a brain or a program; give --brain module:Class, --command or --stdio")
-    if brain is not None and ":" not in brain:
-        raise TouchlineError(f'--brain is "{brain}"; write it as module:Class')
+    brain = brain_of(brain) if brain is not None else None
     program = options.program_of(stdio)
     settings = from_options(AgentSettings, robot=f"{side}1", brain=brain or "", stdio=program, side=side, **agent)
     own_program = shlex.split(command) if command is not None else None

@@ -11,6 +11,7 @@ import numpy as np
 from recordings.soccer.stats.match_tick import MatchTick
 from schemas.config.match_config import MatchConfig
 from schemas.config.scene import Scene, load_scene
+from schemas.config.shipped_teams import brain_of
 from schemas.messages.command import Command
 from schemas.messages.soccer.game import GameEvent
 from schemas.side import Side
@@ -18,7 +19,6 @@ from touchline.matches.drill.drill_match import drill_match
 from touchline.matches.engine.tick_messages import played_ticks
 from touchline.matches.judging.judge import verdict_of
 from touchline.matches.judging.occurrences import Occurrence, OccurrenceTracker
-from touchline.matches.series.team_names import brain_of
 from touchline.play.play_match import BrainSource, InProcessMatch
 from touchline.testing.facts import Facts
 from touchline.testing.runs import Runs

@@ -1,9 +1,12 @@
+import pkgutil
 import sys
 from pathlib import Path
 
 import pytest
 
+from robot_agent import teams
 from robot_agent.loading.brain_loader import load_brain
+from schemas.config.shipped_teams import SHIPPED_TEAMS
 from schemas.errors import TouchlineError
 
 STUDENT = """
@@ -104,6 +107,15 @@ def test_a_class_in_the_current_directory_is_built_with_the_briefing(here, brief
     assert brain.act(sight_of(7)).answers_tick == 7
 
 
+@pytest.mark.parametrize("team", SHIPPED_TEAMS)
+def test_the_name_of_a_shipped_team_is_its_brain(briefing, team):
+    assert type(load_brain(team, briefing)).__name__.lower() == team
+
+
+def test_every_folder_of_the_shipped_teams_is_known_by_its_name():
+    assert [module.name for module in pkgutil.iter_modules(teams.__path__) if module.ispkg] == list(SHIPPED_TEAMS)
+
+
 def test_a_plain_function_is_a_brain(here, briefing, sight_of):
     assert load_brain("students_team:act", briefing).act(sight_of(8)).answers_tick == 8
 
@@ -111,8 +123,12 @@ def test_a_plain_function_is_a_brain(here, briefing, sight_of):
 @pytest.mark.parametrize(
     ("spec", "said"),
     [
-        ("students_team", 'brain is "students_team"; write it as "module:Class"'),
-        ("stu-dents:Team", 'write it as "module:Class"'),
+        (
+            "students_team",
+            'brain is "students_team"; write "module:Class", or the name of a shipped team; known: nub',
+        ),
+        ("simpel", 'did you mean "simple"?'),
+        ("stu-dents:Team", 'brain is "stu-dents:Team"; write "module:Class"'),
         ("student_team:Team", 'did you mean "students_team"?'),
         ("robot_agent.teams.simpel:Simple", 'no module robot_agent.teams.simpel; did you mean "simple"?'),
         ("students_team:Taem", 'students_team has no Taem; did you mean "Team"?'),

@@ -17,6 +17,12 @@ def test_without_a_file_it_is_five_against_five_of_the_teams_that_ship() -> None
     assert match.speed is None
 
 
+def test_the_name_of_a_shipped_team_is_a_brain(tmp_path: Path) -> None:
+    file = tmp_path / "match.toml"
+    file.write_text('[teams.cyan]\nbrain = "reference"')
+    assert load_match(file).teams.cyan.brain == "robot_agent.teams.reference:Reference"
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -27,6 +33,7 @@ def test_without_a_file_it_is_five_against_five_of_the_teams_that_ship() -> None
         ('[teams.cyan]\nrobots = ["ball"]', 'a robot is named "ball", which has another meaning in keys'),
         ('[teams.cyan]\nrobots = ["magenta1"]', 'two robots are named "magenta1"'),
         ('[teams.cyan]\nbrain = "nonsense"', "teams.cyan.brain is 'nonsense'; write \"module:Class\""),
+        ('[teams.cyan]\nbrain = "refrence"', 'or the name of a shipped team; did you mean "reference"?'),
         ('[teams.cyan]\nbrain = "a:B"\ncommand = ["x"]', "a team has one or the other"),
         ('seed = "x"', "seed is 'x'; a whole number"),
         ("seed = true", "seed is True; a whole number"),

@@ -9,6 +9,7 @@ from typing import Any
 from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
+from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from schemas.soccer.game import Card
@@ -19,7 +20,6 @@ from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.store import RunStore
-from touchline.matches.series.team_names import brain_of
 
 RECORDINGS, LOGS = "recordings", "logs"
 """Folders in a cup's folder: a recording of each match; logs of processes, and tracebacks."""

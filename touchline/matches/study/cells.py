@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.matches.series.plan import with_brains
-from touchline.matches.series.team_names import brain_of
 from touchline.matches.study.study_config import Study
 
 SHORT_KEYS = {"noise": "noise.preset"}

@@ -8,6 +8,7 @@ from typing import Any
 
 from robot_agent.process.timing import HANG_S
 from runtime.process.clock import Clock
+from schemas.config.shipped_teams import SHIPPED_TEAMS
 from schemas.messages.command import Command, KickMode
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
@@ -15,7 +16,7 @@ from schemas.wire.part import encode
 from touchline.play.play_match import play_match
 from touchline.team.check.subject import CheckedRobot, Subject
 
-OPPONENT = "robot_agent.teams.simple:Simple"
+OPPONENT = SHIPPED_TEAMS["simple"]
 _MARGIN = 1.001
 """A demand above a limit by less than this factor is a rounding."""
 

@@ -3,10 +3,10 @@
 import pytest
 
 from schemas.config.match_config import load_match
+from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.matches.series.plan import plan_series, with_brains, with_sides_swapped
-from touchline.matches.series.team_names import brain_of, shipped_teams
 
 
 def test_each_seed_is_one_match_that_differs_in_its_seed_alone() -> None:
@@ -58,7 +58,6 @@ def test_a_team_that_is_no_brain_in_python_is_refused() -> None:
 
 
 def test_each_shipped_team_is_known_by_its_name() -> None:
-    assert {"simple", "nubot", "random"} <= set(shipped_teams())
     assert brain_of("nubot") == "robot_agent.teams.nubot:NuBot"
     assert brain_of("my_team:Striker") == "my_team:Striker"
     with pytest.raises(TouchlineError, match="did you mean"):

@@ -8,8 +8,8 @@ import pytest
 
 from runtime.process.clock import Clock
 from schemas.config.match_config import load_match
+from schemas.config.shipped_teams import SHIPPED_TEAMS, brain_of
 from support.stepped_clock import SteppedClock
-from touchline.matches.series.team_names import brain_of, shipped_teams
 from touchline.team.check import play as play_module
 from touchline.team.check import subject as subject_module
 from touchline.team.check.checks import CHECKS, CheckResult, run_check, run_checks
@@ -264,7 +264,7 @@ def test_a_brain_much_slower_than_its_ticks_is_judged_slow_before_the_match_ends
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "team", [pytest.param(team, marks=() if team == "simple" else pytest.mark.long) for team in shipped_teams()]
+    "team", [pytest.param(team, marks=() if team == "simple" else pytest.mark.long) for team in SHIPPED_TEAMS]
 )
 def test_the_teams_that_ship_keep_the_contract(team: str) -> None:
     subject = Subject(load_match(None, {"teams.cyan.remote": True}), brain_of(team))
