@@ -1,9 +1,11 @@
 """Runs a brain in its own process, whose log gets the stack where the brain does not return."""
 
+import signal
 import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import FrameType
 
-from robot_agent.loading.hang_alarm import hang_alarm
 from robot_agent.loading.user_code import is_users, shown_path
 from robot_agent.process.runner import Runner
 from robot_agent.process.timing import HANG_S
@@ -24,5 +26,28 @@ class BrainRunner(Runner):
                     f"{sight.robot} is in line {stack[-1].lineno} at tick {sight.tick}; its log has the stack",
                 )
 
-        with hang_alarm(HANG_S, report):
+        with _hang_alarm(HANG_S, report):
             return super()._think(sight)
+
+
+@contextmanager
+def _hang_alarm(seconds: float, overdue: Callable[[FrameType | None], None]) -> Iterator[None]:
+    """Call `overdue` in between, with the frame that runs, if the body takes more than `seconds` of wall time.
+
+    A brain that uses SIGALRM itself keeps it, and is not noticed; one in C is noticed when it returns to Python.
+    """
+    if signal.getsignal(signal.SIGALRM) is not signal.SIG_DFL:
+        yield
+        return
+
+    def ring(_number: int, frame: FrameType | None) -> None:
+        overdue(frame)
+
+    signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        if signal.getsignal(signal.SIGALRM) is ring:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, signal.SIG_DFL)

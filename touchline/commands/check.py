@@ -37,6 +37,7 @@ def check(
     """
     from touchline.team.check.checks import run_checks
     from touchline.team.check.examination import Examination
+    from touchline.team.check.fresh_checks import run_fresh
     from touchline.team.check.subject import Subject
 
     if [brain, stdio, command].count(None) != 2:
@@ -54,7 +55,7 @@ def check(
     if not subject.robots:
         raise TouchlineError("the match has no robots of cyan that an agent moves; name another match file")
     results = []
-    for result in run_checks(Examination(subject, seconds)):
+    for result in run_fresh(subject, seconds) if subject.brain else run_checks(Examination(subject, seconds)):
         results.append(result)
         if not json and result.kept is not None:
             typer.echo(f"{'kept' if result.kept else 'broken':<7} {result.name:<12} {result.sentence}")

@@ -5,6 +5,8 @@ A thread in C counts the time: a brain in C may hold the interpreter's lock for 
 
 import faulthandler
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,8 +23,8 @@ _SIZE = 128
 class Note:
     """What a process has left."""
 
-    robot: str = ""
-    """The robot whose brain had control; empty if none had."""
+    acting: str = ""
+    """The robot whose brain had control, in a check with what it did; empty if none had."""
     is_built: bool = True
     """Whether it acted; otherwise it was built."""
     stack: str = ""
@@ -40,11 +42,21 @@ class HangWatch:
         self._note = os.open(folder / _ACTING, os.O_CREAT | os.O_WRONLY) if folder is not None else None
         self._stack = (folder / _STACK).open("w") if folder is not None else None
 
-    def note(self, robot: str | None, *, is_built: bool) -> None:
+    def note(self, acting: str | None, *, is_built: bool = True) -> None:
         """Note the robot whose brain gets control; None while none has it."""
         if self._note is not None:
-            text = f"{int(is_built)}{robot or ''}".encode()[:_SIZE].ljust(_SIZE, b"\0")
+            text = f"{int(is_built)}{acting or ''}".encode()[:_SIZE].ljust(_SIZE, b"\0")
             os.pwrite(self._note, text, 0)
+
+    @contextmanager
+    def acting(self, what: str) -> Iterator[None]:
+        """Note who acts, and begin the time anew; nobody acts afterwards."""
+        self.note(what)
+        self.renew()
+        try:
+            yield
+        finally:
+            self.note(None)
 
     def renew(self) -> None:
         """Begin the time anew."""

@@ -101,7 +101,7 @@ def outcome_of_death(planned: PlannedMatch, error: DiedProcessError) -> Failed:
     It is the fault of the robot that acted if the process did not answer, or ended itself. A process that was killed
     from outside, or that was slow while no brain had control, is nobody's fault: the match can be played again.
     """
-    robot, stack = error.note.robot, error.note.stack
+    robot, stack = error.note.acting, error.note.stack
     sides = sides_of(planned, robot)
     ended_itself = 0 < error.status < _UNKNOWN_STATUS or -error.status in _OWN_SIGNALS
     if not sides or not (stack or ended_itself):

@@ -1,17 +1,14 @@
 """What is checked: a brain or a program of lines, the match that it is checked for, and its answers."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from robot_agent.loading.brain_error import BrainError
 from robot_agent.loading.brain_loader import load_brain
-from robot_agent.loading.hang_alarm import hang_alarm
 from robot_agent.loading.user_code import place_of
 from robot_agent.process.stdio.command_line import command_line
 from robot_agent.process.stdio.program import StdioProgram
-from robot_agent.process.timing import HANG_S
 from robot_agent.sdk.contract import Brain, Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
@@ -20,6 +17,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
+from touchline.matches.engine.hang_watch import HangWatch
 from touchline.team.check.bus_program import BusProgram
 
 SIDE = Side.CYAN
@@ -33,28 +31,6 @@ class BreachError(Exception):
         """`raised` is the exception of a brain and its place; empty without one."""
         super().__init__(sentence)
         self.raised = raised
-
-
-class _HangError(BaseException):
-    """Raised in a brain that does not return; a brain that catches `Exception` does not catch it."""
-
-
-@contextmanager
-def _in_time(what: str) -> Iterator[None]:
-    """Interrupt a brain that does not return within `HANG_S`.
-
-    Raises:
-        BreachError: it was interrupted; the sentence has the line.
-    """
-
-    def interrupt(_: object) -> None:
-        raise _HangError
-
-    try:
-        with hang_alarm(HANG_S, interrupt):
-            yield
-    except _HangError as error:
-        raise BreachError(f"{what} has not returned after {HANG_S:g} s{place_of(error)}") from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +47,8 @@ class Subject:
     """Command line of a program that speaks the protocol; empty for others."""
     folder: Path | None = None
     """Folder in which its module or its files are looked for before the current directory."""
+    watch: HangWatch = field(default_factory=lambda: HangWatch(None))
+    """Ends the process where a brain does not return; programs have limits of their own."""
 
     @property
     def robots(self) -> list[str]:
@@ -93,14 +71,14 @@ class Subject:
             brain = self._brain_of(briefing, log)
         except TouchlineError as error:
             raise BreachError(str(error)) from None
-        return CheckedRobot(robot, brain, log)
+        return CheckedRobot(robot, brain, self.watch, log)
 
     def _brain_of(self, briefing: Briefing, log: list[str]) -> Brain:
         if self.stdio:
             return StdioProgram(command_line(self.stdio, self.folder), briefing, log=log.append)
         if self.command:
             return BusProgram(command_line(self.command), briefing, log)
-        with _in_time(f"{briefing.robot}: building {self.brain}"):
+        with self.watch.acting(f"{briefing.robot}: building {self.brain}"):
             return load_brain(self.brain, briefing, self.folder)
 
 
@@ -110,6 +88,7 @@ class CheckedRobot:
 
     robot: str
     brain: Brain
+    watch: HangWatch
     log: list[str] = field(default_factory=list)
     """What a program did wrong, line by line."""
 
@@ -145,9 +124,7 @@ class CheckedRobot:
             raise BreachError(f"{self.robot}: {error}") from None
 
     def _answer(self, sight: Sight) -> object:
-        if isinstance(self.brain, StdioProgram | BusProgram):
-            return self.brain.act(sight)  # they have a limit of their own
-        with _in_time(f"{self.robot}: act at tick {sight.tick}"):
+        with self.watch.acting(f"{self.robot}: act at tick {sight.tick}"):
             return self.brain.act(sight)
 
     def close(self) -> None:

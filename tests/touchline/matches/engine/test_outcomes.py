@@ -94,7 +94,7 @@ def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf,
 
 
 def test_a_process_that_is_slow_while_no_brain_has_control_is_nobodys_fault(match_of: MatchOf) -> None:
-    error = DiedProcessError("its process ended with status 1", 1, Note(robot="", stack="in step"))
+    error = DiedProcessError("its process ended with status 1", 1, Note(acting="", stack="in step"))
     outcome = outcome_of_death(PlannedMatch(match_of()), error)
     assert (outcome.kind, outcome.culprits) == (FailureKind.WORKER, ())
 

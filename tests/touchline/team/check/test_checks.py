@@ -11,14 +11,14 @@ from schemas.config.match_config import load_match
 from schemas.config.shipped_teams import SHIPPED_TEAMS, brain_of
 from support.stepped_clock import SteppedClock
 from touchline.team.check import play as play_module
-from touchline.team.check import subject as subject_module
 from touchline.team.check.checks import CHECKS, CheckResult, run_check, run_checks
 from touchline.team.check.examination import Examination
+from touchline.team.check.fresh_checks import run_fresh
 from touchline.team.check.subject import Subject
 
 MODULE = "checked_team"
 BRAINS = """
-import itertools, time
+import itertools, os, re, time
 from touchline import Command, Drive, Kick, KickMode, Radio
 
 GROUND = KickMode.GROUND
@@ -49,8 +49,20 @@ class HangsInAct(Keeps):
         while sight.tick == 3:
             try:
                 pass
-            except Exception:
+            except:
                 pass
+        return super().act(sight)
+
+class HangsInC(Keeps):
+    def act(self, sight):
+        if sight.tick == 3:
+            re.match("(a+)+b", 40 * "a")
+        return super().act(sight)
+
+class Crashes(Keeps):
+    def act(self, sight):
+        if sight.tick == 3:
+            os.abort()
         return super().act(sight)
 
 class Misspells(Keeps):
@@ -228,23 +240,25 @@ def test_an_exception_that_an_earlier_check_reported_is_not_reported_again(
     assert (results["ball_unseen"], results["twice"], results["stopped"]) == (False, None, True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("brain", "check", "words"),
     [
-        (
-            "HangsInInit",
-            "build",
-            f"cyan1: building {MODULE}:HangsInInit has not returned after 0.2 s ({MODULE}.py, line",
-        ),
-        ("HangsInAct", "answers", f"cyan1: act at tick 3 has not returned after 0.2 s ({MODULE}.py, line"),
+        ("HangsInInit", "build", f"cyan1: building {MODULE}:HangsInInit has not returned after 1 s ("),
+        ("HangsInAct", "answers", "cyan1: act at tick 3 has not returned after 1 s ("),
+        ("HangsInC", "answers", "cyan1: act at tick 3 has not returned after 1 s ("),
+        ("Crashes", "answers", "cyan1: act at tick 3: its process was ended by SIGABRT"),
     ],
 )
-@pytest.mark.usefixtures("free_alarm")
-def test_a_brain_that_never_returns_ends_the_check_with_its_line(
-    run_all: Callable[..., list[CheckResult]], monkeypatch: pytest.MonkeyPatch, brain: str, check: str, words: str
+def test_a_brain_that_never_returns_or_ends_its_process_ends_the_check_with_its_line(
+    folder: Path, brain: str, check: str, words: str
 ) -> None:
-    monkeypatch.setattr(subject_module, "HANG_S", 0.2)
-    assert_only_fault(run_all(brain), check, words)
+    config = load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 1, "teams.cyan.remote": True})
+    subject = Subject(config, f"{MODULE}:{brain}", folder=folder)
+    results = list(run_fresh(subject, 2.0, hang_s=1.0))
+    assert_only_fault(results, check, words)
+    sentence = next(result.sentence for result in results if result.kept is False)
+    assert brain == "Crashes" or f"{MODULE}.py, line" in sentence
 
 
 def test_a_brain_much_slower_than_its_ticks_is_judged_slow_before_the_match_ends(
