@@ -25,7 +25,10 @@ _SIZE = (4.2, 3.0)
 """Width and height in inches: small, so that the texts can be read where a phone scales the plot down."""
 _LABEL_WIDTH = 26
 """Most letters in a line of an axis label."""
-_STYLE: Any = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 11, "axes.axisbelow": True}
+_STYLE: Any = {
+    "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 11, "axes.axisbelow": True,
+    "text.parse_math": False,  # a team may be called $
+}  # fmt: skip
 _COLOURS = ("#0b6e75", "#b3306e", "#7a5c00", "#3b4cc0", "#5b7f2a", "#8a4b2f")
 _MARKERS = "osD^vP"
 
@@ -51,7 +54,8 @@ def plot_of_means(means: pd.DataFrame, cells: Sequence[Cell], response: str) -> 
                 seeds = means[number].dropna()
                 axes.plot([x + 0.05] * len(seeds), seeds, ".", color=colour, alpha=0.25, markersize=4)
             _draw(axes, at, [estimate_of(means[number]) for number in shown], colour, _MARKERS[place % 6], label)
-        axes.set_xticks(range(len(levels)), levels)
+        width = max(8, 36 // len(levels))
+        axes.set_xticks(range(len(levels)), [textwrap.fill(level, width) for level in levels])
         axes.set_xlim(-0.5, len(levels) - 0.5)
         axes.set_xlabel(axis)
         axes.set_ylabel(textwrap.fill(response_text(response), _LABEL_WIDTH))
@@ -85,7 +89,7 @@ def _draw(axes: Axes, at: Sequence[float], estimates: Sequence[Estimate], colour
     high = [one.high - one.value if one.high is not None else 0.0 for one in estimates]
     axes.errorbar(
         at, values, yerr=[low, high], color=colour, marker=marker, capsize=4, linewidth=1.2,
-        label=label or None,
+        label=textwrap.fill(label, _LABEL_WIDTH) or None,
     )  # fmt: skip
 
 
@@ -112,4 +116,5 @@ def _svg(figure: Figure) -> str:
 
 
 def _wrapped(comparison: Comparison) -> str:
-    return f"{comparison.label}\n– {comparison.reference}".replace(", ", ",\n")
+    lines = f"{comparison.label}\n– {comparison.reference}".replace(", ", ",\n").splitlines()
+    return "\n".join(textwrap.fill(line, _LABEL_WIDTH) for line in lines)
