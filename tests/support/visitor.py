@@ -19,7 +19,7 @@ class Visitor:
     def __init__(
         self, origin: str, token: str = "", claims: str | None = None, patience: float = SOON, **more: Any
     ) -> None:
-        """`claims` is the origin that it sends, by default its own; `patience` is in s."""
+        """`claims` is the origin that it sends, by default its own, none if empty; `patience` is in s."""
         self.token = token
         self.welcome: dict[str, Any] = {}
         """The newest one that `hear_what_is_played` has met."""
@@ -27,7 +27,7 @@ class Visitor:
         self._numbers = itertools.count(1)
         opening = connect(
             f"{origin.replace('http', 'ws')}/ws",
-            origin=origin if claims is None else claims,  # type: ignore[arg-type]
+            origin=origin if claims is None else claims or None,  # type: ignore[arg-type]
             open_timeout=patience,
             max_size=None,
             **more,

@@ -136,7 +136,9 @@ def test_worlds_beliefs_orders_and_past_events_belong_to_the_details() -> None:
     order = ActiveOrder(tick=1, time=0.02, order=CoachOrder(sequence=1), acknowledged={"cyan1": True})
     host.publisher(ACTIVE_ORDER, side="cyan").put(order)
     host.publisher(WORLD).put(world(1))
-    host.publisher(BELIEF, side="cyan", robot="cyan1").put(belief(1, "striker"))
+    beliefs = host.publisher(BELIEF, side="cyan", robot="cyan1")
+    for role in ("keeper", "striker"):
+        beliefs.put(belief(1, role))
     assert outline.update() == MatchNews()
     assert (outline.world, outline.beliefs, outline.events) == (None, {}, [])
     news = details.update()

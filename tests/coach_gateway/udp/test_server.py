@@ -228,8 +228,11 @@ async def test_the_referees_program_acts_or_receives_the_reason_of_a_refusal() -
         assert program.acks(taken)[0]["accepted"]
         bench.stage.answer = lambda action: ActionReply(accepted=False, reason=f"{action.action}: not now")
         refused = program.send("action", action={"action": "penalty", "side": "cyan"})
-        await until(lambda: program.acks(refused))
-        assert program.acks(refused)[0]["reason"] == "penalty: not now"
+        invalid = program.send("order", side="cyan", order={"mode": "hold", "robot_a": "magenta1"})
+        await until(lambda: program.acks(refused) and program.acks(invalid))
+        (penalty,), (order,) = program.acks(refused), program.acks(invalid)
+        assert not penalty["accepted"] and penalty["reason"] == "penalty: not now"
+        assert not order["accepted"] and "no robot of cyan" in order["reason"]
         assert [(one.action.value, one.side, one.source) for one in bench.stage.asked] == [
             ("corner", Side.MAGENTA, "coach program whistle"),
             ("penalty", Side.CYAN, "coach program whistle"),

@@ -382,6 +382,10 @@ async def test_the_audience_receives_teams_and_events(check_world_state: Any, mo
             "team": "Ruby",
             "robotID": -1,
         }
+        assert (events[-1]["eventCode"], events[-1]["robotID"]) == ("DOUBLE_YELLOW", 2)
+        told = len(shown())
+        await asyncio.sleep(0.2)
+        assert len(shown()) - told <= 6, "twenty a second"
         transport.close()
 
 

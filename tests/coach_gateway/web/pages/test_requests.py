@@ -37,6 +37,8 @@ def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(vis
     assert page.ask("action", action={"action": "stop", "source": "somebody else"})["accepted"]
     refused = page.ask("action", action={"action": "corner", "side": "cyan"})
     assert (refused["accepted"], refused["reason"]) == (False, "play is running")
+    invalid = page.ask("order", side="cyan", order={"mode": "hold", "robot_a": "magenta1"})
+    assert not invalid["accepted"] and "no robot of cyan" in invalid["reason"]
     asked = [question for question in host.asked if hasattr(question, "action")]
     assert [(question.action, question.source) for question in asked] == [
         (ActionName.STOP, "referee's page"),

@@ -1,15 +1,21 @@
 """The state of a cup is a function of how its matches ended."""
 
 from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from schemas.side import Side
+from schemas.soccer.game import Card
 from touchline.matches.cup.cup_config import CupConfig, FormatConfig, FormatKind, SignificanceConfig, TeamEntry
+from touchline.matches.cup.cup_plan import CupPlan
 from touchline.matches.cup.cup_state import CupState, Ended, MatchState, Slot, state_of
-from touchline.matches.cup.match_result import MatchResult
+from touchline.matches.cup.match_result import Fixture, MatchResult
 from touchline.matches.cup.report import report_text
+from touchline.matches.engine.outcome import Failed, FailureKind, Played
 
 TEAMS = [TeamEntry(name=name, brain="simple") for name in "ABCDEF"]
 
@@ -123,6 +129,19 @@ def test_a_forfeit_is_a_result() -> None:
         "semi-final 1",
         "third place",
     ]
+
+
+def test_after_a_match_on_swapped_sides_goals_cards_and_a_forfeit_are_those_of_the_right_team() -> None:
+    plan = CupPlan(cup_of(FormatKind.KNOCK_OUT), Path(), Path(), {})
+    slot = Slot(Fixture("final", "final", 1, ("A", "B"), best_of=2), leg=1)  # B is in cyan
+    sides = {
+        Side.CYAN: SimpleNamespace(goals=2, shoot_out=3, cards={Card.YELLOW: 1}),
+        Side.MAGENTA: SimpleNamespace(goals=0, shoot_out=4, cards={Card.RED: 1}),
+    }
+    played = Played("", SimpleNamespace(sides=sides), 60.0, "chain")
+    assert plan.ended(slot, played).result == MatchResult(("A", "B"), (0, 2), (4, 3), yellows=(0, 1), reds=(1, 0))
+    crashed = Failed("", FailureKind.CRASHED, "no ball", (Side.CYAN,))
+    assert plan.ended(slot, crashed).result == MatchResult(("A", "B"), (3, 0), forfeited_by=("B",))
 
 
 def test_files_of_matches_have_plain_and_different_names() -> None:

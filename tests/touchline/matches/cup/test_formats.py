@@ -52,6 +52,10 @@ def test_in_a_double_round_robin_each_pair_meets_once_on_each_side(number: int) 
     assert len({one.name for one in fixtures}) == len(fixtures)
 
 
+def test_of_two_teams_the_first_begins_in_cyan_and_is_in_magenta_in_the_second_half() -> None:
+    assert [one.teams for one in round_robin(["a", "b"], "league", double=True)] == [("a", "b"), ("b", "a")]
+
+
 def test_sides_are_swapped_in_each_second_match_of_a_fixture() -> None:
     fixture = Fixture("league 1", "league", 1, ("a", "b"), best_of=3)
     assert [fixture.sides(leg) for leg in range(3)] == [("a", "b"), ("b", "a"), ("a", "b")]
@@ -112,6 +116,7 @@ def test_the_losers_of_the_semi_finals_meet_for_third_place() -> None:
     bracket = knock_out(names(4), results, by_leader, third_place=True)
     assert [one.name for one in bracket.fixtures] == ["semi-final 1", "semi-final 2", "third place", "final"]
     assert bracket.third_place is not None and set(bracket.third_place.teams) == {"team 02", "team 03"}
+    assert bracket.third == "team 02" and bracket.third_place.decisive
 
 
 def test_a_level_knock_out_is_decided_by_earlier_results_that_later_ones_do_not_change() -> None:
@@ -190,6 +195,9 @@ def test_in_a_swiss_tournament_no_pair_meets_twice_and_no_team_rests_twice(numbe
     pairs = [frozenset(one.teams) for one in known.fixtures]
     assert len(set(pairs)) == len(pairs) == number // 2 * most_rounds(number)
     assert len(set(known.byes)) == len(known.byes) == (most_rounds(number) if number % 2 else 0)
+    for one in known.fixtures:
+        cyan = Counter(other.teams[0] for other in known.fixtures if other.round < one.round)
+        assert cyan[one.teams[0]] <= cyan[one.teams[1]], "who was in cyan less often is so now"
 
 
 def test_in_a_swiss_tournament_winners_meet_winners() -> None:
@@ -204,6 +212,6 @@ def test_in_a_swiss_tournament_winners_meet_winners() -> None:
 def test_a_round_of_a_swiss_tournament_waits_for_all_results_before_it() -> None:
     teams = names(4)
     first = swiss(teams, 2, {}, ranked(teams)).fixtures
-    assert len(first) == 2
+    assert [one.teams for one in first] == [("team 00", "team 02"), ("team 01", "team 03")]
     half = {first[0].name: result_of(first[0], (1, 0))}
     assert len(swiss(teams, 2, half, ranked(teams)).fixtures) == 2

@@ -92,10 +92,12 @@ def test_a_published_table_that_does_not_follow_from_the_matches_is_named(cup: P
     content = json.loads(result.read_text())
     first, second, *_ = content["tables"]["league"]
     content["tables"]["league"][0] = second | {"place": 1}
+    content["matches"][-1]["chain"] = "another"
     result.write_text(json.dumps(content))
     page.write_text(page.read_text().replace("<b>", "<b>9"))
     assert verified(cup).faults == [
         f"result.json: place 1 of league is {second['team']}, and {first['team']} by the matches",
+        f"result.json: match {content['matches'][-1]['match']} is not the stored one",
         "index.html: its table of league is not the one that follows from the matches",
     ]
 

@@ -34,6 +34,8 @@ def test_teams_without_a_match_are_level_and_no_order_is_significant() -> None:
     ratings = rate(["a", "b", "c"], [])
     assert [one.value for one in ratings.teams] == [0.0, 0.0, 0.0]
     assert not ratings.significant and ratings.order[0].p == 1.0
+    many = rate([f"team {number}" for number in range(40)], []).teams
+    assert many[0].high == pytest.approx(1000, abs=20), "the prior: 1,000 points for 95 % of teams"
 
 
 def test_a_team_that_won_every_match_has_a_finite_rating() -> None:
