@@ -45,9 +45,9 @@ connect again."""
 GIVE_UP_S = 20.0
 """Without progress for this time, missing batches are given up; a link recovers in less."""
 PARTING_S = 5.0
-"""For the last messages of a match: a host or a replay waits at its end for its recorders, a launcher for those of a
-host whose process has ended, since a busy machine is late. A recorder of keys that is stopped writes what has arrived
-before for so long at most."""
+"""For the last messages of a match: a host or a replay waits at its end for recorders, a host longer for those that it
+admitted; a launcher for the messages of a host whose process has ended, since a busy machine is late. A recorder of
+keys that is stopped writes what has arrived before for so long at most."""
 SUSPENDED_S = 0.5
 """Most time between two readings of a clock that counts; the rest is taken for a suspension of the process."""
 CORE_WAIT_S = 0.25

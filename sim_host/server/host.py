@@ -165,11 +165,15 @@ class Host:
         return tick
 
     def wait_for_recorders(self) -> None:
-        """Wait until the recorders have read the last tick, and after full time until watchers can have received it."""
+        """Wait until the recorders have read the last tick, and after full time until watchers can have received it.
+
+        For those that a lockstep host waits for in a match, it does so here, too: as long as they make progress.
+        """
         last = self.simulation.now.tick
         self._publish_health(self.simulation.now)  # the counts of the whole match
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
+        awaited: dict[str, int] = {}
         while self._clock.now() < deadline:
             self.presence.update(timeout=PRESENCE_S)
             self._services.process()
@@ -177,6 +181,9 @@ class Host:
             self._batches.send_if_due()
             if not any(self.presence.recorder_lags(last).values()):
                 break
+            before, awaited = awaited, self.presence.awaited_recorders()
+            if awaited != before:
+                deadline = max(deadline, self._clock.now() + self._config.patience.recorder)
         if self.simulation.over and self.presence.has_watchers():
             self._linger(self._clock.now() + FULL_TIME_GRACE_S)
 
