@@ -15,6 +15,8 @@ from runtime.bus.contract import BusError, PresenceKind
 from runtime.bus.zenoh.any_keys import KeyPublisher, check_key
 from runtime.bus.zenoh.bus import ZenohBus
 from schemas.errors import TouchlineError
+from schemas.messages.replay import ReplayTopic
+from schemas.natural_order import natural_order
 
 
 class Keys:
@@ -80,6 +82,7 @@ class LogReplay(ReplayLoop):
             loop=settings.loop,
             stay=settings.stay,
             time_of=seconds,
+            topics=topics_of(log),
         )
 
     def _publish(self, message: LogMessage) -> None:
@@ -95,6 +98,24 @@ class LogReplay(ReplayLoop):
         if (key, encoding) not in self._publishers:
             self._publishers[key, encoding] = KeyPublisher(self._bus, key, encoding)
         return self._publishers[key, encoding]
+
+
+def topics_of(log: Log) -> list[ReplayTopic]:
+    """The topics of a log by key; channels of one key, encoding and schema count together."""
+    found: dict[tuple[str, str, str], ReplayTopic] = {}
+    for key, channel in log.channels:
+        if channel.messages:
+            name = channel.schema.name if channel.schema is not None else ""
+            start, end = ((ns - log.base_ns) / 1e9 for ns in (channel.first_ns, channel.last_ns))
+            one = ReplayTopic(
+                key=key, encoding=channel.encoding, schema=name, messages=channel.messages, start=start, end=end
+            )
+            known = found.get((key, one.encoding, name))
+            if known is not None:
+                messages = one.messages + known.messages
+                one = one.replace(messages=messages, start=min(start, known.start), end=max(end, known.end))
+            found[key, one.encoding, name] = one
+    return sorted(found.values(), key=lambda one: natural_order(one.key))
 
 
 def seconds(text: str) -> float:

@@ -5,7 +5,7 @@ read from and a function that publishes.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -13,7 +13,7 @@ from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
 from recordings.timing import POLL_S
 from runtime.process.clock import Clock
 from schemas.errors import TouchlineError
-from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest, ReplayTopic
 from schemas.messages.soccer.game import GameEvent
 from schemas.topic import Topic
 from schemas.topics import ACTIVE_ORDER, APPLIED, BELIEF, COMMAND, DEBUG, HEALTH, ORDER, SIGHT, STATE, WORLD
@@ -84,18 +84,20 @@ class Player:
         follow: bool = False,
         time_of: Callable[[str], float] = float,
         events: Callable[[], list[GameEvent]] = list,
+        topics: Sequence[ReplayTopic] = (),
         can_publish: Callable[[], bool] = lambda: True,
     ) -> None:
         """Start at the beginning of `span`.
 
         `stay` pauses at the end instead of ending; `follow` waits there for data that a recorder adds. `time_of`
-        converts a seek target to simulated time in s, `events` returns all events of the recording. A new tick is
-        published only when `can_publish` allows it.
+        converts a seek target to simulated time in s, `events` returns all events of the recording; any other file has
+        `topics`. A new tick is published only when `can_publish` allows it.
         """
         self._cursor, self._clock, self._publish = cursor, clock, publish
         self._span = span or PlaybackRange(cursor.start_ns)
         self._stay, self._follow, self._loop = stay, follow, loop
         self._time_of, self._events, self._can_publish = time_of, events, can_publish
+        self._topics = topics
         self._latched: dict[str, Playable] = {}
         self._playback = PlaybackClock(self._span.start_ns, clock.now(), rate, paused)
         self._position_ns = self._span.start_ns
@@ -172,8 +174,9 @@ class Player:
             self._carry_out(request)
         except TouchlineError as error:
             return self.status(accepted=False, reason=str(error))
-        events = self._events() if request.operation is ReplayOperation.EVENTS else []
-        return self.status().replace(events=events)
+        if request.operation is not ReplayOperation.EVENTS:
+            return self.status()
+        return self.status().replace(events=self._events(), topics=list(self._topics))
 
     def status(self, *, accepted: bool = True, reason: str = "") -> ReplayReply:
         """The state of the replay, as a reply."""

@@ -7,6 +7,7 @@ from msgspec import Meta
 
 from schemas.messages.soccer.game import GameEvent
 from schemas.wire.message import Message
+from schemas.wire.part import Part
 
 
 class ReplayOperation(StrEnum):
@@ -15,7 +16,7 @@ class ReplayOperation(StrEnum):
     STATUS = "status"
     """Report its state, and change nothing."""
     EVENTS = "events"
-    """Report its state and all events of the recording, and change nothing."""
+    """Report its state and all events of the recording, of any other file its topics, and change nothing."""
     PLAY = "play"
     PAUSE = "pause"
     STEP = "step"
@@ -45,6 +46,23 @@ class ReplayRequest(Message):
     """Length of a step in ticks."""
 
 
+class ReplayTopic(Part):
+    """A topic of a file that is no recording of a match."""
+
+    key: str
+    """The key on which its messages are replayed."""
+    encoding: str
+    """As the file names it, such as `cdr`."""
+    schema: str = ""
+    """Name of its schema; empty without one."""
+    messages: int = 0
+    """Messages in the file."""
+    start: float = 0.0
+    """Time of the first one, in s since the first message of all topics."""
+    end: float = 0.0
+    """Time of the last one, in s since then."""
+
+
 class ReplayReply(Message):
     """A replay's reply, with its state after the request."""
 
@@ -71,3 +89,5 @@ class ReplayReply(Message):
     """Messages published so far."""
     events: list[GameEvent] = []
     """All events of the recording in order, where they were requested."""
+    topics: list[ReplayTopic] = []
+    """The topics of any other file, where events were requested."""

@@ -15,10 +15,14 @@ _SLOW_SCREEN = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(p
 """A screen of 20 pictures a second: at 60, half the CPU time of a test is that of drawing the field."""
 
 
+_DRAWN = "window.touchline.pitchCanvas.world !== null"
+
+
 class Tab:
     """The page in a browser, with its errors."""
 
-    def __init__(self, context: BrowserContext, origin: str, role: str = "spectator") -> None:
+    def __init__(self, context: BrowserContext, origin: str, role: str = "spectator", shown: str = _DRAWN) -> None:
+        """`shown` holds once the page shows what is played."""
         self.context = context
         context.add_init_script(_SLOW_SCREEN)
         self.page: Page = context.new_page()
@@ -31,7 +35,7 @@ class Tab:
         self.page.on("console", lambda line: self._note(line.text) if line.type == "error" else None)
         self.page.on("dialog", lambda dialog: self.faults.append(dialog.message))
         self.page.goto(f"{origin}/#token={TOKENS[role]}" if role in TOKENS else f"{origin}/")
-        self.until(f"window.touchline?.match.role === '{role}' && window.touchline.pitchCanvas.world !== null")
+        self.until(f"window.touchline?.match.role === '{role}' && {shown}")
 
     def _note(self, fault: str) -> None:
         if not (self.loses_its_server and "WebSocket connection to" in fault):

@@ -165,8 +165,9 @@ def replay(
         follow=follow,
         behind=behind,
     )
+    opened_page = open_page(from_options(WebSettings, **page)) if web else None
     if not is_match(files):
-        of_matches = {"--web": web, "--foxglove": foxglove, "--follow": follow, "--credentials": listening.credentials}
+        of_matches = {"--foxglove": foxglove, "--follow": follow, "--credentials": listening.credentials}
         for option, given in of_matches.items():
             if given:
                 raise TouchlineError(f"{option}: {files[0]} is no recording of a match; leave {option} out")
@@ -177,9 +178,10 @@ def replay(
             files,
             settings,
             Keys(settings, rename or [], prefix),
-            name=match or "replay",
+            name=from_options(ClientSettings, match=match).match or "replay",
             connect=connect,
             listen=options.endpoint_of(listening) if connect is None else None,
+            page=opened_page,
             quiet=json,
         )
         if json:
@@ -187,7 +189,6 @@ def replay(
         return
     if rename:
         raise TouchlineError(f"--rename: the keys of a match, {files[0]}, have their names; leave it out")
-    opened_page = open_page(from_options(WebSettings, **page)) if web else None
     opened = Replay(settings)
     clock = WallClock()
     name = prefix + (match or opened.recording.manifest.match)

@@ -1,7 +1,9 @@
 """Replays MCAP files that are no recordings of a match, on a network of Zenoh."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 import typer
@@ -11,11 +13,16 @@ from recordings.reading.log_order import open_log
 from recordings.replay.log_replay import Keys, LogReplay
 from recordings.replay.player import Player
 from recordings.replay.replay import ReplaySettings
+from runtime.bus.contract import PresenceKind
+from runtime.bus.endpoint import local_endpoint
 from runtime.bus.zenoh.any_keys import open_network
 from runtime.process.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from touchline.launch.page import serve_page_beside
+from touchline.launch.processes.programs import Page
 from touchline.launch.processes.stop_signals import StopSignals
+from touchline.launch.processes.supervisor import Notice
 from touchline.launch.terminal.replay_progress import bar_text, status_text
 from touchline.launch.terminal.screen import screen_for
 
@@ -28,9 +35,10 @@ def replay_log(
     name: str,
     connect: str | None,
     listen: str | None,
+    page: Page | None,
     quiet: bool,
 ) -> ReplayReply:
-    """Replay until the end or a signal; the controls are those of a match named `name`.
+    """Replay until the end or a signal; the controls are those of a match named `name`, on a page, too.
 
     Raises:
         TouchlineError: a file cannot be read, a topic cannot be a key, or there is no network.
@@ -46,15 +54,24 @@ def replay_log(
     clock = WallClock()
     stream = sys.stderr if quiet else sys.stdout
     text_of = bar_text if stream.isatty() else status_text
-    with open_network(name, clock, connect, listen) as bus, StopSignals() as stop:
+    with ExitStack() as stack:
+        bus = stack.enter_context(open_network(name, clock, connect, listen))
+        stop = stack.enter_context(StopSignals())
         typer.echo(f"{len(log.channels)} channels {'to' if connect else 'at'} {bus.endpoint}", err=True)
         replay = LogReplay(bus, log, settings)
+        look_after: Callable[[], list[Notice]] = list
+        if page is not None:
+            bus.declare_alive(PresenceKind.HOST, "host")  # for which a page looks
+            say = partial(typer.echo, err=True)
+            look_after = stack.enter_context(serve_page_beside(name, local_endpoint(bus.endpoint), page, clock, say))
         with screen_for(stream, clock) as screen:
 
             def meanwhile(player: Player) -> None:
                 if stop.received is not None:
                     player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
                 screen.status(text_of(player.status()))
+                for notice in look_after():
+                    typer.echo(f"touchline: {notice.sentence}", err=True)
 
             replay.run(meanwhile)
             screen.event(text_of(replay.player.status()), notable=True)

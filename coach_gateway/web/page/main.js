@@ -24,6 +24,7 @@ import { Selection } from "./field/selection.js";
 import { Connection } from "./link/connection.js";
 import { PitchCanvas } from "./field/canvas.js";
 import { Tabs } from "./panels/tabs.js";
+import { Topics } from "./panels/topics.js";
 import { keepToken, tokenHere } from "./link/token.js";
 
 const match = new Match();
@@ -34,6 +35,7 @@ const layers = new Layers(match);
 const pitchCanvas = new PitchCanvas(byId("ground"), byId("moving"), match, layers, selection);
 const board = new Scoreboard(match, connection);
 const replay = new Replay(match, requests);
+new Topics(match, (time) => replay.seek(time));
 const events = new EventList(match, (time) => replay.seek(time));
 const buttons = new Buttons(match, requests, selection);
 new Pending(match, requests, buttons);

@@ -1,6 +1,7 @@
 """Follows the match for all pages: welcomes each, and sends all of them what is new."""
 
 import asyncio
+from contextlib import suppress
 
 from coach_gateway.access import rights
 from coach_gateway.access.roles import TokenRole
@@ -76,6 +77,7 @@ class PageBroadcaster:
             debug=self._own_sides(role),
             orders=self._own_sides(role),
             scenes=self._scenes,
+            topics=list(feed.topics),
         )
         page.queue.restart(welcome.json())
         for text in feed.snapshot():
@@ -102,6 +104,8 @@ class PageBroadcaster:
         """Why no role can do this now."""
         if not self.feed.host_present:
             return "the host is gone; wait until it is back"
+        if self.feed.topics:
+            return None if isinstance(request, PageReplay) else "this is a replay of a file without a match"
         if self.feed.setup is None:
             return "the match is not known yet; try again"
         if not self.feed.live and isinstance(request, PageOrder | PageDrive):
@@ -178,15 +182,15 @@ class PageBroadcaster:
         Raises:
             TouchlineError: the host does not answer.
         """
-        client = self.requests.client
-        setup = await asyncio.to_thread(client.setup)
-        try:
+        client, recorded = self.requests.client, None
+        with suppress(TouchlineError):  # it is a match
             request = ReplayRequest(operation=ReplayOperation.EVENTS)
-            recorded: ReplayReply = await asyncio.to_thread(client.ask, REPLAY_CONTROL, request)
-        except TouchlineError:
-            self.feed.begin(setup, live=True)
-        else:
-            self.feed.begin(setup, live=False, events=recorded.events)
+            recorded = await asyncio.to_thread(client.ask, REPLAY_CONTROL, request)
+        if recorded is not None and recorded.topics:
+            self.feed.begin(None, live=False, topics=recorded.topics)
+            return
+        setup = await asyncio.to_thread(client.setup)
+        self.feed.begin(setup, live=recorded is None, events=recorded.events if recorded is not None else ())
 
     async def _follow_replay(self) -> None:
         """Send all pages the status of a replay, several times a second."""
@@ -207,7 +211,8 @@ class PageBroadcaster:
         """
         client = self.requests.client
         status: ReplayReply = client.ask(REPLAY_CONTROL, ReplayRequest())
-        if status.paused and not self.feed.has_picture and status.time <= status.start + _BEGINNING_S:
+        shows = self.feed.has_picture or self.feed.setup is None
+        if status.paused and not shows and status.time <= status.start + _BEGINNING_S:
             status = client.ask(REPLAY_CONTROL, ReplayRequest(operation=ReplayOperation.STEP))
         return status
 

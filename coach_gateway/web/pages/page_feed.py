@@ -4,13 +4,14 @@ Payloads are validated by the follower. State and health are handed on as they c
 and it is put together once for all pages that see the same.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from coach_gateway.match.debug_follower import DebugFollower
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.pages.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
 from coach_gateway.web.pages.rounding import rounded_json
 from runtime.bus.contract import Bus
+from schemas.messages.replay import ReplayTopic
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent
 from schemas.messages.world import World
@@ -38,6 +39,8 @@ class PageFeed:
         """How the match is set up; set by `begin`."""
         self.live = True
         """A match; False for a replay. Set by `begin`."""
+        self.topics: Sequence[ReplayTopic] = ()
+        """Those of the replay of a file without a match. Set by `begin`."""
         self.host_changed = False
         """A host has come, or other robots take part: the owner queries the host again, and resets this."""
         self.frame_changed = False
@@ -72,9 +75,19 @@ class PageFeed:
         self.orders_changed = self.orders_changed or bool(news.orders) or news.rewound
         return messages
 
-    def begin(self, setup: Setup | None, *, live: bool, events: Iterable[GameEvent] = ()) -> None:
-        """Take in the host's answer to how its match is set up; of a replay, `events` are all of the recording."""
-        self.setup, self.live = setup, live
+    def begin(
+        self,
+        setup: Setup | None,
+        *,
+        live: bool,
+        events: Iterable[GameEvent] = (),
+        topics: Sequence[ReplayTopic] = (),
+    ) -> None:
+        """Take in the host's answer to how its match is set up; of a replay, `events` are all of the recording.
+
+        The replay of a file without a match has `topics`, and no setup.
+        """
+        self.setup, self.live, self.topics = setup, live, topics
         if not live:
             self._events_sent = {_event_text(event): None for event in events}
 

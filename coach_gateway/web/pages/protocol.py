@@ -20,7 +20,7 @@ from schemas.messages.health import Health
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersRequest
 from schemas.messages.radio import Belief
-from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.replay import ReplayReply, ReplayRequest, ReplayTopic
 from schemas.messages.scene import SceneRequest
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent, GameState, RefereeAction
@@ -40,7 +40,7 @@ class Welcome(Part, tag_field="kind", tag="welcome"):
     role: TokenRole
     match: Name | None
     setup: Setup | None
-    """None until the host has replied; then another welcome has it."""
+    """None until the host has replied; then another welcome has it. None, too, with `topics`."""
     live: bool
     """True for a match, False for the replay of a recording."""
     deeds: list[str]
@@ -54,6 +54,8 @@ class Welcome(Part, tag_field="kind", tag="welcome"):
     """Sides whose orders this role is shown."""
     scenes: dict[str, str] = {}
     """Scenes that can be loaded by name, with their descriptions."""
+    topics: list[ReplayTopic] = []
+    """What is replayed if it is a file without a match; empty for a match, and for the recording of one."""
 
 
 class HostUpdate(Part, tag_field="kind", tag="host"):

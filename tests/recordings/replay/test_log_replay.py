@@ -135,7 +135,8 @@ def test_log_times_as_far_apart_as_mcap_can_say_are_played_as_fast_as_possible(t
 @pytest.mark.parametrize(
     ("words", "fault"),
     [
-        (["--web"], "--web: .* is no recording of a match; leave --web out"),
+        (["--foxglove"], "--foxglove: .* is no recording of a match; leave --foxglove out"),
+        (["--name", "A/b"], "a match name is a key chunk"),
         (["--from", "goal:1"], '"goal:1" is no time in a log; give seconds since its first message'),
         *((["--from", time], f'"{time}" is a time that no recording has') for time in ("inf", "nan", "-1", "1e300")),
         (["--to", "inf"], '"inf" is a time that no recording has'),
@@ -181,7 +182,7 @@ def log_replay(tmp_path) -> Iterator[LogReplay]:
 
 def test_a_replay_is_paused_stepped_sought_and_looped_by_the_control_of_replays(log_replay):
     with open_network("replay", WallClock(), log_replay._bus.endpoint, None) as bus:
-        deadline = monotonic() + LIMIT
+        deadline, topics = monotonic() + LIMIT, []
 
         def ask(**request) -> tuple[float, bool, int]:
             pending = bus.query(REPLAY_CONTROL, ReplayRequest(**request), LIMIT)
@@ -191,9 +192,15 @@ def test_a_replay_is_paused_stepped_sought_and_looped_by_the_control_of_replays(
                 with suppress(NoReplyError):
                     reply = pending.result(0.01)
             assert reply.accepted, reply.reason
+            topics[:] = reply.topics
             return reply.time, reply.paused, reply.messages
 
         assert ask() == (0.0, True, 0)
+        assert topics == []
+        ask(operation=ReplayOperation.EVENTS)
+        (topic,) = topics
+        assert (topic.key, topic.encoding, topic.schema, topic.messages) == ("robot1/odom", "json", "any", 50)
+        assert (topic.start, topic.end) == (0.0, 0.49)
         ask(operation=ReplayOperation.STEP, ticks=3)
         log_replay.pump()
         assert ask() == (0.02, True, 3)

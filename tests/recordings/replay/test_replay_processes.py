@@ -1,10 +1,13 @@
-"""The real thing: a replay process with a live view for viewers."""
+"""The real thing: a replay process with a live view for viewers, or a page."""
 
 import json
 import signal
 
 import pytest
 from websockets.sync.client import connect
+
+from support.foreign import drive, write_mcap
+from support.visitor import Visitor
 
 LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
@@ -20,6 +23,23 @@ def test_the_command_serves_a_live_view_until_the_viewer_had_enough(recorded, st
         assert json.loads(socket.recv(timeout=LIMIT))["op"] == "serverInfo"
         offered = {channel["topic"] for channel in json.loads(socket.recv(timeout=LIMIT))["channels"]}
         assert {"/tf", "/viz/field", "/viz/robots"} <= offered
+    replay.send_signal(signal.SIGINT)
+    replay.communicate(timeout=LIMIT)
+    assert replay.returncode == 128 + signal.SIGINT
+
+
+@pytest.mark.processes
+def test_the_command_serves_the_page_of_a_file_without_a_match(tmp_path, start):
+    file = write_mcap(tmp_path / "log.mcap", drive(50))
+    replay = start("-m", "touchline", "replay", str(file), "--paused", "--web", "--web-port", "0", *_ANYWHERE)
+    address, _, token = next(line.split()[-1] for line in replay.stderr if "page:" in line).partition("/#token=")
+    page = Visitor(address, token, patience=LIMIT)
+    assert [topic["key"] for topic in page.hear("welcome", live=False)["topics"]] == ["robot1/odom"]
+    assert page.ask("replay", request={"operation": "seek", "to": "0.3"})["answer"]["time"] == 0.3
+    assert page.ask("replay", request={"operation": "play"})["accepted"]
+    while page.hear("replay")["replay"]["time"] < 0.49:
+        pass
+    page.close()
     replay.send_signal(signal.SIGINT)
     replay.communicate(timeout=LIMIT)
     assert replay.returncode == 128 + signal.SIGINT

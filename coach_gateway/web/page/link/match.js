@@ -15,6 +15,7 @@ const emptyMatch = () => ({
   shown: [], // sides whose beliefs are sent
   drawn: [], // sides whose robots' drawings are sent
   scenes: {}, // name → description
+  topics: [], // of a file without a match
   state: null,
   health: null,
   orders: {},
@@ -32,8 +33,8 @@ const emptyMatch = () => ({
 
 /** Kind of message → what it says of the match. */
 const READERS = {
-  welcome({ role, match: name, setup, live, deeds, beliefs, debug, scenes }) {
-    return { ...emptyMatch(), role, name, setup, live, deeds: new Set(deeds), shown: beliefs, drawn: debug, scenes };
+  welcome({ role, match: name, setup, live, deeds, beliefs, debug, scenes, topics }) {
+    return { ...emptyMatch(), role, name, setup, live, deeds: new Set(deeds), shown: beliefs, drawn: debug, scenes, topics };
   },
   frame({ world, beliefs, debug }, { episode, frames }) {
     if (world.episode !== episode) frames.clear();
@@ -78,6 +79,11 @@ export class Match {
   /** Whether a match has been played to its end. */
   get over() {
     return this.live && this.state?.phase === "full_time";
+  }
+
+  /** Whether a file without a match is replayed. */
+  get log() {
+    return this.topics.length > 0;
   }
 
   /** All robots: the setup's in order, then others on the pitch. */

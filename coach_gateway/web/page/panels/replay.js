@@ -1,6 +1,6 @@
 // Controls of a replay: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
 
-import { byId, mark, setText, show, together } from "../shared/elements.js";
+import { byId, element, mark, setText, show, together } from "../shared/elements.js";
 import { SYMBOLS, jumpTarget } from "../shared/events.js";
 import { SIDES } from "../shared/palette.js";
 import { clockText } from "../parts/text.js";
@@ -25,15 +25,19 @@ export class Replay {
     byId("previous").addEventListener("click", () => this.jump(-1));
     byId("next").addEventListener("click", () => this.jump(1));
     byId("rate").addEventListener("change", () => this.setRate(byId("rate").value));
+    byId("go").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.seek(byId("go-to").valueAsNumber);
+    });
     byId("marks").addEventListener("click", (event) => this.#pointed(event));
     match.on("welcome replay", () => this.update());
     match.on("event welcome", () => this.#drawLater());
     addEventListener("resize", () => this.#drawLater());
   }
 
-  /** Simulated time in s that is shown. */
+  /** Simulated time in s that is shown; of a file without a match, that of its status. */
   get time() {
-    return this.#wanted ?? this.match.frames.newest?.time ?? 0;
+    return this.#wanted ?? this.match.frames.newest?.time ?? this.match.replay?.time ?? 0;
   }
 
   update() {
@@ -51,7 +55,10 @@ export class Replay {
     mark(byId("play"), "playing", !replay.paused);
     byId("play").setAttribute("aria-label", replay.paused ? "Play (space)" : "Pause (space)");
     byId("loop").setAttribute("aria-pressed", replay.loop);
-    if (document.activeElement !== byId("rate")) byId("rate").value = replay.rate === null ? "fast" : String(replay.rate);
+    const rates = byId("rate"), rate = replay.rate === null ? "fast" : String(replay.rate);
+    if (![...rates.options].some(({ value }) => value === rate)) rates.append(element("option", { value: rate }, `${rate}×`));
+    if (document.activeElement !== rates) rates.value = rate;
+    if (this.match.log) this.tick(replay);
   }
 
   /** Why the replay cannot be controlled; empty when it can. */
@@ -62,7 +69,7 @@ export class Replay {
 
   /** Disables the controls with a reason, or enables them. */
   #lock(why) {
-    for (const control of byId("replay").querySelectorAll("button, select, #scrub")) {
+    for (const control of byId("replay").querySelectorAll("button, select, input")) {
       control.disabled = why !== "";
       control.title = why || (control.dataset.title ?? "");
     }

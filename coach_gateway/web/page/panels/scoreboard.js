@@ -15,6 +15,7 @@ export class Scoreboard {
   update() {
     const { match } = this;
     this.#notice();
+    if (match.log) return this.#log();
     if (match.setup === null) return;
     const { teams } = match.setup;
     document.title = match.sides.map((side) => teams[side].name).join(" – ");
@@ -27,12 +28,28 @@ export class Scoreboard {
     setText(byId("score"), match.scoreText);
     setText(byId("phase"), state ? phaseText(state, teams) : "Not begun");
     byId("phase").dataset.side = state?.side ?? "";
-    const heard = this.connection.up && !this.connection.silent && match.hostThere;
-    mark(byId("phase"), "running", heard && state?.running === true);
+    mark(byId("phase"), "running", this.#heard && state?.running === true);
     setText(byId("half"), state ? halfText(state) : "");
     setText(byId("left"), typeof state?.left === "number" && state.phase !== "full_time" ? `${Math.ceil(state.left)} s left` : "");
     setText(byId("people"), state ? disciplineLine(state) : "");
     byId("people").title = byId("people").textContent;
+  }
+
+  /** What is heard of the host is new. */
+  get #heard() {
+    return this.connection.up && !this.connection.silent && this.match.hostThere;
+  }
+
+  /** Shows how the replay of a file without a match stands, below its name. */
+  #log() {
+    const { name, replay } = this.match;
+    document.title = name;
+    setText(byId("score"), name);
+    if (replay === null) return;
+    setText(byId("clock"), clockText(replay.time));
+    setText(byId("phase"), replay.paused ? "Paused" : "Playing");
+    mark(byId("phase"), "running", this.#heard && !replay.paused);
+    setText(byId("half"), `${replay.messages} messages`);
   }
 
   /** Announces a changed score to those who hear the page, not the score that it begins with. */
@@ -59,7 +76,7 @@ export class Scoreboard {
     else if (connection.closeReason) words.push(`The gateway closed the connection: ${connection.closeReason}. The page reconnects by itself.`);
     else if (!connection.up) words.push("The connection is broken; the page reconnects by itself.");
     else if (connection.silent) words.push("Nothing arrives any more; the connection may be broken.");
-    else if (match.setup === null) words.push("No host plays this match yet; the page waits for it.");
+    else if (match.setup === null && !match.log) words.push("No host plays this match yet; the page waits for it.");
     else if (!match.hostThere) words.push(match.live ? "The host has left; the page waits for it." : "The replay has ended.");
     if (match.refbox.connected) {
       const whom = match.refbox.team ? ` of ${match.refbox.team}` : "";

@@ -30,7 +30,7 @@ export class Seats {
   /** Shows the parts of this seat alone. */
   update() {
     const { match, seat } = this;
-    Object.assign(document.body.dataset, { role: match.role, live: match.live, seat, game: match.setup?.game ?? "soccer" });
+    Object.assign(document.body.dataset, { role: match.role, live: match.live, seat, game: match.log ? "log" : (match.setup?.game ?? "soccer") });
     for (const part of document.querySelectorAll("[data-for]")) {
       show(part, match.live && part.dataset.for.split(" ").includes(seat));
     }

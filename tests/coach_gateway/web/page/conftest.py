@@ -65,11 +65,12 @@ def visit(browser: Browser, gateway_of: Callable[..., Gateway]) -> Iterator[Call
     served: dict[int, str] = {}
 
     def open_tab(place: Any, role: str = "spectator", width: int = 1360, height: int = 900, **words: Any) -> Tab:
+        shown = {"shown": words.pop("shown")} if "shown" in words else {}
         origin = place if isinstance(place, str) else served.get(id(place.medium))
         if origin is None:
             origin = served[id(place.medium)] = gateway_of(place.medium).origin
         context = browser.new_context(viewport={"width": width, "height": height}, **words)
-        made.append(Tab(context, origin, role))
+        made.append(Tab(context, origin, role, **shown))
         return made[-1]
 
     yield open_tab

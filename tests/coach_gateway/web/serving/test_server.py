@@ -10,9 +10,10 @@ from coach_gateway.web.pages.protocol import ServerMessage
 from coach_gateway.web.settings import WebSettings
 from schemas.config.scene import shipped_scenes
 from schemas.messages.coach import CoachMode, CoachOrder
+from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest, ReplayTopic
 from schemas.messages.world import RobotTruth
 from schemas.side import Side
-from schemas.topics import EVENT, WORLD
+from schemas.topics import EVENT, REPLAY_CONTROL, SETUP, WORLD
 from schemas.wire.part_faults import decoded
 from support.fake_host import FakeHost
 from support.in_process_bus import SharedState
@@ -230,6 +231,34 @@ def test_a_replay_sends_all_its_events_at_once_and_none_again(
     for deed, content in (("order", {"side": "cyan", "order": {}}), ("drive", {"robot": "cyan1", "manual": {}})):
         assert page.ask(deed, **content)["reason"] == "this is a replay: what is recorded cannot be changed"
     page.close()
+
+
+def test_a_page_is_welcomed_with_the_topics_of_a_file_without_a_match_and_controls_its_replay_alone(
+    medium: Any, gateway_of: Callable[..., Gateway]
+) -> None:
+    topics = [ReplayTopic(key="robot1/odom", encoding="json", messages=50, end=0.49)]
+    replay: list[ReplayRequest] = []
+
+    def answer(request: ReplayRequest) -> ReplayReply:
+        replay.append(request)
+        events = request.operation is ReplayOperation.EVENTS
+        return ReplayReply(accepted=True, paused=True, end=0.49, topics=topics if events else [])
+
+    host = FakeHost(medium, answers={REPLAY_CONTROL: answer, SETUP: lambda _: None}, in_threads=True)
+    page = Visitor(gateway_of().origin)
+    welcome = page.hear("welcome", live=False)
+    assert welcome["setup"] is None
+    assert [(one["key"], one["messages"], one["end"]) for one in welcome["topics"]] == [("robot1/odom", 50, 0.49)]
+    page.enter("referee")
+    assert page.ask("replay", request={"operation": "seek", "to": "0.2"})["accepted"]
+    for _ in range(3):
+        assert page.hear("replay")["replay"]["paused"]
+    assert ReplayOperation.STEP not in [request.operation for request in replay], "there is no picture to wait for"
+    for deed, content in (("action", {"action": {"action": "stop"}}), ("scene", {"request": {"operation": "reset"}})):
+        reply = page.ask(deed, **content)
+        assert (reply["accepted"], reply["reason"]) == (False, "this is a replay of a file without a match")
+    page.close()
+    host.close()
 
 
 def test_pages_are_notified_of_a_referee_box_that_connects(visit: Visit, host: FakeHost, medium: Any) -> None:
