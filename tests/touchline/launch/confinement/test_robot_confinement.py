@@ -95,6 +95,18 @@ def test_the_limits_of_a_process_are_in_units_of_the_kernel() -> None:
     }
 
 
+def test_a_working_folder_is_its_robot_s_alone_and_goes_if_nothing_is_left_in_it(tmp_path: Path) -> None:
+    confinement = Confinement(load_match(None).limits, tmp_path / "run" / "cyan1", tasks=700)
+    confinement.make_folder()
+    assert confinement.folder.stat().st_mode & 0o777 == 0o700
+    confinement.remove_empty_folder()
+    assert not confinement.folder.exists()
+    confinement.make_folder()
+    (confinement.folder / "notes").touch()
+    confinement.remove_empty_folder()
+    assert (confinement.folder / "notes").exists()
+
+
 def test_for_teams_from_different_folders_one_line_names_what_does_not_separate_them(here: Path) -> None:
     assert note_of(match_of("lions.brain:A", "tigers.brain:B")) == (
         "robots run as your user: both teams can read your files and each other's, and signal your processes; "

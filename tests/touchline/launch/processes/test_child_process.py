@@ -169,6 +169,7 @@ def test_forked_or_not_a_robot_has_the_same_environment_module_path_descriptors_
         "print([n for n in os.listdir('/proc/self/fd') if int(n) > 3])\n"
         "print('hush' in open('/proc/self/environ').read(), threading.active_count(), 'numpy' in sys.modules)"
     )
+    launch(robot(tmp_path))  # a robot that is forked later has no handle of it
     process = brain(tmp_path, code)
     said = []
     for kind in KINDS:
@@ -281,6 +282,17 @@ def test_what_robots_are_forked_from_runs_no_threads_and_knows_no_numbers_that_t
     code = "import sys, threading, robot_agent.process.forks; print(threading.active_count(), 'numpy' in sys.modules)"
     printed = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert printed.split() == ["1", "False"]
+
+
+def test_robots_share_the_memory_of_what_they_import_also_after_garbage_was_collected(
+    launch: Launch, tmp_path: Path
+) -> None:
+    """Measured 9.7 of 33 MB of its own; without `gc.freeze` 16.1."""
+    code = "import gc\ngc.collect()\nprint(open('/proc/self/smaps_rollup').read())"
+    launched = launch(brain(tmp_path, code))
+    assert end_of(launched) == 0
+    kilobytes = dict(re.findall(r"(\w+): +(\d+) kB", launched.log.read_text()))
+    assert int(kilobytes["Private_Dirty"]) < 0.4 * int(kilobytes["Rss"])
 
 
 UNDER_NOHUP = """

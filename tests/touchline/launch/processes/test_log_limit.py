@@ -49,6 +49,7 @@ def test_the_newest_lines_follow_and_the_log_does_not_grow(log: Path) -> None:
         assert limit.check(log) == ""
         assert log.stat().st_size <= 1000 + len(NOTICE) + 1 + 500
     write(log, 9000, 3)
+    assert limit.check(log) == ""
     lines = log.read_text().splitlines()
     assert lines[:100] == [f"line {number:04d}" for number in range(100)]
     assert lines[100] == NOTICE

@@ -34,8 +34,9 @@ def test_a_terminal_shows_notable_events_above_the_live_line_and_leaves_no_statu
         screen.status("1:00 cyan 0 : 0 magenta")
         screen.event("goal by cyan3", notable=True)
         screen.event("STOP", notable=False)
+        screen.warn("cyan1 crashed")
     text = out.getvalue()
     assert "1:00 cyan 0 : 0 magenta" in text
-    assert "goal by cyan3\n" in text
+    assert "goal by cyan3\n" in text and "cyan1 crashed" in text
     assert "STOP" not in text
     assert text.endswith("\x1b[2K") or "\x1b[2K" in text.rpartition("goal by cyan3")[2]

@@ -129,6 +129,8 @@ def test_a_forfeit_is_a_result() -> None:
         "semi-final 1",
         "third place",
     ]
+    lines = report_text(state).splitlines()
+    assert "final: D 0 : 2 B" in lines and "semi-final 1 forfeited: A did not start" in lines
 
 
 def test_after_a_match_on_swapped_sides_goals_cards_and_a_forfeit_are_those_of_the_right_team() -> None:
