@@ -32,6 +32,16 @@ def access_rules(match: str, robots: Robots) -> dict[str, Any]:
     }
 
 
+def with_any_keys(section: dict[str, Any]) -> dict[str, Any]:
+    """An `access_control` section with which each account may also receive what is published on any key."""
+    rules = [
+        rule("everybody", "subscribes", "ingress", ("declare_subscriber",), ["**"]),
+        rule("everybody", "receives", "egress", ("put",), ["**"]),
+    ]
+    policy = {"rules": [one["id"] for one in rules], "subjects": [account.value for account in ACCOUNTS]}
+    return section | {"rules": [*section["rules"], *rules], "policies": [*section["policies"], policy]}
+
+
 def _rules_of(match: str, rights: Rights) -> list[dict[str, Any]]:
     caches = [key + _CACHE for key in rights.recovers]
     all_tokens = ALIVE.fill()

@@ -1,11 +1,11 @@
 """How a host protects its match: who its clients are, and what each may do."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 
-from runtime.access.access_rules import access_rules
+from runtime.access.access_rules import access_rules, with_any_keys
 from runtime.access.credentials import HostCredentials, read_host_credentials
 from runtime.access.rights import Robots
 from schemas.config.match_config import MatchConfig
@@ -35,6 +35,16 @@ class Protection:
                 f"use --match {credentials.match}, or make others with `touchline credentials new --match {match}`"
             )
         return cls(credentials, access_rules(match, robots))
+
+    @classmethod
+    def of_any_keys(cls, credentials: HostCredentials, name: str) -> Self:
+        """The protection of a replay of this name whose keys are those of no match: each account may receive them.
+
+        Raises:
+            TouchlineError: the credentials are for a match of another name.
+        """
+        protection = cls.of(credentials, name, {side: [] for side in Side})
+        return replace(protection, rules=with_any_keys(dict(protection.rules)))
 
     @classmethod
     def from_file(cls, path: Path | None, config: MatchConfig) -> Self | None:

@@ -165,10 +165,14 @@ def replay(
         follow=follow,
         behind=behind,
     )
+    if connect is not None and listening.credentials is not None:
+        raise TouchlineError(
+            f"--connect {connect}: no account of a host with credentials may publish a replay; leave --connect out"
+        )
+    listen = options.endpoint_of(listening) if connect is None else None
     opened_page = open_page(from_options(WebSettings, **page)) if web else None
     if not is_match(files):
-        of_matches = {"--foxglove": foxglove, "--follow": follow, "--credentials": listening.credentials}
-        for option, given in of_matches.items():
+        for option, given in {"--foxglove": foxglove, "--follow": follow}.items():
             if given:
                 raise TouchlineError(f"{option}: {files[0]} is no recording of a match; leave {option} out")
         from recordings.replay.log_replay import Keys
@@ -180,7 +184,8 @@ def replay(
             Keys(settings, rename or [], prefix),
             name=from_options(ClientSettings, match=match).match or "replay",
             connect=connect,
-            listen=options.endpoint_of(listening) if connect is None else None,
+            listen=listen,
+            credentials=listening.credentials,
             page=opened_page,
             quiet=json,
         )
@@ -193,11 +198,6 @@ def replay(
     clock = WallClock()
     name = prefix + (match or opened.recording.manifest.match)
     from_options(ClientSettings, match=name)
-    if connect is not None and listening.credentials is not None:
-        raise TouchlineError(
-            f"--connect {connect}: no account of a host with credentials may publish a replay; leave --connect out"
-        )
-    listen = options.endpoint_of(listening) if connect is None else None
     with ExitStack() as stack:
         protection = _protection(opened, name, listening.credentials)
         bus = stack.enter_context(_open_bus(name, clock, connect, listen, protection, listening.credentials))

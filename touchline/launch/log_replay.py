@@ -13,6 +13,9 @@ from recordings.reading.log_order import open_log
 from recordings.replay.log_replay import Keys, LogReplay
 from recordings.replay.player import Player
 from recordings.replay.replay import ReplaySettings
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file, read_host_credentials
+from runtime.access.protection import Protection
 from runtime.bus.contract import PresenceKind
 from runtime.bus.endpoint import local_endpoint
 from runtime.bus.zenoh.any_keys import open_network
@@ -35,10 +38,13 @@ def replay_log(
     name: str,
     connect: str | None,
     listen: str | None,
+    credentials: Path | None,
     page: Page | None,
     quiet: bool,
 ) -> ReplayReply:
     """Replay until the end or a signal; the controls are those of a match named `name`, on a page, too.
+
+    Without `connect` it is a router, with `credentials`, the file of a host, only for those who have an account.
 
     Raises:
         TouchlineError: a file cannot be read, a topic cannot be a key, or there is no network.
@@ -55,7 +61,8 @@ def replay_log(
     stream = sys.stderr if quiet else sys.stdout
     text_of = bar_text if stream.isatty() else status_text
     with ExitStack() as stack:
-        bus = stack.enter_context(open_network(name, clock, connect, listen))
+        known = Protection.of_any_keys(read_host_credentials(credentials), name) if credentials is not None else None
+        bus = stack.enter_context(open_network(name, clock, connect, listen, protection=known))
         stop = stack.enter_context(StopSignals())
         typer.echo(f"{len(log.channels)} channels {'to' if connect else 'at'} {bus.endpoint}", err=True)
         replay = LogReplay(bus, log, settings)
@@ -63,7 +70,10 @@ def replay_log(
         if page is not None:
             bus.declare_alive(PresenceKind.HOST, "host")  # for which a page looks
             say = partial(typer.echo, err=True)
-            look_after = stack.enter_context(serve_page_beside(name, local_endpoint(bus.endpoint), page, clock, say))
+            operator = account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
+            look_after = stack.enter_context(
+                serve_page_beside(name, local_endpoint(bus.endpoint), page, clock, say, operator)
+            )
         with screen_for(stream, clock) as screen:
 
             def meanwhile(player: Player) -> None:

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import zenoh
 
 from runtime.access.credentials import Credentials, read_credentials
+from runtime.access.protection import Protection
 from runtime.bus.contract import BusError, Stamp
 from runtime.bus.zenoh.bus import ZenohBus
 from runtime.bus.zenoh.reader import STAMP
@@ -43,14 +44,17 @@ def open_network(
     listen: str | None,
     credentials: Path | None = None,
     patience: float = RECONNECT_S,
+    protection: Protection | None = None,
 ) -> ZenohBus:
     """A bus named `name` on any network: a client of the router or peer at `connect`, or a router at `listen`.
+
+    A client joins with `credentials`, a router has `protection`, each None without.
 
     Raises:
         BusError: nothing answers at `connect`, or `listen` cannot be listened on.
     """
     if connect is None:
-        session, endpoint = open_router(listen)
+        session, endpoint = open_router(listen, protection)
         return ZenohBus(name, clock, session, endpoint, is_client=False)
     known: Credentials | None = read_credentials(credentials) if credentials is not None else None
     session, endpoint, _ = open_connection(lambda: (connect, known), clock, patience)

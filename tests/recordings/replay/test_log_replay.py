@@ -3,7 +3,7 @@
 import json
 import re
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from time import monotonic
 
@@ -22,8 +22,12 @@ from recordings.reading.log_order import open_log
 from recordings.recorder.key_recorder import KeyRecorder
 from recordings.replay.log_replay import Keys, LogReplay
 from recordings.replay.replay import ReplaySettings
-from runtime.bus.contract import NoReplyError
-from runtime.bus.zenoh.any_keys import open_network
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file, new_credentials, write_credentials
+from runtime.access.protection import Protection
+from runtime.bus.contract import BusError, NoReplyError
+from runtime.bus.zenoh.any_keys import KeySubscription, open_network
+from runtime.bus.zenoh.bus import ZenohBus
 from runtime.process.clock import WallClock
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.topics import REPLAY_CONTROL
@@ -211,6 +215,46 @@ def test_a_replay_is_paused_stepped_sought_and_looped_by_the_control_of_replays(
         assert ask(operation=ReplayOperation.PAUSE)[2] >= 20  # 10 from the seek to the end, then from the beginning
         ask(operation=ReplayOperation.LEAVE)
         assert log_replay.player.ended
+
+
+def test_each_account_receives_what_is_replayed_with_passwords_and_the_operator_alone_controls_it(tmp_path):
+    credentials, file = new_credentials(), write_mcap(tmp_path / "log.mcap", drive(50))
+    write_credentials(tmp_path, credentials)
+    settings = ReplaySettings(file, rate=None, paused=True, stay=True)
+    protection = Protection.of_any_keys(credentials, "replay")
+    with ExitStack() as stack:
+        bus = stack.enter_context(open_network("replay", WallClock(), None, "tcp/127.0.0.1:0", protection=protection))
+        log_replay = LogReplay(bus, open_log([file], Keys(settings).of), settings)
+        with pytest.raises(BusError):
+            open_network("replay", WallClock(), bus.endpoint, None, patience=0.0)
+
+        def join(account: Account) -> ZenohBus:
+            own = account_file(tmp_path, account)
+            return stack.enter_context(open_network("replay", WallClock(), bus.endpoint, None, own))
+
+        clients = {account: join(account) for account in Account}
+        subscriptions = {account: KeySubscription(client, ["**"]) for account, client in clients.items()}
+        deadline = monotonic() + LIMIT
+        clients[Account.VIEWER].session.put("robot1/odom", b"forged", allowed_destination=zenoh.Locality.REMOTE)
+
+        def play(account: Account) -> bool:
+            pending = clients[account].query(REPLAY_CONTROL, ReplayRequest(operation=ReplayOperation.PLAY), LIMIT)
+            while monotonic() < deadline:
+                log_replay.pump()
+                try:
+                    return pending.result(0.01).accepted
+                except NoReplyError as error:
+                    if "within" not in str(error):
+                        return False
+            return False
+
+        assert [account for account in Account if play(account)] == [Account.OPERATOR]
+        received = {account: [] for account in Account}
+        while any(len(found) < 50 for found in received.values()) and monotonic() < deadline:
+            log_replay.pump()
+            for account, found in received.items():
+                found += [sample.payload for sample in subscriptions[account].receive()]
+    assert all(found == [payload for _, _, payload in drive(50)] for found in received.values())
 
 
 def test_what_was_recorded_is_replayed_with_the_same_encodings_and_recorded_again(tmp_path, network):

@@ -6,6 +6,7 @@ import signal
 import pytest
 from websockets.sync.client import connect
 
+from runtime.access.credentials import HOST_FILE, new_credentials, write_credentials
 from support.foreign import drive, write_mcap
 from support.visitor import Visitor
 
@@ -29,9 +30,14 @@ def test_the_command_serves_a_live_view_until_the_viewer_had_enough(recorded, st
 
 
 @pytest.mark.processes
-def test_the_command_serves_the_page_of_a_file_without_a_match(tmp_path, start):
+@pytest.mark.parametrize("protected", [False, True], ids=["open", "with passwords"])
+def test_the_command_serves_the_page_of_a_file_without_a_match(tmp_path, start, protected):
     file = write_mcap(tmp_path / "log.mcap", drive(50))
-    replay = start("-m", "touchline", "replay", str(file), "--paused", "--web", "--web-port", "0", *_ANYWHERE)
+    words = [str(file), "--paused", "--web", "--web-port", "0"]
+    if protected:
+        write_credentials(tmp_path, new_credentials())
+        words += ["--credentials", str(tmp_path / HOST_FILE)]
+    replay = start("-m", "touchline", "replay", *words, *_ANYWHERE)
     address, _, token = next(line.split()[-1] for line in replay.stderr if "page:" in line).partition("/#token=")
     page = Visitor(address, token, patience=LIMIT)
     assert [topic["key"] for topic in page.hear("welcome", live=False)["topics"]] == ["robot1/odom"]
