@@ -9,7 +9,7 @@ LINK_GRACE_S = LEASE_S + 0.5
 RECONNECT_S = 10.0
 """An unreachable host or scheduler is waited for this long; agents and recorders then give up the match. A host that is
 present has this time to answer a recorder; one that has left may have sent messages for it: one that continues would
-never end."""
+never end. A client that waits for its host says so again after it."""
 CUT_OFF_S = 3600.0
 """The same where the network to the host is cut: the match goes on there, and lasts no longer."""
 POLL_S = 0.02

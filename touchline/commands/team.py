@@ -35,6 +35,7 @@ def team(
         list[str] | None, typer.Option(help="Start this robot only; repeatable. By default all of the side.")
     ] = None,
     *,
+    wait: Annotated[float, typer.Option(min=0.0, help="Longest wait for the host to start, in s.")] = 86_400.0,
     isolation: Annotated[dict[str, Any], FieldsOf(MatchConfig, "isolate")],
     limits: Annotated[dict[str, Any], FieldsOf(Limits)],
     passed: Annotated[dict[str, Any], FieldsOf(TeamConfig, "pass_environment")],
@@ -42,8 +43,8 @@ def team(
 ) -> None:
     """Run the robots of a team until the match is over: one process each, started again after a crash.
 
-    The host runs elsewhere, with `touchline host` or `touchline match --remote`. Logs are written under ./runs/.
-    Robots are limited and isolated from this machine as in a match: docs/security.md.
+    The host runs elsewhere, with `touchline host` or `touchline match --remote`, and may start later. Logs are written
+    under ./runs/. Robots are limited and isolated from this machine as in a match: docs/security.md.
     With --reload, brains that were edited play on from the next episode.
 
     Example: touchline team magenta --connect tcp/192.168.1.5:7447 --brain my_team:Striker
@@ -52,6 +53,7 @@ def team(
     from runtime.bus.zenoh.bus import ZenohBus, open_client
     from runtime.bus.zenoh.waiting_client import open_when_there
     from touchline.launch.check_brains import check_reload
+    from touchline.launch.processes.stop_signals import StopSignals
     from touchline.launch.run_folder import new_run_folder
     from touchline.launch.team_run import TeamPlan, TeamRun
     from touchline.launch.terminal.screen import screen_for
@@ -80,8 +82,10 @@ def team(
             any_match=True,
         )
 
-    bus = open_when_there(connect, clock, settings.patience, partial(typer.echo, err=True))
-    assert bus is not None  # a wait that nothing stops
+    with StopSignals() as stop:
+        bus = open_when_there(connect, clock, wait, partial(typer.echo, err=True), lambda: stop.received is not None)
+    if bus is None:
+        return
     with bus, screen_for(sys.stdout, clock) as screen:
         credentials = settings.credentials or announced_credentials(bus.endpoint, Account.of_team(side))
         plan = TeamPlan(

@@ -1,5 +1,6 @@
 """`touchline team`: what its robots are launched with."""
 
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -7,15 +8,16 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner, Result
 
-from runtime.bus.contract import PresenceKind
+from runtime.bus.contract import BusError, PresenceKind
 from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh import bus as zenoh_bus
 from runtime.bus.zenoh.bus import open_host
 from runtime.process.clock import WallClock
 from touchline.commands.cli.command_line import app
 from touchline.launch import team_run
 from touchline.launch.team_run import TeamPlan
 
-BRAIN = ("--brain", "robot_agent.teams.simple:Simple")
+BRAIN = ("--brain", "simple")
 NOWHERE = ("--connect", "tcp/127.0.0.1:1", "--patience", "0")
 
 
@@ -65,3 +67,15 @@ def test_code_that_robots_could_not_load_again_is_refused_before_a_host_is_looke
     result = team(*NOWHERE, *words, "--reload")
     assert result.exit_code == 2
     assert sentence in result.stderr and result.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_team_waits_for_its_host_until_it_is_interrupted(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_host(*_: object, **__: object) -> None:
+        signal.raise_signal(number)
+        raise BusError("no host answers there")
+
+    monkeypatch.setattr(zenoh_bus, "open_client", no_host)
+    result = team("--connect", "tcp/127.0.0.1:1", *BRAIN)
+    assert (result.exit_code, result.stdout) == (0, "")
+    assert result.stderr == "no host answers there; waiting for it for up to 86400 s\n"

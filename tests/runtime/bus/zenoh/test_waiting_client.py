@@ -36,10 +36,10 @@ def test_a_host_that_is_there_is_connected_to_without_a_line() -> None:
     assert (host.lines, host.clock.now()) == ([], 0.0)
 
 
-def test_the_wait_for_a_host_is_reported_once_with_its_limit() -> None:
+def test_the_wait_for_a_host_is_reported_every_ten_seconds_with_what_is_left() -> None:
     host = Host(12.0)
     assert host.wait(30.0) is CLIENT
-    assert host.lines == ["no host answers there; waiting for it for up to 30 s"]
+    assert host.lines == [f"no host answers there; waiting for it for up to {left} s" for left in (30, 20)]
 
 
 @pytest.mark.parametrize(("patience", "most"), [(3.0, 3.5), (0.05, 0.06)])
