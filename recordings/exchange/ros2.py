@@ -62,7 +62,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
         from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
     except ModuleNotFoundError:
         raise TouchlineError(
-            "--to ros2 requires rosbags, which is not installed; pip install 'touchline[ros2]'"
+            "--format ros2 requires rosbags, which is not installed; pip install 'touchline[ros2]'"
         ) from None
 
     with atomic_output(out) as folder:

@@ -25,6 +25,7 @@ SECTION = PAGE.partition("## Draw and plot")[2].partition("\n## ")[0]
 def brains(fenced: Callable[[str, str], list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """What the code of the page defines, beside a new team."""
     monkeypatch.delitem(sys.modules, "my_team", raising=False)
+    monkeypatch.setattr(sys, "path", [path for path in sys.path if not (Path(path) / "my_team.py").exists()])
     monkeypatch.syspath_prepend(make_team("my_team", tmp_path))
     names: dict[str, Any] = {}
     for piece in fenced(PAGE, "python"):

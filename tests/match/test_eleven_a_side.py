@@ -73,13 +73,13 @@ def test_statistics_have_a_row_for_each_in_the_order_of_the_numbers(recording, f
 def test_information_and_exports_have_all_robots(recording, folder):
     listed = [line.split()[0] for line in run("info", recording).splitlines() if line.startswith("robot/")]
     assert listed == [f"robot/{name}/command" for name in NAMES]
-    run("export", recording, "--to", "csv", "--out", folder / "csv")
+    run("export", recording, "--format", "csv", "--out", folder / "csv")
     with (folder / "csv" / "robots.csv").open() as table:
         assert list(dict.fromkeys(row["robot"] for row in csv.DictReader(table))) == NAMES
 
 
 def test_the_leagues_log_takes_eleven_robots_a_side_there_and_back(recording, folder):
-    run("export", recording, "--to", "msl-log", "--out", folder / "log.zip")
+    run("export", recording, "--format", "msl-log", "--out", folder / "log.zip")
     run("import", folder / "log.zip", "--out", folder / "back.mcap")
     setup = open_recording(folder / "back.mcap").manifest.setup
     assert [name for team in setup.teams.values() for name in team.robots] == NAMES

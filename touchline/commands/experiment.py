@@ -39,14 +39,15 @@ class _StudyGroup(TyperGroup):
 app = typer.Typer(
     cls=_StudyGroup,
     no_args_is_help=True,
-    help="Answer a question with many matches: `touchline experiment STUDY.toml` plays a study and writes its report.",
+    help="Answer a question with many matches: `touchline experiment STUDY.toml` plays a study and writes its report."
+    "\n\nExample: touchline experiment studies/sides.toml",
 )
 
 
 @app.command()
 def run(
     file: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")],
-    into: Annotated[
+    out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder of the study; by default runs/ and its name.")
     ] = None,
     seeds: Annotated[str | None, typer.Option(metavar="SEEDS", help="In place of the file's: 1-50.")] = None,
@@ -55,7 +56,7 @@ def run(
         typer.Option(metavar="WIDTH", help="Add seeds until the interval of the first response is at most this wide."),
     ] = None,
     most_seeds: Annotated[int | None, typer.Option(help="Most seeds of a cell with --until-interval.")] = None,
-    record: Annotated[bool | None, typer.Option("--record", help="Keep a recording of each match.")] = None,
+    record: Annotated[bool | None, typer.Option("--keep-recordings", help="Keep a recording of each match.")] = None,
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Play all matches again, also those that have a result.")
     ] = False,
@@ -84,7 +85,7 @@ def run(
     given = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "record": record}
     study = load_study(file, {key: value for key, value in given.items() if value is not None})
     home = (file.parent / study.match).parent if study.match is not None else file.parent
-    folder = into or Path("runs") / study.name
+    folder = out or Path("runs") / study.name
     plan = StudyPlan(study, cells_of(study, file.parent), home, folder)
     with session_of(study.name, jobs, dask, json=json) as session, session.interruptible():
         result = run_study(

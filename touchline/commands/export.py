@@ -10,12 +10,12 @@ from schemas.errors import TouchlineError, did_you_mean
 from touchline.commands.cli import options
 from touchline.launch.terminal.json_text import json_text
 
-_FORMATS = f"The format: {'; '.join(f'{name}, {row.description}' for name, row in EXPORTERS.items())}."
+_FORMATS = f"One of: {'; '.join(f'{name}, {row.description}' for name, row in EXPORTERS.items())}."
 
 
 def export(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
-    to: Annotated[str, typer.Option(help=_FORMATS)],
+    name: Annotated[str, typer.Option("--format", help=_FORMATS)],
     out: Annotated[
         Path | None, typer.Option(help="The file or folder to write; by default in the recording's folder.")
     ] = None,
@@ -23,13 +23,13 @@ def export(
 ) -> None:
     """Write a recording in another format.
 
-    Example: touchline export final.mcap --to csv --out final
+    Example: touchline export final.mcap --format csv --out final
     """
     from recordings.reading.recording import open_recording
 
-    if to not in EXPORTERS:
-        raise TouchlineError(f'--to is "{to}"; {did_you_mean(to, EXPORTERS)}')
-    exporter = EXPORTERS[to]
+    if name not in EXPORTERS:
+        raise TouchlineError(f'--format is "{name}"; {did_you_mean(name, EXPORTERS)}')
+    exporter = EXPORTERS[name]
     recording = open_recording(file)
     if not recording.complete:
         typer.echo(f"{file}: truncated; exporting the messages before the end", err=True)
@@ -37,8 +37,8 @@ def export(
     if json:
         typer.echo(json_text(exported))
         return
-    for name, count in exported.written.items():
-        typer.echo(f"{count:>9}  {name}")
+    for table, count in exported.written.items():
+        typer.echo(f"{count:>9}  {table}")
     for key, count in exported.unreadable.items():
         typer.echo(f"{count:>9}  invalid messages of {key} were left out")
     for key, count in exported.omitted.items():

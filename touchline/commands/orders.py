@@ -44,7 +44,7 @@ class OrderOptions:
         str | None, typer.Option("--robot-a", "--robot", metavar="ROBOT", help="The acting robot, of that side.")
     ] = None
     robot_b: Annotated[
-        str | None, typer.Option("--robot-b", "--to", metavar="ROBOT", help="The receiving robot, of that side.")
+        str | None, typer.Option("--robot-b", "--receiver", metavar="ROBOT", help="The receiving robot, of that side.")
     ] = None
     point_a: PointOption = None
     point_b: PointOption = None

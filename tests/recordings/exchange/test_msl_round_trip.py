@@ -143,7 +143,7 @@ def test_every_record_has_what_the_leagues_schema_requires(log: Path) -> None:
 def test_the_commands_say_what_they_wrote_and_read(real: Recording, tmp_path: Path) -> None:
     out, back = tmp_path / "short.zip", tmp_path / "back.mcap"
     run = CliRunner()
-    exported = run.invoke(app, ["export", str(real.path), "--to", "msl-log", "--out", str(out), "--json"])
+    exported = run.invoke(app, ["export", str(real.path), "--format", "msl-log", "--out", str(out), "--json"])
     assert exported.exit_code == 0
     assert sum(count for name, count in json.loads(exported.stdout)["written"].items() if ".A." in name) > 200
     imported = run.invoke(app, ["import", str(out), "--out", str(back), "--json"])
@@ -193,7 +193,7 @@ def test_an_export_lists_what_it_omits(real: Recording, tmp_path: Path, to: str)
         "ros2": {"host/applied": 1},
     }[to]
     out = tmp_path / "out"
-    done = CliRunner().invoke(app, ["export", str(real.path), "--to", to, "--out", str(out)])
+    done = CliRunner().invoke(app, ["export", str(real.path), "--format", to, "--out", str(out)])
     assert done.exit_code == 0, done.output
     counts = {channel.key: channel.messages for channel in real.channels}
     commands = sum(count for key, count in counts.items() if key.endswith("/command"))

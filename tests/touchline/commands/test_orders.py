@@ -104,7 +104,7 @@ def test_the_result_of_an_order_is_printed_as_json_for_programs(host: Host) -> N
 
 
 def test_a_test_is_ordered_in_its_own_words(host: Host) -> None:
-    words = ["--robot", "cyan2", "--to", "cyan3", "--point-a", "-2,1.5", "--point-b", "3,-1", "--angle-a", "-0.5"]
+    words = ["--robot", "cyan2", "--receiver", "cyan3", "--point-a", "-2,1.5", "--point-b", "3,-1", "--angle-a", "-0.5"]
     result = coach("test", "cyan", "pass", *words, "--kick-speed", "4", "--avoid")
     assert result.exit_code == 0, result.stderr
     _, order = host.given_orders[0]

@@ -80,7 +80,7 @@ def test_the_cup_that_ships_is_the_one_that_was_played_before(tmp_path: Path) ->
 @pytest.mark.parametrize("name", ["noise", "radio", "sides"])
 def test_a_study_that_ships_is_the_one_that_was_played_before(name: str, tmp_path: Path) -> None:
     pytest.importorskip("pyarrow", reason="experiments need the extra study")
-    printed("experiment", "run", ROOT / "studies" / f"{name}.toml", "--into", tmp_path)
+    printed("experiment", "run", ROOT / "studies" / f"{name}.toml", "--out", tmp_path)
     published = ROOT / "studies" / name
     assert rows_of(tmp_path / "results.csv") == rows_of(published / "results.csv")
     assert text_of(tmp_path / "report.html") == text_of(published / "report.html")

@@ -41,7 +41,7 @@ def test_stats_measure_all_parts(parted: Path) -> None:
 
 
 def test_export_writes_the_messages_of_all_parts(parted: Path, tmp_path: Path) -> None:
-    exported = json.loads(run("export", parted, "--to", "csv", "--out", tmp_path / "tables", "--json"))
+    exported = json.loads(run("export", parted, "--format", "csv", "--out", tmp_path / "tables", "--json"))
     assert exported["written"]["ball.csv"] == 101
 
 

@@ -94,7 +94,7 @@ def _check_code(store: RunStore, code: Mapping[str, str]) -> None:
     if changed and store.outcomes():
         raise TouchlineError(
             f"{store.folder} has results of other code of {changed[0]}; play all again with --fresh, or give another "
-            "folder with --into"
+            "folder with --out"
         )
     store.set_document(_CODE, as_text(dict(code)))
 

@@ -47,7 +47,7 @@ def write_plan(folder: Path, plan: StudyPlan) -> None:
     }
     text, path = as_text(content), folder / PLAN
     if path.exists() and json.loads(path.read_text("utf-8"))["cells"] != json.loads(text)["cells"]:
-        raise TouchlineError(f"{folder} has the results of another plan; give another folder with --into, or remove it")
+        raise TouchlineError(f"{folder} has the results of another plan; give another folder with --out, or remove it")
     path.write_text(text, "utf-8")
 
 

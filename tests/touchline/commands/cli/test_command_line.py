@@ -3,9 +3,12 @@ import re
 import socket
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+from typer.main import get_command
 from typer.testing import CliRunner, Result
 
 from recordings.exchange.formats import EXPORTERS
@@ -33,7 +36,22 @@ COMMANDS = (
     "check",
     "drill",
     "series",
+    "tournament",
+    "experiment",
+    "watch",
+    "health",
+    "replay",
+    "verify",
+    "team",
+    "credentials",
 )
+MEANINGS = {
+    "--to": ["End, inclusive: seconds, tick", "End, simulated s, exclusive."],
+    "--from": ["Start: seconds, tick", "Start, simulated s."],
+    "--match": ["For this match alone", "Name of the match"],
+    "--record": ["Keep a recording of each match in this folder", "The recording to write"],
+}
+"""Option → how its help begins, in whichever command."""
 NOBODY = "--connect=tcp/127.0.0.1:9"
 
 
@@ -52,6 +70,19 @@ def test_every_command_has_help_with_an_example(command: str) -> None:
     result = touchline(command, "--help")
     assert result.exit_code == 0
     assert f"Example: touchline {command}" in result.stdout
+
+
+def commands_below(command: Any) -> Iterator[Any]:
+    """A command and all below it."""
+    yield command
+    for below in getattr(command, "commands", {}).values():
+        yield from commands_below(below)
+
+
+@pytest.mark.parametrize("option", MEANINGS)
+def test_an_option_has_one_meaning_in_all_commands(option: str) -> None:
+    helps = {row.help for one in commands_below(get_command(app)) for row in one.params if option in row.opts}
+    assert [text for text in sorted(helps) if not text.startswith(tuple(MEANINGS[option]))] == []
 
 
 def test_the_help_has_each_command_in_one_group() -> None:

@@ -32,7 +32,7 @@ def run(*arguments: str | Path) -> tuple[int, str]:
 def test_a_study_file_alone_runs_the_study_and_its_folder_is_reproduced(tmp_path: Path) -> None:
     file, folder = tmp_path / "try.toml", tmp_path / "out"
     file.write_text(STUDY)
-    status, text = run(file, "--into", folder, "--jobs", "1")
+    status, text = run(file, "--out", folder, "--jobs", "1")
     assert (status, "report" in text) == (0, True)
     status, text = run("reproduce", folder, "--jobs", "1")
     assert status == 0
@@ -41,7 +41,7 @@ def test_a_study_file_alone_runs_the_study_and_its_folder_is_reproduced(tmp_path
 
 def test_a_response_that_no_match_has_is_named_where_the_answers_are(tmp_path: Path) -> None:
     (tmp_path / "try.toml").write_text(STUDY.replace('["distance"]', '["distance", "goal"]'))
-    status, text = run(tmp_path / "try.toml", "--into", tmp_path / "out", "--jobs", "1")
+    status, text = run(tmp_path / "try.toml", "--out", tmp_path / "out", "--jobs", "1")
     assert status == 0
     assert "No match has a figure goal; the columns of the table of results are its names." in text.splitlines()
 
@@ -54,7 +54,7 @@ def test_matplotlib_does_not_say_that_it_builds_a_cache_of_fonts() -> None:
 def test_json_has_a_line_for_each_match_on_stderr_and_the_summary_on_stdout(tmp_path: Path) -> None:
     file, folder = tmp_path / "try.toml", tmp_path / "out"
     file.write_text(STUDY)
-    result = CliRunner().invoke(app, ["experiment", str(file), "--into", str(folder), "--jobs", "1", "--json"])
+    result = CliRunner().invoke(app, ["experiment", str(file), "--out", str(folder), "--jobs", "1", "--json"])
     assert result.exit_code == 0, result.exception
     summary = json.loads(result.stdout)
     assert (summary["played"], summary["seeds"], summary["failed"]) == (2, [1, 2], [])

@@ -48,7 +48,7 @@ def test_a_study_that_is_run_again_plays_only_what_has_no_result(run: Run, playe
 
 
 def test_a_folder_with_the_results_of_another_plan_is_left_alone(run: Run, played: Path) -> None:
-    with pytest.raises(TouchlineError, match="has the results of another plan; give another folder with --into"):
+    with pytest.raises(TouchlineError, match="has the results of another plan; give another folder with --out"):
         run(SHORT.replace("0.4", "0.5"))
 
 

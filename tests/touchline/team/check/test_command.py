@@ -33,7 +33,7 @@ def check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 
     def run(*words: str, extra: str = "pass", speed: str = "1.0") -> tuple[int, str]:
         Path("robot.py").write_text(PROGRAM.format(extra=extra, speed=speed))
-        program = ["--stdio", f"{sys.executable} robot.py", "--match", "one.toml", "--seconds", "1"]
+        program = ["--stdio", f"{sys.executable} robot.py", "--match-file", "one.toml", "--seconds", "1"]
         found = CliRunner().invoke(app, ["check", *(words or program)])
         return found.exit_code, found.output
 
@@ -62,7 +62,7 @@ def test_a_program_that_crashes_in_a_situation_is_named_with_its_end(check) -> N
 
 
 def test_the_result_as_json_has_the_figures(check) -> None:
-    program = ["--stdio", f"{sys.executable} robot.py", "--match", "one.toml", "--seconds", "1"]
+    program = ["--stdio", f"{sys.executable} robot.py", "--match-file", "one.toml", "--seconds", "1"]
     status, printed = check(*program, "--json", speed="9.0")
     content = json.loads(printed)
     assert (status, content["kept"]) == (1, False)
