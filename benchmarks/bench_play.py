@@ -14,9 +14,8 @@ import sys
 from dataclasses import dataclass, field
 from typing import Any
 
-from touchline.matches.series.team_names import brain_of
-
 from schemas.config.match_config import load_match
+from schemas.config.shipped_teams import brain_of
 from touchline.matches.engine.play_list import play_list
 from touchline.matches.series.match_row import FailedMatch, MatchRow, rows_of
 from touchline.matches.series.plan import SeriesPlan, plan_series
