@@ -49,7 +49,7 @@ new Coach(match, pitchCanvas, requests, selection);
 new Scenes(match, requests, drag);
 new Result(match);
 const tabs = new Tabs((name) => name === "settings" && parameters.stale && parameters.load());
-new Seats(match, (seat) => tabs.fit(seat));
+const seats = new Seats(match, (seat) => tabs.fit(seat));
 listenForKeys({ match, buttons, manualControl, drag, replay, layers, selection });
 
 selection.on(() => buttons.update());
@@ -87,7 +87,7 @@ async function claim(token) {
   if (reply.accepted) byId("role-dialog").close();
 }
 
-for (const id of ["role", "enter-token"]) byId(id).addEventListener("click", () => byId("role-dialog").showModal());
+byId("role").addEventListener("click", () => byId("role-dialog").showModal());
 byId("role-dialog-open").addEventListener("click", () => {
   byId("help").close();
   byId("role-dialog").showModal();
@@ -98,6 +98,11 @@ byId("token-form").addEventListener("submit", (event) => {
   event.preventDefault();
   claim(byId("token").value.trim());
   byId("token").value = "";
+});
+let ended = false;
+match.on("welcome state", () => {
+  if (match.over && !ended && seats.seat === "spectator") tabs.open("result");
+  ended = match.over;
 });
 match.on("welcome", () => {
   setText(byId("role-dialog-says"), ROLE_TEXT[match.role]);

@@ -85,7 +85,7 @@ export class Buttons {
     const place = byId("buttons");
     for (const [title, rows] of GROUPS) place.append(this.#group(title, rows));
     byId("stop").addEventListener("click", () => this.stop(byId("stop")));
-    match.on("welcome host state refbox health", () => this.update());
+    match.on("welcome host state refbox health orders", () => this.update());
   }
 
   /** Stops the match, or as a coach the own side. */
@@ -118,6 +118,7 @@ export class Buttons {
       const why = this.why(row);
       button.disabled = why !== null;
       button.title = why ?? (row.press === onHold ? "hold it down for a second" : "");
+      if (row.order) button.setAttribute("aria-pressed", match.orders[row.side]?.order?.mode === row.order);
       show(button, match.may(deedOf(row), row.side ?? null) && (!row.side || match.sides.includes(row.side)));
     }
     for (const group of this.#groups) show(group, [...group.querySelectorAll("[data-action]")].some((button) => !button.hidden));

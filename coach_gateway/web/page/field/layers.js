@@ -12,7 +12,8 @@ const SWITCHES = ["roles", "velocities", "passes", "distances", "obstacles"];
 export class Layers {
   trails = "short";
   beliefs = "none";
-  drawings = "all";
+  drawings = "none";
+  #drawingsChosen = false;
   seenFrom = "fixed";
 
   constructor(match) {
@@ -35,7 +36,7 @@ export class Layers {
     });
     byId("layers").append(
       this.#chosen("seenFrom", "Field", SEEN_FROM), this.#chosen("beliefs", "Believed", [["none", "nothing"]]),
-      this.#chosen("drawings", "Drawn by brains", [["all", "all"]]), this.#chosen("trails", "Trails", TRAILS), ...boxes,
+      this.#chosen("drawings", "Drawn by brains", [["none", "nothing"]]), this.#chosen("trails", "Trails", TRAILS), ...boxes,
     );
     match.on("welcome health", () => this.#offerRobots(match));
   }
@@ -48,6 +49,8 @@ export class Layers {
 
   /** Offers the robots whose beliefs and drawings this role is shown. */
   #offerRobots(match) {
+    const drawn = match.drawn.filter((side) => match.sides.includes(side));
+    if (!this.#drawingsChosen) this.drawings = drawn.length === 1 ? "all" : "none"; // those of both teams hide the match
     this.#offer(match, "beliefs", match.shown);
     this.#offer(match, "drawings", match.drawn);
     show(byId("layer-drawings").closest("label"), match.drawn.length > 0);
@@ -69,6 +72,7 @@ export class Layers {
 
   #set(name, value) {
     this[name] = value;
+    this.#drawingsChosen ||= name === "drawings";
     const input = byId(`layer-${name}`);
     if (input.type === "checkbox") input.checked = value;
     else input.value = value;

@@ -2,6 +2,7 @@
 
 import { byId, element, mark, together } from "../shared/elements.js";
 import { LEAD_S, indexAt, isKey, withNames } from "../shared/events.js";
+import { questionOf } from "../parts/proposal.js";
 import { capitalized, clockText, readable } from "../parts/text.js";
 
 const GREAT = new Set(["goal", "half_time", "full_time", "forfeit"]);
@@ -88,7 +89,9 @@ export class EventList {
   }
 
   /** The sentence of an event without its kind where it begins with that: `Goal` stands before it already. */
-  #textOf({ kind, text }) {
+  #textOf(event) {
+    const { kind, text } = event;
+    if (kind === "proposal" && this.match.setup) return questionOf(event, this.match);
     const name = readable(kind), sentence = text.toLowerCase();
     const repeats = sentence.startsWith(`${name},`) || sentence.startsWith(`${name}:`);
     const short = repeats ? text.slice(name.length + 1).trim() : text;

@@ -16,7 +16,7 @@ const LINES = [
   ["latency", "replies in", ({ health }) => (health?.latency_ms ? `${health.latency_ms.toFixed(1)} ms` : "")],
   ["missed", "missed", ({ health }) => (health?.missed ? `${health.missed} of ${health.answers + health.missed}` : "")],
   ["refused", "refused", ({ health }) => (health?.refused ? String(health.refused) : "")],
-  ["order", "order", ({ acknowledged }) => (acknowledged === undefined ? "" : acknowledged ? "acknowledged" : "not acknowledged yet")],
+  ["order", "order", ({ order, acknowledged }) => (order ? `${order.mode}, ${acknowledged ? "acknowledged" : "sent"}` : "")],
   ["cards", "referee", ({ discipline }) => (discipline ? disciplineText(discipline) : "")],
 ];
 
@@ -75,7 +75,8 @@ export class Panels {
       holds: world?.possession === name,
       word: match.radioOf(name, 5),
       health: match.health?.robots[name],
-      acknowledged: match.orders[match.sideOf(name)]?.order ? match.orders[match.sideOf(name)].acknowledged[name] : undefined,
+      order: match.orders[match.sideOf(name)]?.order,
+      acknowledged: match.orders[match.sideOf(name)]?.acknowledged[name],
       discipline: match.state?.robots[name],
     };
     setText(role, known.word?.role ? readable(known.word.role) : "");

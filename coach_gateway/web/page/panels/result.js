@@ -1,7 +1,7 @@
 // The result: score, scorers and figures, so far or of the whole match. It needs no server and stays until the page is closed.
 
 import { byId, element, mark, setText, show, together } from "../shared/elements.js";
-import { clockText } from "../parts/text.js";
+import { clockText, playerText } from "../parts/text.js";
 
 const SIDES = ["cyan", "magenta"];
 /** Label → how many events of a side it counts. */
@@ -36,15 +36,16 @@ export class Result {
   }
 
   update() {
-    const { match } = this, { setup, state, events, result } = match;
-    setText(byId("result-title"), match.over ? "Final result" : "So far");
-    mark(byId("result"), "over", match.over);
+    const { match } = this, { setup, state, result } = match, over = state?.phase === "full_time";
+    setText(byId("result-title"), over ? "Final result" : "So far");
+    mark(byId("result"), "over", over);
     if (setup === null || state === null) return;
+    const events = match.live ? match.events : match.events.filter(({ time }) => time <= state.time); // a recording knows all
     const goals = goalsOf(events, state.score);
     for (const side of SIDES) {
       setText(byId(`result-${side}`), match.sides.includes(side) ? setup.teams[side].name : "");
       byId(`${side}-scorers`).replaceChildren(...goals.filter((goal) => goal.side === side).map(({ robot, clock }) =>
-        element("li", {}, `${robot ?? "goal"} ${clockText(clock)}`)));
+        element("li", {}, `${robot ? playerText(setup.teams[match.sideOf(robot)].name, robot) : setup.teams[side].name} ${clockText(clock)}`)));
     }
     const shootOut = state.shoot_out?.goals ?? state.shoot_out;
     const penalties = shootOut ? ` (${shootOut.cyan} : ${shootOut.magenta} on penalties)` : "";
@@ -58,7 +59,7 @@ export class Result {
 
   /** Links to the replay and the statistics, where the match has left a recording. */
   #link(result) {
-    show(byId("result-later"), result === null);
+    show(byId("result-later"), result === null && this.match.live);
     show(byId("result-statistics"), (result?.statistics ?? null) !== null);
     if (result?.statistics) byId("result-statistics").href = result.statistics;
     show(byId("result-replay-row"), (result?.replay ?? null) !== null);

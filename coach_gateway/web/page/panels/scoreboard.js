@@ -1,14 +1,15 @@
 // The head of the page: names, score, clock, phase, role, cards, and notices.
 
 import { byId, mark, setText, show } from "../shared/elements.js";
-import { clockText, halfText, phaseText, readable } from "../parts/text.js";
+import { proposalOf } from "../parts/proposal.js";
+import { capitalized, clockText, halfText, orderText, phaseText, readable } from "../parts/text.js";
 
 export class Scoreboard {
   #score = null;
 
   constructor(match, connection) {
     Object.assign(this, { match, connection });
-    match.on("welcome state host refbox replay", () => this.update());
+    match.on("welcome state event orders host refbox replay", () => this.update());
   }
 
   /** Updates score, phase and cards; the clock follows the drawn frames. */
@@ -19,6 +20,7 @@ export class Scoreboard {
     if (match.setup === null) return;
     const { teams } = match.setup;
     document.title = match.sides.map((side) => teams[side].name).join(" – ");
+    setText(byId("title"), document.title);
     for (const side of ["cyan", "magenta"]) {
       setText(byId(`${side}-name`), teams[side].name);
       show(byId(`${side}-name`).parentElement, match.sides.includes(side));
@@ -32,7 +34,8 @@ export class Scoreboard {
     setText(byId("half"), state ? halfText(state) : "");
     setText(byId("left"), typeof state?.left === "number" && state.phase !== "full_time" ? `${Math.ceil(state.left)} s left` : "");
     setText(byId("people"), state ? disciplineLine(state) : "");
-    byId("people").title = byId("people").textContent;
+    setText(byId("in-force"), inForce(match));
+    for (const id of ["phase", "people", "in-force"]) byId(id).title = byId(id).textContent;
   }
 
   /** What is heard of the host is new. */
@@ -87,6 +90,20 @@ export class Scoreboard {
     byId("notice").title = words.join(" ");
     mark(document.body, "away", !over && (!connection.up || connection.silent || !match.hostThere));
   }
+}
+
+/** What is not play as usual: orders in force, and to those who only watch the decisions that wait for others. */
+function inForce(match) {
+  const { setup, state, orders } = match;
+  const ordered = match.sides.map((side) => [setup.teams[side].name, orderText(orders[side]?.order)]).filter(([, what]) => what);
+  const both = ordered.length > 1 && ordered[0][1] === ordered[1][1] ? [["both", ordered[0][1]]] : ordered;
+  const words = both.length ? [`Ordered: ${both.map((one) => one.join(" ")).join(", ")}`] : [];
+  if (match.live && match.role === "spectator") {
+    const proposal = proposalOf(match);
+    if (proposal) words.push(`Proposed: ${proposal.question}`);
+    for (const { action, side } of state?.questions ?? []) words.push(`${capitalized(action)} for ${setup.teams[side].name}: which robot?`);
+  }
+  return words.join(" · ");
 }
 
 /** Robots with cards, and robots off the field with the reason: `cyan3 1 yellow, off: repair, 12 s`. */

@@ -27,12 +27,21 @@ export function degreeText(angle) {
   return `${String(turned === -180 ? 180 : turned).replace("-", "−")}°`;
 }
 
+/** A robot of a team: `Lions (cyan 3)`. */
+export const playerText = (team, robot) => `${team} (${robot.replace(/(\D)(\d+)$/, "$1 $2")})`;
+
 /** The phase, and its team. */
 export function phaseText(state, teams) {
   const words = [capitalized(state.phase)];
   if (state.side) words.push(teams[state.side].name);
   if (state.side && state.running) words.push("started");
   return words.join(", ");
+}
+
+/** An order in a few words; empty where the side plays as it wants. */
+export function orderText(order) {
+  if (order?.mode === "test") return `test ${readable(order.test ?? "")}`;
+  return order?.mode === "play" ? (order.tactic ?? "") : (order?.mode ?? "");
 }
 
 /** A score of a free game with six digits and its unit; a dash before the first tick. */

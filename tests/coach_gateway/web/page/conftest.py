@@ -17,6 +17,7 @@ from support.in_process_bus import SharedState
 from support.page_gateway import SOON, Gateway
 from support.page_match import TEAMS, Match
 from support.recorded_match import record_match
+from support.staged_match import StagedMatch
 from support.tab import Tab
 
 
@@ -56,6 +57,14 @@ def match(officiated: Callable[..., Match]) -> Match:
 def resting(officiated: Callable[..., Match]) -> Match:
     """A match in which no robot moves by itself."""
     return officiated(still=True)
+
+
+@pytest.fixture
+def staged(gateway_of: Callable[..., Gateway]) -> Iterator[StagedMatch]:
+    """A match whose host publishes what the test has it publish."""
+    match = StagedMatch(SharedState(), gateway_of)
+    yield match
+    match.close()
 
 
 @pytest.fixture

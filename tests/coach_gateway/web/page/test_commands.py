@@ -83,7 +83,7 @@ def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
     tab.drag((match.world["ball"]["x"], match.world["ball"]["y"]), (0.0, 7.6))
     match.until(lambda: match.state.proposal is not None)
     tab.until("!document.getElementById('proposal').hidden")
-    assert tab.page.locator("#proposed").inner_text() == match.state.proposal
+    assert tab.page.locator("#proposed").inner_text() == "Ball out?"
     tab.page.locator("#overrule").click()
     tab.wait_for_log("Overrule accepted")
     match.until(lambda: match.state.proposal is not None)  # the ball is still out
@@ -104,7 +104,7 @@ def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> No
     tab.until("window.touchline.match.role === 'spectator'")
     tab.page.reload()
     tab.until("window.touchline?.match.setup && window.touchline.match.role === 'spectator'")
-    tab.page.locator("#enter-token").click()
+    tab.page.locator("#role").click()
     tab.page.locator("#token").fill("nonsense")
     tab.page.keyboard.press("Enter")
     tab.until("document.getElementById('token-says').textContent.startsWith('refused: unknown token')")

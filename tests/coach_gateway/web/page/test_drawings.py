@@ -37,7 +37,7 @@ def test_drawings_can_be_switched_off_and_limited_to_a_robot(match_of, visit) ->
     tab = visit(match_of(teams=TEAMS), "referee")
     tab.until("document.querySelectorAll('#layer-drawings option').length === 6")
     choice = tab.page.locator("#layer-drawings")
-    assert choice.input_value() == "all"
+    assert choice.input_value() == "none"  # both teams' would hide the match
     for value, cyan, magenta in (("none", False, False), ("magenta1", False, True), ("cyan", True, False)):
         choice.select_option(value)
         wait_for_shapes(tab, cyan, magenta)
@@ -56,9 +56,18 @@ def test_the_values_of_the_chosen_robot_are_listed(match_of, visit) -> None:
     tab.until(f"document.querySelector('#debug-values dd').textContent !== '{before}'")
 
 
-def test_a_replay_shows_the_drawings_of_both_teams_to_all_pages(record, replay_file, visit) -> None:
+def test_a_coach_sees_what_its_robots_draw_at_once(match_of, visit) -> None:
+    tab = visit(match_of(teams=TEAMS), "cyan")
+    tab.until("document.querySelectorAll('#layer-drawings option').length === 4")
+    assert tab.page.locator("#layer-drawings").input_value() == "all"
+    wait_for_shapes(tab, cyan=True, magenta=False)
+
+
+def test_a_replay_offers_the_drawings_of_both_teams_to_all_pages(record, replay_file, visit) -> None:
     tab = visit(replay_file(record(duration=2.0, teams=TEAMS)))
     tab.until("Object.keys(window.touchline.match.debug).length === 2")
     tick = tab.ask("window.touchline.pitchCanvas.world.tick")
     assert tab.ask("window.touchline.match.debug.cyan1.debug.values.tick") == pytest.approx(tick, abs=1)
+    wait_for_shapes(tab, cyan=False, magenta=False)
+    tab.page.locator("#layer-drawings").select_option("all")
     wait_for_shapes(tab, cyan=True, magenta=True)

@@ -1,20 +1,12 @@
 """What the match brings moves nothing under a hand: decisions, cards and goals have places reserved for them."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from schemas.config.match_config import load_match
-from schemas.messages.radio import Radio
-from schemas.messages.soccer.game import DisciplinaryRecord, RobotQuestion, Score
-from schemas.side import Side
-from schemas.soccer.game import ActionName, Card, EventKind, OffField, Phase
-from schemas.topics import EVENT
-from support.fake_host import FakeHost
-from support.in_process_bus import SharedState
-from support.messages import make_event
-from support.visitor import Visitor
+from schemas.messages.soccer.game import Score
+from support.staged_match import StagedMatch
 
 SIZES = [(1366, 768), (390, 844), (844, 390)]
 """A laptop, a phone, and the phone on its side."""
@@ -36,72 +28,6 @@ BOXES = """() => {
     return boxes;
 }"""
 """Element → its place, of all that are seen but the lines of the list of events, which scrolls by itself."""
-
-
-class StagedMatch:
-    """A match whose host publishes what a test has it publish."""
-
-    def __init__(self, medium: Any, gateway_of: Callable[..., Any]) -> None:
-        match = load_match(None, {f"teams.{side}.size": 5 for side in Side} | {"teams.cyan.name": "Lions"})
-        self.medium = medium
-        self.host = FakeHost(medium, match, in_threads=True)
-        self.gateway = gateway_of(medium)
-        self.origin = self.gateway.origin
-        visitor = Visitor(self.origin)
-        visitor.hear_what_is_played()
-        for robot in self.host.config.robots(Side.CYAN):
-            self.host.believe(robot, Radio(role="striker", intention="shoot"))
-        self.host.say(phase=Phase.PLAY, running=True)
-        self.host.show()
-        visitor.hear("frame")
-        visitor.close()
-
-    def propose(self) -> None:
-        """The referee proposes a decision, in a long sentence."""
-        proposal = "free kick for Lions at (3.2, −1.5): magenta4 pushed cyan3 for 1.2 s with 0.9 m/s, 0.5 s are allowed"
-        self.host.say(proposal=proposal)
-
-    def ask_both_sides(self) -> None:
-        """A referee box requests a card for each side and names no robot; the proposal still waits."""
-        questions = []
-        for side in Side:
-            robots = self.host.config.robots(side)
-            question = RobotQuestion(
-                action=ActionName.DOUBLE_YELLOW, side=side, left=8.0, robots=robots, default=robots[-1]
-            )
-            questions += [question, question]
-        self.host.say(questions=questions)
-
-    def show_card(self) -> None:
-        """A robot gets a card and leaves the field."""
-        away = DisciplinaryRecord(yellow=2, off_field=OffField.SECOND_YELLOW, left=87.0)
-        event = make_event(
-            self.host.state.tick, "2nd yellow card for magenta4", EventKind.CARD, robot="magenta4", card=Card.YELLOW
-        )
-        self.host.put(EVENT, event)
-        self.host.say(
-            proposal=None, questions=[], running=False, phase=Phase.FREE_KICK, side=Side.CYAN, robots={"magenta4": away}
-        )
-
-    def score(self) -> None:
-        """The tenth goal is scored: the score gets wider."""
-        score = Score(cyan=10, magenta=0)
-        event = make_event(
-            self.host.state.tick, "goal, counts for Lions", EventKind.GOAL, side=Side.CYAN, robot="cyan3", score=score
-        )
-        self.host.put(EVENT, event)
-        self.host.say(phase=Phase.KICK_OFF, side=Side.MAGENTA, left=7.0, score=score)
-
-    def close(self) -> None:
-        """End it."""
-        self.host.close()
-
-
-@pytest.fixture
-def staged(gateway_of: Callable[..., Any]) -> Iterator[StagedMatch]:
-    match = StagedMatch(SharedState(), gateway_of)
-    yield match
-    match.close()
 
 
 def moved(before: dict[str, Any], after: dict[str, Any]) -> list[str]:
@@ -185,7 +111,7 @@ def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(
     tab = visit(staged.origin)
     tab.loses_its_server = True
     staged.score()
-    staged.host.say(phase=Phase.FULL_TIME, running=False, side=None, left=None)
+    staged.end()
     tab.until("window.touchline.match.over")
     staged.host.close()
     over = "The match is over. This page keeps its result until it is closed."
@@ -195,7 +121,7 @@ def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(
     tab.page.wait_for_timeout(500)
     assert tab.page.locator("#notice").inner_text() == over
     assert tab.page.locator("#result-score").inner_text() == "10 : 0"
-    assert tab.page.locator("#cyan-scorers").inner_text() == "cyan3 0:00.0"
+    assert tab.page.locator("#cyan-scorers").inner_text() == "Lions (cyan 3) 0:00.0"
     assert tab.page.locator("#result-title").inner_text() == "Final result"
     assert tab.page.locator("#score").inner_text() == "10 : 0"
 

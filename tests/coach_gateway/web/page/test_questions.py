@@ -57,13 +57,13 @@ def test_a_press_names_the_robot_of_a_card_and_the_question_goes(
     assert not match.state.questions
 
 
-@pytest.mark.parametrize("role", ["spectator", "magenta"])
+@pytest.mark.parametrize(("role", "place"), [("spectator", "in-force"), ("magenta", "cyan-question")])
 def test_others_see_the_question_without_buttons(
-    boxed: tuple[Match, Box], visit: Callable[..., Any], role: str
+    boxed: tuple[Match, Box], visit: Callable[..., Any], role: str, place: str
 ) -> None:
     match, box = boxed
     tab = visit(match, role)
     box.request(ActionName.YELLOW_CARD, Side.CYAN)
-    tab.until(SEEN)
-    assert "Yellow card for Blues: which robot?" in tab.page.locator("#cyan-question").inner_text()
+    tab.until(f"document.getElementById({place!r}).textContent.includes('Yellow card for Blues: which robot?')")
+    assert tab.page.locator(f"#{place}").is_visible()
     assert not any(button.is_visible() for button in tab.page.locator("#pending button").all())

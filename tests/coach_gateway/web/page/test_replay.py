@@ -106,6 +106,18 @@ def test_each_event_of_the_list_and_each_mark_leads_to_its_moment(replayed, visi
     tab.until(f"window.touchline.pitchCanvas.world?.time > {start + 0.3 * (end - start)}")
 
 
+def test_the_result_of_a_replay_is_that_of_the_shown_moment_and_promises_no_end(replayed, visit) -> None:
+    tab = visit(replayed, "referee")
+    tab.page.locator("#to-result").click()
+    tab.until("document.querySelector('#result-figures td') !== null")
+    assert not tab.page.locator("#result-later").is_visible()
+    later = {"tick": 9000, "time": 180.0, "clock": 180.0, "kind": "foul", "rule": "pushing", "side": "cyan", "text": ""}
+    fouls = tab.page.locator("#result-figures td").first.inner_text()
+    tab.page.evaluate("(event) => window.touchline.match.receive({ kind: 'event', event })", later)
+    tab.page.wait_for_timeout(200)
+    assert tab.page.locator("#result-figures td").first.inner_text() == fouls
+
+
 def test_a_spectator_of_a_replay_watches_and_sees_no_controls_of_it(replayed, visit) -> None:
     tab = visit(replayed)
     tab.until("document.getElementById('play').disabled && document.getElementById('scrub').disabled")

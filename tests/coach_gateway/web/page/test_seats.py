@@ -49,7 +49,7 @@ def test_a_coach_sees_the_commands_of_its_own_side_alone(match, visit) -> None:
     match.until(lambda: Side.CYAN in match.host.simulation.orders)
     assert match.host.simulation.orders[Side.CYAN].mode is CoachMode.HOLD
     assert Side.MAGENTA not in match.host.simulation.orders
-    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'acknowledged'")
+    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'hold, acknowledged'")
     match.until(lambda: math.hypot(*(match.world["robots"]["cyan2"][axis] for axis in ("vx", "vy"))) < 0.02)
 
 
