@@ -129,12 +129,12 @@ class World:
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
         report = ball.decide_possession_and_kick(self.tick, self._robots, self._ball_state, ordered)
-        pairs, fixed, touching, meeting, hits = self._candidates.find(self._robots, self._ball_state)
+        hits, fixed, touching, meeting = self._candidates.find(self._robots, self._ball_state)
         impacts = ImpactDetector(engine, self._robots, hits) if hits else None
         for drives in self._chassis.plan(self._robots, ordered, touching):
             free_ball = ball.before_step(drives)
-            if pairs or fixed:
-                self._collision.advance_robots(pairs, fixed, drives)
+            if hits or fixed:
+                self._collision.advance_robots(hits, fixed, drives)
             engine.set_velocities(drives)
             if free_ball is not None:
                 self._collision.advance_ball(free_ball)

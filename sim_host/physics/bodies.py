@@ -31,6 +31,11 @@ def upright(heading: float) -> Quaternion:
     return (0.0, 0.0, math.sin(heading / 2.0), math.cos(heading / 2.0))
 
 
+def surface_restitution(robot: RobotBody, profile: Profile) -> float:
+    """The restitution of a robot's surface: times the ball's own, it is the share that a ball keeps of its speed."""
+    return robot.restitution / max(profile.ball.restitution, 1e-9)
+
+
 class BodyMaker:
     """Makes the bodies of one world; each method returns the number that PyBullet gives to the body."""
 
@@ -68,7 +73,7 @@ class BodyMaker:
             angularDamping=0.0,
             physicsClientId=client,
         )
-        self._surface(body, robot.friction, robot.restitution / max(self._profile.ball.restitution, 1e-9))
+        self._surface(body, robot.friction, surface_restitution(robot, self._profile))
         pybullet.setCollisionFilterPair(body, ground, -1, -1, 0, physicsClientId=client)
         return body
 

@@ -1,7 +1,7 @@
 """Finds robots that may meet another body within the next tick, once a tick.
 
-Those that could sink too deep into it in one physics step are for `continuous_collision`. Those that may touch anything
-at all are for drives that are as strong as their grip only.
+Those that hit it are for `continuous_collision`. Those that may touch anything at all are for drives that are as strong
+as their grip only.
 """
 
 import math
@@ -13,8 +13,6 @@ from schemas.config.robot_model import RobotModel
 from sim_host.physics.pitch import Furniture, fixed_boxes
 from sim_host.snapshot import BallState, ObstacleState, RobotState
 
-MAX_DEPTH = 0.01
-"""m that a body may sink into another in one step: the engine's contacts undo this depth in a few steps."""
 MIN_IMPACT = 0.5
 """m/s; robots that meet more slowly lean on each other, rather than hit each other."""
 
@@ -32,16 +30,14 @@ _Moving = tuple[float, float, float, float, float, float, int]
 class Candidates(NamedTuple):
     """Robots that may meet another body within the tick, by their indices in the roster."""
 
-    robots: IndexPairs
-    """Pairs of robots that approach each other fast."""
+    hits: IndexPairs
+    """Pairs of robots that may hit each other."""
     fixed: IndexPairs
-    """Pairs of a robot and a body that it approaches fast: first the boxes of the pitch, then the obstacles."""
+    """Pairs of a robot and a body that it may hit: first the boxes of the pitch, then the obstacles."""
     touching: list[int]
     """Robots that may touch a robot, a fixed body or the ball, at any speed, sorted; of those whose drive yields."""
     meeting: bool
     """Whether one of these may touch another robot."""
-    hits: IndexPairs
-    """Pairs of robots that may hit each other, those that approach each other fast among them."""
 
 
 class CollisionCandidates:
@@ -54,7 +50,6 @@ class CollisionCandidates:
         self._ball_radius, pitch = profile.ball.radius, profile.field
         self._yields = yields
         """Per robot: its drive is no stronger than its grip where the robot touches something."""
-        self._fast = MAX_DEPTH / profile.time.physics_step
         self._reaches = [model.body.reach for model in models]
         self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
         """m from the axis to where a turning hull can strike; 0 for a round hull, which slides past."""
@@ -70,7 +65,7 @@ class CollisionCandidates:
 
     def find(self, robots: Sequence[RobotState], ball: BallState | None) -> Candidates:
         """The robots that may meet another body within the tick."""
-        fast, tick, obstacles = self._fast, self._tick, self._obstacles
+        tick, obstacles = self._tick, self._obstacles
         free_x, free_y = self._free_x - _MARGIN, self._free_y - _MARGIN
         ball_x, ball_y, _, ball_vx, ball_vy, _ = ball or _NOWHERE
         room = self._ball_radius + math.hypot(ball_vx, ball_vy) * tick + _MARGIN
@@ -86,20 +81,19 @@ class CollisionCandidates:
                 touching.add(place)  # another robot may press the ball against it
             if not (obstacles or abs(x) + travel > free_x or abs(y) + travel > free_y):
                 continue
-            if speed > fast:
+            if speed > MIN_IMPACT:
                 fixed += self._fixed(place, x, y, travel)
             if yields[place] and self._fixed(place, x, y, travel + _MARGIN):
                 touching.add(place)
         if not moving:
-            return Candidates([], fixed, [], False, [])
-        pairs, hits, meeting = self._robots(moving)
+            return Candidates([], fixed, [], False)
+        hits, meeting = self._robots(moving)
         touching |= meeting
-        return Candidates(pairs, fixed, sorted(touching), bool(meeting), hits)
+        return Candidates(hits, fixed, sorted(touching), bool(meeting))
 
-    def _robots(self, moving: list[_Moving]) -> tuple[IndexPairs, IndexPairs, set[int]]:
-        """Pairs of robots that approach each other fast, pairs that may hit each other, and the robots that yield."""
+    def _robots(self, moving: list[_Moving]) -> tuple[IndexPairs, set[int]]:
+        """Pairs of robots that may hit each other, and the robots that yield among those that may touch."""
         widest, yields = max([travel for *_, travel, _ in moving]) + _MARGIN, self._yields
-        pairs: IndexPairs = []
         hits: IndexPairs = []
         touching: set[int] = set()
         moving.sort()
@@ -118,11 +112,8 @@ class CollisionCandidates:
                 approach = ((vx - other_vx) * dx + (vy - other_vy) * dy) / max(apart, 1e-9)
                 approach += extra + other_extra
                 if approach > MIN_IMPACT:
-                    pair = (min(one, other), max(one, other))
-                    hits.append(pair)
-                    if approach > self._fast:
-                        pairs.append(pair)
-        return sorted(pairs), sorted(hits), touching
+                    hits.append((min(one, other), max(one, other)))
+        return sorted(hits), touching
 
     def _fixed(self, place: int, x: float, y: float, travel: float) -> IndexPairs:
         """Fixed bodies that a robot may reach."""

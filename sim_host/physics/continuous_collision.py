@@ -1,8 +1,9 @@
-"""Continuous collision: moves bodies that approach each other fast to where they touch, before the engine steps.
+"""Continuous collision: moves bodies that hit each other to where they touch, before the engine steps.
 
 The engine finds contacts at the beginning of a step only. Two robots that meet at 8 m/s would overlap by 4 cm before
-it does, and a ball of 20 m/s would be 10 cm inside a hull. A body that deep is pushed out as well as bounced off, so
-that the rebound would depend on chance.
+it does, and a ball of 20 m/s would be 10 cm inside a hull. A body that deep is pushed out as well as bounced off. A gap
+that two robots would close within the step is worse: the engine takes what closes it from the rebound, which then
+depends on where in a step they meet, from none of the approach to a third of it.
 """
 
 import math
@@ -11,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from schemas.config.profile import Profile
 from sim_host.physics.bodies import upright
 from sim_host.physics.body_state import BodyState
-from sim_host.physics.collision_candidates import MAX_DEPTH, IndexPairs
+from sim_host.physics.collision_candidates import MIN_IMPACT, IndexPairs
 from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist, Vector
 
@@ -34,10 +35,11 @@ class ContinuousCollision:
         self._engine = engine
         self._step = profile.time.physics_step
         self._radius = profile.ball.radius
-        self._fast = MAX_DEPTH / self._step
+        self._early = 1.0 + min(engine.restitution, 1.0)
+        """Steps; the engine stops bodies that would meet within these: the rebound counts against the gap."""
 
     def advance_robots(self, robots: IndexPairs, fixed: IndexPairs, twists: Sequence[FieldTwist]) -> None:
-        """Move robots that would sink into another body in the next step to where they touch it.
+        """Move robots that would meet another body in the next step to where they touch it.
 
         `robots` are pairs of robots. `fixed` are pairs of a robot and another body: first the boxes of the pitch, then
         the obstacles. `twists` are the velocities of the robots in the next step.
@@ -51,20 +53,18 @@ class ContinuousCollision:
             self._advance_pair({bodies[one]: twists[one], body: pushed.get(body, _AT_REST)})
 
     def _advance_pair(self, twists: Mapping[int, FieldTwist]) -> None:
-        """Move two bodies with these velocities to where they touch, if they would overlap too far in the next step."""
+        """Move two bodies with these velocities to where they touch, if the engine would stop them in the next step."""
         (one, twist), (other, other_twist) = twists.items()
-        depth = MAX_DEPTH
         for _ in range(_ROUNDS):
-            time = self._time_to_touch(one, other, twist, other_twist, depth)
+            time = self._time_to_touch(one, other, twist, other_twist)
             if time == 0.0:
                 return
             for body, moving in twists.items():
                 if any(moving):
                     self._move_forward(body, moving, time)
-            depth = 0.0  # the engine finds no contact of two frames while the smallest gap is left between them
 
-    def _time_to_touch(self, one: int, other: int, twist: FieldTwist, other_twist: FieldTwist, depth: float) -> float:
-        """s after which two bodies touch, if they would overlap by `depth` m in the next step; otherwise 0."""
+    def _time_to_touch(self, one: int, other: int, twist: FieldTwist, other_twist: FieldTwist) -> float:
+        """s after which two bodies touch, if the engine would stop them in the next step; otherwise 0."""
         gap = self._engine.gap(one, other, self._step * _TOP_SPEED)
         if gap is None or gap.width <= 0.0:
             return 0.0
@@ -75,7 +75,9 @@ class ContinuousCollision:
         ):
             x, y, _ = self._engine.state(body).position
             closing += sign * (gap.normal[0] * (vx - omega * (at[1] - y)) + gap.normal[1] * (vy + omega * (at[0] - x)))
-        return 0.0 if closing * self._step < gap.width + depth else (gap.width + _CONTACT_DEPTH) / closing
+        if closing < MIN_IMPACT or closing * self._step * self._early < gap.width:
+            return 0.0
+        return (gap.width + _CONTACT_DEPTH) / closing
 
     def _move_forward(self, body: int, twist: FieldTwist, time: float) -> None:
         """Move a robot forward by `time` s."""
@@ -87,9 +89,9 @@ class ContinuousCollision:
         )
 
     def advance_ball(self, ball: BodyState) -> None:
-        """Move a fast ball with this state to where it touches a body that it would sink into in the next step."""
+        """Move a ball with this state, unless it is slow, to where it touches a body that it hits in the next step."""
         position, _, velocity, spin = ball
-        if math.hypot(*velocity) < self._fast:
+        if math.hypot(*velocity) < MIN_IMPACT:
             return
         travel = [speed * self._step for speed in velocity]
         room = self._radius + _MAX_MOTION

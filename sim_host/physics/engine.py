@@ -14,7 +14,7 @@ from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.errors import NoBallError
 from schemas.frames import wrap
-from sim_host.physics.bodies import NO_TURN, BodyMaker, upright
+from sim_host.physics.bodies import NO_TURN, BodyMaker, surface_restitution, upright
 from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Gap
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
 from sim_host.physics.bullet import pybullet
@@ -48,6 +48,8 @@ class Engine:
         self._furniture = furniture
         self.names = roster.names
         self._models = roster.models
+        self.restitution = max([surface_restitution(model.body, profile) for model in roster.models], default=0.0)
+        """Of the robots' surfaces, the largest: see `surface_restitution`."""
         self._heights = [model.body.height / 2 for model in roster.models]
         self.client = pybullet.connect(pybullet.DIRECT)
         self._free = weakref.finalize(self, pybullet.disconnect, self.client)

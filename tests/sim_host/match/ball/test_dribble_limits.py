@@ -60,10 +60,15 @@ def on_the_spot(driven, limit):
     return driven([(limit / 3.0 + 3.0, {"omega": limit})], turn_acceleration=3.0)
 
 
-def in_a_turn(driven, limit):
+def in_a_turn(driven, limit, speed=4.0):
     """The same at 4 m/s, with a drive that costs no grip."""
     motion = {"model": "velocity", "turn_acceleration": 1.0}
-    return driven([(1.6, {"vx": 4.0}), (limit + 3.0, {"vx": 4.0, "omega": limit})], **motion)
+    return driven([(1.6, {"vx": speed}), (limit + 3.0, {"vx": speed, "omega": limit})], **motion)
+
+
+def in_a_slow_turn(driven, limit):
+    """At 2 m/s, where the limit is nearly that on the spot."""
+    return in_a_turn(driven, limit, 2.0)
 
 
 LIMITS = {
@@ -72,6 +77,7 @@ LIMITS = {
     "sideways": (sideways, SIDE - ROLLING, 0.05),
     "on the spot": (on_the_spot, math.sqrt(PULL / GAP), 0.04),
     "in a turn": (in_a_turn, SIDE / 4.0, 0.07),
+    "in a slow turn": (in_a_slow_turn, SIDE / 2.0, 0.09),
 }
 """Way to lose the ball → the drive to its limit, the closed form in m/s² or rad/s, and by which share it may err."""
 

@@ -134,7 +134,7 @@ SCENES = {
     "loft": Scene(WITH_BALL, kicking(KickMode.LOFT), 60, 1e-4, 1e-4),
     "pushing": Scene(WITH_BALL, pushing, 100, 2e-3, 6e-3),
     "rebounding": Scene(WITH_BALL | {"magenta3": (-4.0, 0.95, 2.0)}, rebounding, 50, 0.015, 0.03),
-    "scrambling": Scene(SCRUM, scrambling, 60, 2e-3, 5e-3),
+    "scrambling": Scene(SCRUM, scrambling, 60, 5e-3, 5e-3),
 }
 """Times and tolerances, m; where bodies touch, the engine's solver adds its own."""
 DRIVES = {
