@@ -100,10 +100,15 @@ class Discipline:
     """The consequences of cards; 0 disables a punishment."""
 
     yellows_to_suspension: Annotated[int, Quantity("1", "yellow cards of one robot that suspend it", 0, 10)]
-    suspension: Annotated[float, Quantity("s", "playing time that a suspended robot is off the field", 0, 1200)]
+    suspension: Annotated[
+        float, Quantity("s", "time between START and STOP that a suspended robot is off the field", 0, 1200)
+    ]
     yellows_to_red: Annotated[int, Quantity("1", "yellow cards of one robot that count as a red one", 0, 10)]
     red_duration: Annotated[
-        float, Quantity("s", "playing time off the field after a red card; 0: for the rest of the match", 0, 1200)
+        float,
+        Quantity(
+            "s", "time between START and STOP off the field after a red card; 0: for the rest of the match", 0, 1200
+        ),
     ]
     red_growth: Annotated[float, Quantity("s", "additional time for each earlier red card of its side", 0, 600)]
     reds_to_removal: Annotated[

@@ -70,7 +70,7 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
     now_state = state._replace(
         timing=state.timing.after(dt, in_play, limited=refbox_gone is None),
         set_piece=set_piece_after(state.set_piece, snapshot, in_play, dt),
-        participation=state.participation.after(snapshot.silent, dt, state.timing.runs),
+        participation=state.participation.after(snapshot.silent, dt, state.running),
         proposal=None if state.proposal is None else state.proposal.after(dt),
         advantage=None if state.advantage is None else state.advantage.after(dt),
         still=state.still + dt if slow else 0.0,

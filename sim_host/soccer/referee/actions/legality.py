@@ -2,7 +2,7 @@
 
 from schemas.messages.soccer.game import RefereeAction
 from schemas.soccer.game import GameStage, Phase
-from sim_host.soccer.referee.game.participation import IN_PLAYING_TIME
+from sim_host.soccer.referee.game.participation import SUSPENSIONS
 from sim_host.soccer.referee.procedures.discipline import reason_text
 from sim_host.soccer.referee.procedures.periods import HALF_PHASES
 from sim_host.soccer.referee.ruling_draft import RulingDraft
@@ -72,7 +72,7 @@ def sent_off(draft: RulingDraft, action: RefereeAction) -> str | None:
 def suspended(draft: RulingDraft, action: RefereeAction) -> str | None:
     """The robot must not be suspended: its time off would end with another reason."""
     away = draft.state.participation.absences.get(named_robot(action))
-    if away is None or away.left is None or away.why not in IN_PLAYING_TIME:
+    if away is None or away.left is None or away.why not in SUSPENSIONS:
         return None
     return f"{action.robot} is off the field for {away.left:.0f} s more: {reason_text(away.why)}"
 

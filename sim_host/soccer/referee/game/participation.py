@@ -9,8 +9,8 @@ from schemas.messages.soccer.game import DisciplinaryRecord
 from schemas.side import Side
 from schemas.soccer.game import Card, OffField
 
-IN_PLAYING_TIME = frozenset({OffField.SECOND_YELLOW, OffField.RED_CARD})
-"""Reasons whose time off counts in playing time; a repair or a substitution goes on while the clock is stopped."""
+SUSPENSIONS = frozenset({OffField.SECOND_YELLOW, OffField.RED_CARD})
+"""Reasons whose time off counts between START and STOP only, as in the league's referee box."""
 
 
 class CardCount(NamedTuple):
@@ -60,11 +60,11 @@ class Participation:
     owed: tuple[OwedCard, ...] = ()
     """Cards that are shown at the next stop, in the order of the fouls."""
 
-    def after(self, silent: Collection[str], dt: float, playing: bool) -> "Participation":
-        """The participation `dt` s later, with these robots silent; `playing` while the game clock runs."""
+    def after(self, silent: Collection[str], dt: float, running: bool) -> "Participation":
+        """The participation `dt` s later, with these robots silent; `running` between START and STOP."""
         if not (self.absences or self.silent or silent):
             return self
-        absences = {name: _after(one, dt, playing) for name, one in self.absences.items()}
+        absences = {name: _after(one, dt, running) for name, one in self.absences.items()}
         lost = {name: self.silent.get(name, 0.0) + dt for name in silent}
         return dataclasses.replace(self, absences=absences, silent=lost)
 
@@ -101,7 +101,7 @@ class Participation:
         return found
 
 
-def _after(away: Absence, dt: float, playing: bool) -> Absence:
-    if away.left is None or (away.why in IN_PLAYING_TIME and not playing):
+def _after(away: Absence, dt: float, running: bool) -> Absence:
+    if away.left is None or (away.why in SUSPENSIONS and not running):
         return away
     return away._replace(left=max(0.0, away.left - dt))

@@ -1,10 +1,11 @@
 """Cards, and robots that leave the field and come back.
 
 Yellow cards of one robot add up to a suspension, and then to a red card. A robot off the field stands beyond the
-boundary, and its commands have no effect. Suspensions count in playing time, repairs and substitutions also while the
-clock is stopped. When the time is up, the robot comes back by itself at the next stoppage, at its side's right touch
-line, where there is room, one of each side in a tick. A robot whose agent does not answer is taken off the field, and
-comes back when the agent answers again. A robot that people have parked comes back when they request it.
+boundary, and its commands have no effect. Suspensions count between START and STOP, as in the league's referee box,
+repairs and substitutions always. When the time is up, the robot comes back by itself at the next stoppage, at its
+side's right touch line, where there is room, one of each side in a tick. A robot whose agent does not answer is taken
+off the field, and comes back when the agent answers again. A robot that people have parked comes back when they request
+it.
 
 Section: misconduct; repair and substitution.
 Measures: cards of each robot, red cards of each side, the time off the field, and the time for which an agent has not
@@ -18,7 +19,7 @@ from collections.abc import Mapping
 from schemas.config.soccer.rule_book import Discipline
 from schemas.side import Side
 from schemas.soccer.game import RESTARTS, Card, EventKind, OffField, Phase
-from sim_host.soccer.referee.game.participation import IN_PLAYING_TIME, Absence, CardCount, Participation
+from sim_host.soccer.referee.game.participation import SUSPENSIONS, Absence, CardCount, Participation
 from sim_host.soccer.referee.game.timing import reached
 from sim_host.soccer.referee.placement.bench import bench_pose, entry_pose
 from sim_host.soccer.referee.ruling_draft import RulingDraft
@@ -88,7 +89,7 @@ def take_out(draft: RulingDraft, rule: str, name: str, absence: Absence) -> None
     participation, was_there = draft.state.participation, name not in draft.state.participation.absences
     if not was_there and absence.left is not None:
         before = participation.absences[name]
-        if before.left is not None and before.why in IN_PLAYING_TIME:
+        if before.left is not None and before.why in SUSPENSIONS:
             absence = absence._replace(left=max(before.left, absence.left))
     draft.state = draft.state._replace(
         participation=dataclasses.replace(participation, absences={**participation.absences, name: absence})
