@@ -1,6 +1,6 @@
-"""The physics engine: poses, velocities, steps and contacts.
+"""The physics engine: poses, velocities and steps.
 
-Only this module, `bodies`, `pushables` and `fingerprint` import PyBullet.
+Only this module, `bodies`, `contacts`, `pushables` and `fingerprint` import PyBullet.
 """
 
 import math
@@ -14,8 +14,9 @@ from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.errors import NoBallError
 from schemas.frames import wrap
+from sim_host.physics import contacts
 from sim_host.physics.bodies import NO_TURN, BodyMaker, surface_restitution, upright
-from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Gap
+from sim_host.physics.body_state import BallContacts, BodyState, Gap
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
 from sim_host.physics.bullet import pybullet
 from sim_host.physics.gravity import GRAVITY
@@ -28,11 +29,6 @@ _ITERATIONS = 200
 """Maximum of the solver; with Bullet's 50, two robots press a ball, of a hundredth of their mass, into their hulls."""
 _UPRIGHT = 1e-3
 """A robot is put upright again from this half sine of its tilt, or from this lift in m."""
-_TOUCHING = 0.001
-"""m; two robots count as touching up to this gap: the solver leaves a smaller one between bodies in contact. They count
-so, too, if it has applied a force: it stops bodies that would meet within the step, up to 2 cm apart at its start."""
-_HORIZONTAL = 0.5
-"""Share of a contact's normal that lies on the ground, at least, if two upright hulls touch with their sides."""
 _STATE_SIZE = 13
 """Numbers in the state of a body."""
 _OBSTACLE = struct.Struct("<7d")
@@ -311,33 +307,14 @@ class Engine:
 
     def ball_contacts(self, holder: int | None) -> BallContacts:
         """The ball's contacts in the last step, other than with the ground; depth in its holder does not count."""
-        contacts = pybullet.getContactPoints(self.ball, physicsClientId=self.client)
-        if len(contacts) < 2 and (not contacts or contacts[0][2] == self._ground):
-            return NO_CONTACTS
-        depth: dict[int, float] = {}
-        force: dict[int, float] = {}
-        for contact in contacts:
-            body = contact[2]
-            if body != self._ground:
-                depth[body] = -contact[8]
-                force[body] = force.get(body, 0.0) + contact[9]
-        forces = {place: force[body] for place, body in enumerate(self.robots) if body in force}
-        if holder is not None:
-            depth.pop(self.robots[holder], None)
-        return BallContacts(forces, max(depth.values(), default=0.0))
+        return contacts.of_ball(self.client, self.ball, self._ground, self.robots, holder)
 
     def contact_direction(self, one: int, other: int) -> tuple[float, float] | None:
         """The unit vector on the ground from one robot to another at their contact in the last step; None without one.
 
         For two round hulls it is the direction from centre to centre.
         """
-        body = self.robots[one]
-        for contact in pybullet.getContactPoints(body, self.robots[other], physicsClientId=self.client):
-            (x, y, _), sign = contact[7], -1.0 if contact[1] == body else 1.0
-            length = math.hypot(x, y)
-            if _touches(contact) and length > _HORIZONTAL:
-                return sign * x / length, sign * y / length
-        return None
+        return contacts.direction(self.client, self.robots[one], self.robots[other])
 
     def note_robot_contacts(self) -> None:
         """Note the robots that touched each other in the last step: after a rebound they no longer do."""
@@ -345,13 +322,7 @@ class Engine:
 
     def _robot_contacts(self) -> set[tuple[int, int]]:
         """Pairs of robots that touched each other in the last step, the smaller index first."""
-        bodies = self._robot_of
-        found = [
-            (bodies[contact[1]], bodies[contact[2]])
-            for contact in pybullet.getContactPoints(physicsClientId=self.client)
-            if _touches(contact) and contact[1] in bodies and contact[2] in bodies
-        ]
-        return {(min(pair), max(pair)) for pair in found}
+        return contacts.of_robots(self.client, self._robot_of)
 
 
 def _pack(obstacle: ObstacleState) -> bytes:
@@ -362,11 +333,6 @@ def _pack(obstacle: ObstacleState) -> bytes:
 def _robot_state(state: BodyState, holding: bool) -> RobotState:
     (x, y, z), (_, _, qz, qw), (vx, vy, _), (_, _, omega) = state
     return RobotState(x, y, z, wrap(2.0 * math.atan2(qz, qw)), vx, vy, omega, holding)
-
-
-def _touches(contact: tuple[Any, ...]) -> bool:
-    """Whether the bodies of a contact point of the last step touched in it."""
-    return bool(contact[8] <= _TOUCHING or contact[9] > 0.0)
 
 
 def _distance_of(point: tuple[Any, ...]) -> float:
