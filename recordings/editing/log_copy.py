@@ -10,7 +10,8 @@ from recordings.container.environment import library
 from recordings.container.key_selection import KeySelection
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError
-from recordings.reading.log_order import open_log, seconds_ns
+from recordings.reading.log_order import check_no_match, open_log, seconds_ns
+from recordings.recorder.key_counts import KEYS, counts_of
 from runtime.process.whole_file import written_whole
 from schemas.errors import TouchlineError
 
@@ -18,14 +19,16 @@ from schemas.errors import TouchlineError
 def copy_log(
     paths: Sequence[Path], out: Path, selection: KeySelection, start: float | None = None, end: float | None = None
 ) -> int:
-    """Copy the selected topics, from `start` up to but not including `end`, in s since the first message.
+    """Copy the selected topics of all files, from `start` up to but not including `end`, in s since the first message.
 
-    Returns the number of messages in the copy, which has metadata and attachments of all files, too.
+    Returns the number of messages in the copy, which has metadata and attachments of all files, too, and the counts of
+    recorders of keys together.
 
     Raises:
         TouchlineError: no message is selected, a file is damaged inside, or the copy cannot be written.
     """
     log = open_log(paths, lambda topic: topic if selection.includes(topic.removeprefix("/")) else None)
+    check_no_match(log)
     if any(out.exists() and out.samefile(file.path) for file in log.files):
         raise TouchlineError(f"{out}: would overwrite the file that is read; give another name for --out")
     stop_ns = seconds_ns(end) if end is not None else None
@@ -60,7 +63,10 @@ def copy_log(
                 for name, content in source.attachments.items():
                     mcap.add_attachment(0, 0, name, "application/octet-stream", content)
                 for name, metadata in source.metadata.items():
-                    mcap.add_metadata(name, metadata)
+                    if name != KEYS:
+                        mcap.add_metadata(name, metadata)
+            if (counts := counts_of(log.files)) is not None:
+                mcap.add_metadata(KEYS, counts.metadata())
             mcap.finish()  # type: ignore[no-untyped-call]
     except OSError as error:
         raise NotWritableError(out, error.strerror or str(error)) from None

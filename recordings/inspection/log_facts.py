@@ -1,16 +1,13 @@
 """Facts of MCAP files of any writer: their channels, counts, rates, encodings, schemas and times."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from recordings.container.encodings import ENCODING
-from recordings.container.mcap_file import McapFile
 from recordings.inspection.recording_facts import CUT_OFF
 from recordings.reading.log_order import open_log
-from recordings.recorder.key_recorder import KEYS
+from recordings.recorder.key_counts import counts_of, was_cut_off
 from schemas.natural_order import natural_order
 
 HEADINGS = ("topic", "encoding", "schema", "messages", "per s", "lost")
@@ -73,20 +70,14 @@ def log_facts(paths: Sequence[Path]) -> LogFacts:
     """
     log = open_log(paths)
     found: dict[tuple[str, str, str], ChannelFacts] = {}
-    counted = [_losses(file) for file in log.files]
-    ended = (
-        CUT_OFF
-        if any(lost is None and _is_of_keys(file) for file, lost in zip(log.files, counted, strict=True))
-        else None
-    )
-    losses = None if ended else [lost for lost in counted if lost is not None] or None
+    counts = counts_of(log.files)
     for _, channel in log.channels:
         name, language = (channel.schema.name, channel.schema.encoding) if channel.schema is not None else ("", "")
         key = channel.key, channel.encoding, name
         start, end = ((ns - log.base_ns) / 1e9 for ns in (channel.first_ns, channel.last_ns))
         known = found.get(key)
         if known is None:
-            lost = sum(one.get(channel.key, 0) for one in losses) if losses else None
+            lost = counts.lost.get(channel.key, 0) if counts is not None else None
             found[key] = ChannelFacts(
                 channel.key, channel.encoding, name, language, channel.messages, max(0.0, start), max(0.0, end), lost
             )
@@ -100,32 +91,14 @@ def log_facts(paths: Sequence[Path]) -> LogFacts:
         started=datetime.fromtimestamp(log.base_ns / 1e9, UTC).isoformat(timespec="milliseconds"),
         duration=log.end_ns / 1e9,
         messages=sum(one.messages for one in channels),
-        lost=sum(sum(one.values()) for one in losses) if losses else None,
-        unwritten=sum(_unwritten(file) for file in log.files),
-        ended=ended,
+        lost=sum(counts.lost.values()) if counts is not None else None,
+        unwritten=counts.unwritten if counts is not None else 0,
+        ended=CUT_OFF if any(was_cut_off(file) for file in log.files) else None,
         size=sum(file.size for file in log.files),
         attachments=sorted({name for file in log.files for name in file.attachments}),
         metadata=sorted({name for file in log.files for name in file.metadata}),
         channels=channels,
     )
-
-
-def _losses(file: McapFile) -> dict[str, int] | None:
-    """Key → messages lost, as a recorder of keys has counted them; None without one that has reached its end."""
-    try:
-        return {str(key): int(lost) for key, lost in json.loads(file.metadata[KEYS]["lost"]).items()}
-    except (LookupError, ValueError, TypeError, AttributeError):
-        return None  # another writer may use this name
-
-
-def _is_of_keys(file: McapFile) -> bool:
-    """Whether a recorder of keys wrote this file."""
-    return any(ENCODING in channel.metadata for channel in file.channels.values())
-
-
-def _unwritten(file: McapFile) -> int:
-    text = file.metadata.get(KEYS, {}).get("unwritten", "")
-    return int(text) if text.isdecimal() else 0
 
 
 def channel_rows(facts: LogFacts) -> list[tuple[str, ...]]:

@@ -164,6 +164,20 @@ def is_match(paths: Sequence[Path]) -> bool:
     return not file.channels or MANIFEST in file.metadata or any(ROW in one.metadata for one in file.channels.values())
 
 
+def check_no_match(log: Log) -> None:
+    """Check that no file is the recording of a match, whose times are simulated ones.
+
+    Raises:
+        TouchlineError: one is.
+    """
+    for file in log.files:
+        if MANIFEST in file.metadata:
+            raise TouchlineError(
+                f"{file.path}: is the recording of a match, which is read alone; give this file, of several parts the "
+                "first"
+            )
+
+
 def open_log(paths: Sequence[Path], key_of: Callable[[str], str | None] = lambda topic: topic) -> Log:
     """Open MCAP files of any writer, and bag folders.
 

@@ -1,6 +1,5 @@
 """Records any keys of a Zenoh network into an MCAP file: payloads as they are, with the times of their arrival."""
 
-import json
 from collections import Counter, defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from recordings.container.environment import library
 from recordings.container.key_selection import KeySelection
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError, create_part
+from recordings.recorder.key_counts import KEYS, KeyCounts
 from recordings.recorder.known_schemas import KnownSchema, schema_of
 from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.recorder.settings import RecorderSettings
@@ -27,9 +27,6 @@ from runtime.process.clock import Clock, WallClock
 from runtime.process.timing import PARTING_S
 from schemas.errors import TouchlineError
 
-KEYS = "keys"
-"""Name of the metadata record at the end: the recorded key expressions, `lost`, key → messages lost, in JSON, and
-`unwritten`, the number of messages that arrived before the end and are not in the file."""
 _HALF = 1 << 31
 """Half the range of Zenoh's numbers: a greater step is one backward."""
 
@@ -190,8 +187,7 @@ class KeyRecorder:
             losses[key] += numbers.lost
         lost = dict(sorted((+losses).items()))
         self._mcap.flush()  # type: ignore[no-untyped-call]
-        counts = {"lost": json.dumps(lost), "unwritten": str(unwritten)}
-        self._mcap.add_metadata(KEYS, {"keys": " ".join(self._expressions), **counts})
+        self._mcap.add_metadata(KEYS, KeyCounts(" ".join(self._expressions), lost, unwritten).metadata())
         self._mcap.finish()  # type: ignore[no-untyped-call]
         self._file.flush()
         keys = {key for (key, _), channel in self._channels.items() if channel is not None}

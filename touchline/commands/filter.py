@@ -9,7 +9,9 @@ from touchline.commands.cli import options
 
 
 def filter(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, or any *.mcap file or bag folder.")],
+    files: Annotated[
+        list[Path], typer.Argument(metavar="FILE...", help="The recording, or any *.mcap files and bag folders.")
+    ],
     out: Annotated[Path, typer.Option(help="The file to write, *.mcap.")],
     include: options.Include = None,
     exclude: options.Exclude = None,
@@ -18,9 +20,11 @@ def filter(
 ) -> None:
     """Copy a part of a recording, selected by key and time. Messages keep their bytes, times and numbers.
 
-    Of any other MCAP file, times are seconds since its first message.
+    Any other MCAP files become one, in the order of log times; --from and --to are seconds since their first message.
 
     Example: touchline filter match.mcap --out commands.mcap --include "robot/*/command" --from 10 --to 20
+
+    Example: touchline filter robot1.mcap robot2.mcap bag --out all.mcap
     """
     from recordings.editing.filtering import filter_recording
     from recordings.editing.log_copy import copy_log
@@ -29,8 +33,8 @@ def filter(
 
     options.check_span(start, end)
     selection = options.selection(include, exclude)
-    if is_match([file]):
-        messages = filter_recording(open_recording(file), out, selection, start, end)
+    if is_match(files):
+        messages = filter_recording(open_recording(files[0]), out, selection, start, end)
     else:
-        messages = copy_log([file], out, selection, start, end)
+        messages = copy_log(files, out, selection, start, end)
     typer.echo(f"{out}: {messages} messages")

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import typer
 
-from recordings.container.manifest import MANIFEST
-from recordings.reading.log_order import open_log
+from recordings.reading.log_order import check_no_match, open_log
 from recordings.replay.log_replay import Keys, LogReplay
 from recordings.replay.player import Player
 from recordings.replay.replay import ReplaySettings
@@ -20,7 +19,6 @@ from runtime.bus.contract import PresenceKind
 from runtime.bus.endpoint import local_endpoint
 from runtime.bus.zenoh.any_keys import open_network
 from runtime.process.clock import WallClock
-from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from touchline.launch.page import serve_page_beside
 from touchline.launch.processes.programs import Page
@@ -51,12 +49,7 @@ def replay_log(
         Exit: a signal ended it.
     """
     log = open_log(files, keys.of)
-    for file in log.files:
-        if MANIFEST in file.metadata:
-            raise TouchlineError(
-                f"{file.path}: is the recording of a match, which is replayed alone; give this file, of several parts "
-                "the first"
-            )
+    check_no_match(log)
     clock = WallClock()
     stream = sys.stderr if quiet else sys.stdout
     text_of = bar_text if stream.isatty() else status_text

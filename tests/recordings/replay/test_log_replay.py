@@ -170,9 +170,11 @@ def test_a_topic_that_cannot_be_a_key_is_named_with_the_remedy(tmp_path, network
 
 def test_the_recording_of_a_match_is_not_mixed_with_other_files(tmp_path, network, recorded):
     """Its times are simulated ones, and its keys those of a match."""
-    result = replay(network, recorded.path, write_mcap(tmp_path / "other.mcap", drive(5)))
-    assert result.exit_code == 2
-    assert "is the recording of a match, which is replayed alone" in " ".join(result.output.split())
+    files = [recorded.path, write_mcap(tmp_path / "other.mcap", drive(5))]
+    words = [str(word) for word in ("filter", *files, "--out", tmp_path / "out.mcap")]
+    for result in (replay(network, *files), CliRunner().invoke(app, words, prog_name="touchline")):
+        assert result.exit_code == 2
+        assert "is the recording of a match, which is read alone" in " ".join(result.output.split())
 
 
 @pytest.fixture

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
-from mcap.writer import CompressionType, IndexType
+from mcap.writer import CompressionType, IndexType, Writer
 from typer.testing import CliRunner, Result
 
 from recordings.reading.log_order import open_log
+from recordings.recorder.key_counts import KeyCounts
 from support.foreign import START_NS, drive, write_mcap
 from touchline.commands.cli.command_line import app
 
@@ -87,6 +88,48 @@ def test_filter_copies_a_part_of_any_file_by_key_and_time(tmp_path, options):
     with out.open("rb") as copy:
         schema, channel, _ = next(make_reader(copy).iter_messages())
     assert (schema.name, channel.metadata) == ("any", {"by": "them"})
+
+
+def test_filter_makes_one_file_of_several_and_of_a_bag_folder_in_the_order_of_log_times(tmp_path):
+    bag = tmp_path / "bag"
+    bag.mkdir()
+    write_mcap(bag / "bag_0.mcap", drive(10))
+    write_mcap(bag / "bag_1.mcap", drive(10), start_ns=START_NS + 1_000_000_000)
+    other, out = write_mcap(tmp_path / "other.mcap", drive(40, "robot2", 7)), tmp_path / "all.mcap"
+    assert "all.mcap: 60 messages" in touchline("filter", bag, other, "--out", out).output
+    times = [log_ns for _, _, log_ns in read(out)]
+    assert len(times) == 60 and times == sorted(times)
+    assert [payload for topic, payload, _ in read(out) if "robot2" in topic] == [
+        one for _, _, one in drive(40, "robot2")
+    ]
+    assert f"{bag / 'bag_1.mcap'}: would overwrite" in touchline("filter", bag, "--out", bag / "bag_1.mcap").output
+
+
+def test_a_file_made_of_several_recordings_of_keys_has_the_counts_of_all(tmp_path):
+    def recorded(name: str, *counts: KeyCounts) -> Path:
+        path = tmp_path / f"{name}.mcap"
+        with path.open("wb") as file:
+            writer = Writer(file)
+            writer.start()
+            channel = writer.register_channel("robot1/odom", "json", 0, {"zenoh_encoding": "application/json"})
+            writer.add_message(channel, START_NS, b"{}", START_NS)
+            for one in counts:
+                writer.add_metadata("keys", one.metadata())
+            writer.finish()
+        return path
+
+    one = recorded("one", KeyCounts("robot1/**", {"robot1/odom": 3}, 0))
+    other = recorded("other", KeyCounts("robot1/** robot2/**", {"robot1/odom": 4, "robot2/odom": 1}, 7))
+    whole = tmp_path / "whole.mcap"
+    for files in ((one, other), (whole,)):
+        facts = json.loads(touchline("info", *files, "--json").output)
+        assert (facts["lost"], facts["unwritten"], facts["ended"]) == (8, 7, None)
+        assert [channel["lost"] for channel in facts["channels"]] == [7]
+        if not whole.exists():
+            assert touchline("filter", one, other, "--out", whole).exit_code == 0
+    assert touchline("filter", one, recorded("killed"), "--out", tmp_path / "cut.mcap").exit_code == 0
+    facts = json.loads(touchline("info", tmp_path / "cut.mcap", "--json").output)
+    assert (facts["lost"], facts["ended"]) == (None, "cut_off")
 
 
 @every_writer
