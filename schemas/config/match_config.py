@@ -28,7 +28,7 @@ from schemas.config.match_parts import (
 )
 from schemas.config.noise import PRESETS
 from schemas.config.number_files import NumberFiles
-from schemas.config.obstacle import ObstacleConfig, Shape
+from schemas.config.obstacle import MAX_OBSTACLES, ObstacleConfig, Shape
 from schemas.config.profile import FILES as PROFILES
 from schemas.config.profile import Profile, load_profile, profile_of
 from schemas.config.roster import MAX_ROBOTS, RESERVED
@@ -37,7 +37,7 @@ from schemas.config.scene import Scene, load_scene
 from schemas.config.settings import DEFAULT_MATCH
 from schemas.config.soccer.rule_book import FILES as RULE_BOOKS
 from schemas.config.soccer.rule_book import RuleBook, load_rule_book, rule_book_of
-from schemas.config.toml_file import read_tables, validate_tables
+from schemas.config.toml_file import read_tables, validate_tables, with_files
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
 from schemas.soccer.game import OfficiatingMode
@@ -67,7 +67,7 @@ REMEDIES = {
     "teams.magenta.stdio": 'write ["program", "argument"]',
     "teams.cyan.types": 'write robot = "type", for example { cyan1 = "keeper" }',
     "teams.magenta.types": 'write robot = "type", for example { magenta1 = "keeper" }',
-    "obstacles": "write [[obstacles]] above each obstacle",
+    "obstacles": f"write [[obstacles]] above each of at most {MAX_OBSTACLES} obstacles",
     "obstacles.shape": f"one of {', '.join(Shape)}",
     "obstacles.place": "x and y of the centre in m",
     "obstacles.size": "x, y and z of a box in m",
@@ -120,7 +120,7 @@ class MatchConfig(ConfigModel):
     types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
     """Type of robot → sections of numbers that differ from the profile's; adds types, or changes those of the
     profile."""
-    obstacles: list[ObstacleConfig] = Field(default_factory=list)
+    obstacles: Annotated[list[ObstacleConfig], Field(max_length=MAX_OBSTACLES)] = Field(default_factory=list)
     """Obstacles on the pitch when the match begins."""
     noise: NoiseConfig = NoiseConfig()
     """Quality of the robots' perception."""
@@ -250,7 +250,7 @@ def load_match(path: Path | str | None, overrides: dict[str, Any] | None = None)
     """
     where = str(path) if path is not None else "match"
     folders = [Path(path).parent if path is not None else Path(), Path()]
-    content = read_tables(Path(path), "a match file") if path is not None else {}
+    content = with_files(read_tables(Path(path), "a match file"), folders[0]) if path is not None else {}
     for key, value in (overrides or {}).items():
         _set_at_path(content, key.split("."), value)
         if value is True and key in _REMOTE_KEYS:

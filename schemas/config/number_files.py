@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from schemas.config.quantity import merge_tables, read_section
-from schemas.config.toml_file import UNREADABLE
+from schemas.config.toml_file import UNREADABLE, from_folder
 from schemas.errors import TouchlineError, did_you_mean
 
 VERSION_KEY = "version"
@@ -48,7 +48,7 @@ class NumberFiles:
         parent = tables.pop("extends", None)
         if parent is None:
             return tables
-        base = self.tables(str(parent), (*below, name))
+        base = self.tables(from_folder(Path(name).parent, str(parent)), (*below, name))
         inherited = {key: value for key, value in base.items() if key not in HEADER}
         return merge_tables(inherited, tables)
 

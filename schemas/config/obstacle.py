@@ -14,7 +14,8 @@ from schemas.wire.message import Name
 Length = Annotated[float, Field(ge=0.02, le=5)]
 """m; a fast ball would pass through a thinner body in one physics step."""
 
-
+MAX_OBSTACLES = 100
+"""Most obstacles of a match. Chosen here."""
 _OF_MOVABLES = frozenset({"mass", "friction"})
 """Keys that are omitted where they are None: without them, matches are the same as before there were any."""
 _FRICTION = 0.5

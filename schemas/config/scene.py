@@ -11,10 +11,10 @@ from pydantic import Field, StringConstraints, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.number_files import NumberFiles
-from schemas.config.obstacle import ObstacleConfig
+from schemas.config.obstacle import MAX_OBSTACLES, ObstacleConfig
 from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.config.soccer.drill import Drill, Variation
-from schemas.config.toml_file import validate_tables
+from schemas.config.toml_file import validate_tables, with_files
 from schemas.errors import did_you_mean
 from schemas.side import Side
 from schemas.soccer.game import RESTARTS, SIDED, Phase
@@ -140,7 +140,7 @@ class Scene(ConfigModel):
     """Place and velocity of the ball."""
     robots: Annotated[list[SceneRobot], Field(min_length=1, max_length=2 * MAX_ROBOTS)]
     """The robots of both sides."""
-    obstacles: Annotated[list[ObstacleConfig], Field(max_length=100)] = Field(default_factory=list)
+    obstacles: Annotated[list[ObstacleConfig], Field(max_length=MAX_OBSTACLES)] = Field(default_factory=list)
     """The obstacles on the pitch."""
     drill: Drill | None = None
     """What makes it a drill: its end and verdict; a match that starts in the scene plays on."""
@@ -212,6 +212,6 @@ def load_scene(name: str) -> Scene:
     Raises:
         TouchlineError: there is no such scene, or it is invalid; names file, key, value and remedy.
     """
-    content = NumberFiles("scene", "scenes", tuple(shipped_scenes())).read(name)
+    content = with_files(NumberFiles("scene", "scenes", tuple(shipped_scenes())).read(name), Path(name).parent)
     content.setdefault("name", Path(name).stem)
     return validate_tables(Scene, content, name, REMEDIES)

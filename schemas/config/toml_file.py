@@ -15,7 +15,21 @@ from schemas.wire.model_faults import fault_of
 
 UNREADABLE = (ValueError, RecursionError)
 """What is raised for no TOML, no UTF-8, an integer of thousands of digits, and lists in lists in lists."""
+FILE_KEYS = ("scene", "profile", "rules")
+"""Keys of a match file that may name files."""
 M = TypeVar("M", bound=BaseModel)
+
+
+def from_folder(folder: Path, name: str) -> str:
+    """The path of a file that a file in this folder names: from there, or else from the current directory."""
+    found = folder / name
+    return str(found) if name.endswith(".toml") and found.is_file() else name
+
+
+def with_files(content: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Keys of a match file, with the paths of the files that a file in this folder names."""
+    names = {key: content[key] for key in FILE_KEYS if isinstance(content.get(key), str)}
+    return content | {key: from_folder(folder, name) for key, name in names.items()}
 
 
 def read_tables(path: Path, kind: str) -> dict[str, Any]:

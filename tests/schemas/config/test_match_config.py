@@ -54,6 +54,10 @@ def test_the_name_of_a_shipped_team_is_a_brain(tmp_path: Path) -> None:
         ),
         ("[profile_tables]", 'profile_tables is not for match files; write profile = "FILE.toml"'),
         ("obstacles = 3", "obstacles is 3; write [[obstacles]]"),
+        (
+            "[[obstacles]]\nname = 'a'\nshape = 'box'\nplace = [0, 0]\nsize = [1, 1, 1]\n" * 101,
+            "each of at most 100 obst",
+        ),
         ('[[obstacles]]\nname = "b"', "obstacles.0.shape is missing; one of cylinder, box"),
         (
             '[[obstacles]]\nname = "b"\nshape = "ball"\nplace = [0, 0]',
@@ -123,6 +127,29 @@ def test_a_match_holds_its_scene_and_profile_whatever_becomes_of_their_files(tmp
     assert (arrived.robots(Side.CYAN), arrived.robots(Side.MAGENTA)) == (["anna"], [])
     assert (arrived.rules, arrived.profile, arrived.load_profile().drive.max_speed) == ("msl", str(profile), 1.5)
     assert arrived.load_profile().origins["drive.max_speed"] == "ours"
+
+
+def test_files_are_named_from_the_folder_of_the_file_that_names_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "ours"
+    folder.mkdir()
+    number = '{{ value = {}, unit = "s", origin = "ours" }}'
+    (folder / "base.toml").write_text(f'extends = "msl"\n[periods]\nparking = {number.format(3.0)}\n')
+    (folder / "short.toml").write_text(f'extends = "base.toml"\n[periods]\nhalf_time_break = {number.format(2.0)}\n')
+    (folder / "slow.toml").write_text('extends = "omni"\n')
+    scene = (
+        'description = "Ours."\nrules = "short.toml"\nrobots = [{ name = "anna", side = "cyan", x = 0.0, y = 0.0 }]\n'
+    )
+    (folder / "mine.toml").write_text(scene)
+    (folder / "match.toml").write_text('rules = "short.toml"\nprofile = "slow.toml"\n')
+    (folder / "scene.toml").write_text('scene = "mine.toml"\n')
+    monkeypatch.chdir(tmp_path)
+    for name in ("match", "scene"):
+        book = load_match(f"ours/{name}.toml").load_rule_book()
+        assert (book.periods.half_time_break, book.periods.parking) == (2.0, 3.0)
+    with pytest.raises(TouchlineError, match=r'rules is "short.toml": No such file'):
+        load_match("ours/match.toml", {"rules": "short.toml"})
 
 
 def test_a_shipped_profile_takes_the_place_of_the_files_profile(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from schemas.config.config_model import ConfigModel
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.match_parts import DEFAULT_SIZE
 from schemas.config.roster import MAX_ROBOTS
-from schemas.config.toml_file import read_tables, validate_tables
+from schemas.config.toml_file import read_tables, validate_tables, with_files
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.message import Name
 from touchline.matches.cup.formats.swiss import most_rounds
@@ -236,7 +236,10 @@ def load_cup(path: Path) -> CupConfig:
     Raises:
         TouchlineError: one line that names file, key, value and remedy.
     """
-    cup = validate_tables(CupConfig, read_tables(path, "a cup file"), str(path), REMEDIES)
+    content = read_tables(path, "a cup file")
+    if isinstance(content.get("match"), dict):
+        content["match"] = with_files(content["match"], path.parent)
+    cup = validate_tables(CupConfig, content, str(path), REMEDIES)
     try:
         cup.match_config()
     except TouchlineError as error:

@@ -9,6 +9,7 @@ from typing import Any
 
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.shipped_teams import brain_of
+from schemas.config.toml_file import with_files
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.matches.series.plan import with_brains
@@ -52,11 +53,11 @@ def cells_of(study: Study, folder: Path) -> list[Cell]:
         TouchlineError: a level is not valid in a match file.
     """
     match = folder / study.match if study.match is not None else None
-    return [Cell(levels, _config(study, levels, match)) for levels in combinations(study)]
+    return [Cell(levels, _config(study, levels, match, folder)) for levels in combinations(study)]
 
 
-def _config(study: Study, levels: Mapping[str, Any], match: Path | None) -> MatchConfig:
-    keys = {SHORT_KEYS.get(key, key): value for key, value in {**study.settings, **levels}.items()}
+def _config(study: Study, levels: Mapping[str, Any], match: Path | None, folder: Path) -> MatchConfig:
+    keys = with_files({SHORT_KEYS.get(key, key): value for key, value in {**study.settings, **levels}.items()}, folder)
     teams = {side: keys.pop(side.value) for side in Side if side.value in keys}
     for side, team in teams.items():
         if not isinstance(team, str):

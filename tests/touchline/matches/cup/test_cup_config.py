@@ -44,6 +44,14 @@ def test_keys_of_the_match_are_those_of_a_match_file(tmp_path: Path) -> None:
     assert (config.duration, config.radio.loss) == (20.0, 0.5)
 
 
+def test_the_rule_book_that_the_docs_shorten_matches_with_is_in_the_folder_of_the_cup(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[4] / "docs" / "many_matches.md").read_text()
+    text = next(part for part in page.split("```toml\n") if part.startswith('extends = "msl"')).partition("```")[0]
+    (tmp_path / "short.toml").write_text(text)
+    periods = cup_of(tmp_path, f'[match]\nrules = "short.toml"\n{TEAMS}').match_config().load_rule_book().periods
+    assert (periods.parking, periods.half_time_break) == (0.0, 2.0)
+
+
 @pytest.mark.parametrize(
     ("text", "line"),
     [

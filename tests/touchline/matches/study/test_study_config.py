@@ -78,6 +78,13 @@ def test_a_missing_study_file_is_named() -> None:
         load_study(Path("nowhere.toml"))
 
 
+def test_a_rule_book_that_is_a_level_is_in_the_folder_of_the_study(plan: MakePlan, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text('extends = "msl"\n')
+    cells = plan('[factors]\nrules = ["msl", "mine.toml"]').cells
+    assert [cell.label for cell in cells] == ["rules = msl", "rules = mine.toml"]
+    assert [cell.config.rule_book_tables is None for cell in cells] == [True, False]
+
+
 def test_a_level_that_no_match_file_may_have_is_refused_by_its_key(plan: MakePlan) -> None:
     with pytest.raises(TouchlineError, match=r"radio\.loss is 3"):
         plan("[factors]\nradio.loss = [0, 3]")
