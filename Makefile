@@ -2,7 +2,7 @@
 # into .venv. Its packages are pinned by hash in requirements.lock.
 
 .DEFAULT_GOAL := help
-.PHONY: help match quick test test-all check bench bench-network bench-play bench-scheduling soak lowest mutants clean
+.PHONY: help match quick test test-all check bench bench-against bench-network bench-play bench-scheduling soak lowest mutants clean
 READY := .venv/.ready
 # Compiled once: where Python writes no bytecode, as in many containers, each process would compile them at its start.
 PACKAGES := schemas runtime sim_host robot_agent coach_gateway recordings touchline
@@ -36,7 +36,10 @@ check: $(READY) ## format, lint, types, the contracts on imports, and the lines 
 	@.venv/bin/python .ci/check_budgets.py
 
 bench: $(READY) ## run every benchmark but those of play and of plans of matches
-	@for bench in $(filter-out benchmarks/bench_play.py benchmarks/bench_scheduling.py, $(wildcard benchmarks/bench_*.py)); do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done
+	@for bench in $(filter-out benchmarks/bench_against.py benchmarks/bench_play.py benchmarks/bench_scheduling.py, $(wildcard benchmarks/bench_*.py)); do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done
+
+bench-against: $(READY) ## compare the CPU time of matches with another revision's: make bench-against REV=main~20 ARGS="--rounds 8"
+	@.venv/bin/python benchmarks/bench_against.py $(REV) $(ARGS)
 
 bench-network: $(READY) ## measure match quality over delay, loss and cuts, for example: make bench-network ARGS="--seconds 60"
 	@.venv/bin/python benchmarks/bench_network.py $(ARGS)
