@@ -63,17 +63,20 @@ def test_brains_keep_nothing_from_one_match_to_the_next(match_file: Path) -> Non
 
 
 def test_a_recording_of_each_match_has_the_same_figures_and_can_be_verified(match_file: Path, tmp_path: Path) -> None:
-    found = rows(match_file, "--seeds", "3", "--both-sides", "--record", tmp_path / "kept")
+    words = ("--seeds", "3", "--both-sides", "--set", "teams.cyan.size=2", "--record", tmp_path / "kept")
+    found = rows(match_file, *words)
     files = [tmp_path / "kept" / name for name in ("seed_3.mcap", "seed_3_swapped.mcap")]
     assert sorted((tmp_path / "kept").iterdir()) == sorted(files)
     for row, file in zip(found["matches"], files, strict=True):
         figures = figures_of_recording(open_recording(file))
         assert row["in_play_s"] == figures.in_play_s
         sides = list(Side)[::-1] if row["swapped"] else list(Side)
-        ways = [[robot.clock_distance for robot in figures.robots if robot.side == side] for side in sides]
+        field = [robot for robot in figures.robots if not robot.keeper]
+        ways = [[robot.clock_distance for robot in field if robot.side == side] for side in sides]
         possession = [figures.sides[side].possession_s or 0.0 for side in sides]
         assert [team["possession_s"] for team in row["teams"]] == possession
-        assert [team["field_distance"] for team in row["teams"]] == [0.0, 0.0]  # a goalkeeper each
+        assert [team["field_robots"] for team in row["teams"]] == [1, 0]
+        assert [team["field_distance"] for team in row["teams"]] == [sum(way) for way in ways]
         assert sum(map(sum, ways)) > 0
         assert verify(file).identical
 
