@@ -110,6 +110,7 @@ def run(
     if json:
         content = {"folder": str(folder), "seeds": result.seeds, "played": result.played, "answers": sentences}
         content["failed"] = [{"identity": one.identity, "reason": one.reason} for one in failed]
+        content["disturbed"] = result.disturbed
         typer.echo(json_text(content))
     else:
         for sentence in sentences:
@@ -117,6 +118,9 @@ def run(
         typer.echo(f"report  {folder / REPORT}")
     if failed:
         typer.echo(f"{len(failed)} matches failed: {failed[0].reason}", err=True)
+    for sentence in result.disturbed:
+        typer.echo(f"match {sentence}", err=True)
+    if failed or result.disturbed:
         raise typer.Exit(FAILED)
 
 

@@ -88,7 +88,7 @@ def tournament(
     if session.is_interrupted:
         typer.echo(f"interrupted; --resume goes on with the matches that are missing in {place}", err=True)
         raise typer.Exit(128 + signal.SIGINT)
-    if not run.state.is_complete:
+    if run.state.disturbed or not run.state.is_complete:
         raise typer.Exit(FAILED)
 
 

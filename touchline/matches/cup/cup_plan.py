@@ -13,6 +13,7 @@ from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from schemas.soccer.game import Card
+from touchline.launch.terminal.agent_faults import disturbance
 from touchline.matches.cup.cup_config import CupConfig, TeamEntry
 from touchline.matches.cup.cup_state import CupState, Ended, Slot, state_of
 from touchline.matches.cup.match_result import MatchResult, Pair
@@ -92,7 +93,8 @@ class CupPlan:
     def ended(self, slot: Slot, outcome: Outcome) -> Ended:
         """How a match ended, in the order of the teams of its fixture."""
         if isinstance(outcome, Played):
-            return Ended(_result(slot, outcome), outcome.identity, recording=outcome.recording, chain=outcome.chain)
+            result, reason = _result(slot, outcome), disturbance(outcome.missed) or None
+            return Ended(result, outcome.identity, reason, outcome.recording, chain=outcome.chain)
         return self._forfeited(slot, outcome)
 
     def _forfeited(self, slot: Slot, failed: Failed) -> Ended:

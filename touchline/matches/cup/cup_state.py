@@ -68,7 +68,7 @@ class Ended:
     identity: str = ""
     """Digest of all that determines the match."""
     reason: str | None = None
-    """Why it was forfeited or failed."""
+    """Why it was forfeited or failed, or what else than its seed it depends on."""
     recording: str | None = None
     """The path of its recording in the folder of the cup."""
     evidence: str | None = None
@@ -137,6 +137,11 @@ class CupState:
     def is_complete(self) -> bool:
         """Whether all matches have a result."""
         return all(one.result is not None for one in self.matches)
+
+    @property
+    def disturbed(self) -> list[CupMatch]:
+        """Matches that were played, and depend on more than their seeds."""
+        return [one for one in self.matches if one.state is MatchState.PLAYED and one.ended and one.ended.reason]
 
     @property
     def results(self) -> list[MatchResult]:

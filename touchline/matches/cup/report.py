@@ -4,7 +4,7 @@ from dataclasses import asdict
 from typing import Any
 
 from touchline.launch.terminal.aligned import aligned
-from touchline.matches.cup.cup_state import CupMatch, CupState, MatchState
+from touchline.matches.cup.cup_state import CupMatch, CupState
 from touchline.matches.cup.match_result import score_text, scored
 from touchline.matches.cup.site import signed
 from touchline.matches.statistics.ratings import rate
@@ -43,7 +43,7 @@ def report_text(state: CupState) -> str:
         lines += [f"{name} is level, and decided by {criterion}" for name, criterion in bracket.decided_by.items()]
         lines.append("")
     for one in state.matches:
-        if one.state in (MatchState.FORFEITED, MatchState.FAILED) and one.ended is not None:
+        if one.ended is not None and one.ended.reason is not None:
             lines.append(f"{one.slot.name} {one.state}: {one.ended.reason}")
     rated = rate(state.cup.names, scored(state.results))
     cells = [(one.team, signed(one.value), f"{signed(one.low)} to {signed(one.high)}") for one in rated.teams]

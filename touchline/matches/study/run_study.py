@@ -2,7 +2,7 @@
 
 import json
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from contextlib import closing
 from dataclasses import dataclass
@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from schemas.errors import MatchFailedError, TouchlineError
+from touchline.launch.terminal.agent_faults import disturbance
 from touchline.matches.engine.outcome import Failed, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import ProgressDisplay
@@ -33,6 +34,8 @@ class StudyResult:
     seeds: list[int]
     played: int
     failed: list[Failed]
+    disturbed: list[str]
+    """Identities of matches that depend on more than their seeds, with the reason."""
 
 
 def run_study(
@@ -71,14 +74,16 @@ def run_study(
             _measure(plan, folder, functions, outcome)
         outcomes = run_plan(plan, executor, store, told, progress, is_remote=is_remote)
     seeds = plan.seeds_due(outcomes)
-    failed = _failed(plan, seeds, outcomes)
+    of_plan = [outcomes[match.identity] for match in plan.matches(seeds)]
+    failed = [one for one in of_plan if isinstance(one, Failed)]
+    missed = {one.identity: one.missed for one in of_plan if isinstance(one, Played) and one.missed}
     if len(failed) == len(plan.matches(seeds)):
         raise MatchFailedError(f"all {len(failed)} matches failed: {failed[0].reason}; mend it and run with --fresh")
     table = plan.table(seeds, outcomes)
     write_results(folder, table)
     (folder / REPORT).write_text(report_of(plan, table, seeds, failed, versions(engine)), "utf-8")
     write_digests(folder, seeds, code)
-    return StudyResult(seeds, len(table), failed)
+    return StudyResult(seeds, len(table), failed, [f"{name}: {disturbance(by)}" for name, by in missed.items()])
 
 
 def _measure(plan: StudyPlan, folder: Path, functions: Mapping[str, Callable[..., Any]], outcome: Outcome) -> None:
@@ -97,8 +102,3 @@ def _check_code(store: RunStore, code: Mapping[str, str]) -> None:
             "folder with --out"
         )
     store.set_document(_CODE, as_text(dict(code)))
-
-
-def _failed(plan: StudyPlan, seeds: Sequence[int], outcomes: Mapping[str, Outcome]) -> list[Failed]:
-    of_plan = (outcomes[match.identity] for match in plan.matches(seeds))
-    return [outcome for outcome in of_plan if isinstance(outcome, Failed)]

@@ -1,6 +1,7 @@
 """The state of a cup is a function of how its matches ended."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -144,6 +145,16 @@ def test_after_a_match_on_swapped_sides_goals_cards_and_a_forfeit_are_those_of_t
     assert plan.ended(slot, played).result == MatchResult(("A", "B"), (0, 2), (4, 3), yellows=(0, 1), reds=(1, 0))
     crashed = Failed("", FailureKind.CRASHED, "no ball", (Side.CYAN,))
     assert plan.ended(slot, crashed).result == MatchResult(("A", "B"), (3, 0), forfeited_by=("B",))
+
+
+def test_a_cup_names_matches_that_depend_on_more_than_their_seeds() -> None:
+    plan, cup = CupPlan(cup_of(FormatKind.ROUND_ROBIN), Path(), Path(), {}), cup_of(FormatKind.ROUND_ROBIN)
+    sides = {side: SimpleNamespace(goals=1, shoot_out=0, cards={}) for side in Side}
+    slow = Played("", SimpleNamespace(sides=sides), 60.0, "chain", missed={"cyan3": 7})
+    state = state_of(cup, lambda slot: plan.ended(slot, slow if slot.name == "league 2" else replace(slow, missed={})))
+    assert [one.slot.name for one in state.disturbed] == ["league 2"]
+    sentence = "the match does not depend on its seed alone: sights without an answer: cyan3 7"
+    assert f"league 2 played: {sentence}" in report_text(state)
 
 
 def test_files_of_matches_have_plain_and_different_names() -> None:

@@ -3,6 +3,8 @@
 import json
 import shutil
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +16,7 @@ pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 pd = pytest.importorskip("pandas", reason="experiments need the extra study")
 
+from touchline.matches.engine.store import RunStore  # noqa: E402
 from touchline.matches.study.comparisons import answers, compared  # noqa: E402
 from touchline.matches.study.study_folder import read_study  # noqa: E402
 from touchline.matches.study.verify_study import verify_study  # noqa: E402
@@ -87,6 +90,15 @@ def test_a_study_in_which_every_match_fails_says_why(run: Run, tmp_path: Path) -
     )
     with pytest.raises(MatchFailedError, match=r"all 4 matches failed: cyan1.*no idea"):
         run(SHORT.replace("[settings]", '[settings]\ncyan = "raises_always:Broken"'))
+
+
+def test_a_study_names_matches_that_depend_on_more_than_their_seeds(run: Run, home: Path) -> None:
+    assert run(ONE_CELL).disturbed == []
+    with closing(RunStore(home)) as store:
+        played = next(iter(store.outcomes().values()))
+        store.add(replace(played, missed={"cyan1": 3}))
+    sentence = "the match does not depend on its seed alone: sights without an answer: cyan1 3"
+    assert run(ONE_CELL).disturbed == [f"{played.identity}: {sentence}"]
 
 
 def test_a_team_against_itself_shows_no_effect_and_one_robot_less_shows_one(run: Run, home: Path) -> None:
