@@ -30,7 +30,7 @@ import { keepToken, tokenHere } from "./link/token.js";
 const match = new Match();
 const selection = new Selection();
 const connection = new Connection(tokenHere(), (message) => match.receive(message), (up) => changed(up), () => board.update());
-const requests = new Requests(connection);
+const requests = new Requests(connection, match);
 const layers = new Layers(match);
 const pitchCanvas = new PitchCanvas(byId("ground"), byId("moving"), match, layers, selection);
 const board = new Scoreboard(match, connection);

@@ -1,6 +1,7 @@
-// Requests for deeds: each reply is shown beside its button or field, and kept in a log.
+// Requests for deeds: each reply is shown beside its button or field, and kept in a log with the requests of others.
 
 import { byId, element } from "../shared/elements.js";
+import { clockText } from "../parts/text.js";
 
 const ACCEPTED_MS = 2500;
 const REFUSED_MS = 9000;
@@ -8,9 +9,12 @@ const MOST = 200; // lines of the log
 
 export class Requests {
   #bubbles = new Map();
+  #own = []; // actions of this page whose events have not come yet
+  #heard = new Set();
 
-  constructor(connection) {
-    this.connection = connection;
+  constructor(connection, match) {
+    Object.assign(this, { connection, match });
+    match.on("event", () => this.#hear(match.events.at(-1)));
     addEventListener("scroll", () => this.#follow(), { capture: true, passive: true });
     addEventListener("resize", () => this.#follow());
   }
@@ -18,8 +22,10 @@ export class Requests {
   /** Requests a deed that people know as `words`; the verdict is shown beside the element `source`, if there is one. */
   async ask(source, words, deed, content) {
     source?.classList.add("asking");
+    if (deed === "action") this.#own.push(content.action.action);
     const reply = await this.connection.ask(deed, content);
     source?.classList.remove("asking");
+    if (deed === "action" && !reply.accepted) this.#own.splice(this.#own.indexOf(content.action.action), 1);
     this.show(source, words, reply);
     return reply;
   }
@@ -27,17 +33,26 @@ export class Requests {
   /** Shows a verdict. */
   show(source, words, { accepted, reason }) {
     const verdict = accepted ? "accepted" : `refused: ${reason}`;
-    this.#note(words, verdict, accepted);
+    this.#note(words, verdict, accepted, this.match.frames.newest?.clock ?? 0);
     if (source?.isConnected) this.#bubble(source, `${accepted ? "✓" : "✗"} ${verdict}`, accepted);
   }
 
-  #note(words, verdict, accepted) {
-    const log = byId("log");
-    const time = new Date().toTimeString().slice(0, 8);
-    log.prepend(
-      element("li", { class: accepted ? "accepted" : "refused" }, element("time", {}, time), element("b", {}, words), ` ${verdict}`),
-    );
+  /** Lists an action that the referee has accepted, unless this page requested it; events come again with each welcome. */
+  #hear({ kind, tick, rule, clock, text }) {
+    const key = `${tick} ${text}`;
+    if (!this.match.live || kind !== "action" || !text.includes(" requests: ") || this.#heard.has(key)) return;
+    this.#heard.add(key);
+    const place = this.#own.indexOf(rule);
+    if (place < 0) this.#note(text, "accepted", true, clock).classList.add("of-others");
+    else this.#own.splice(place, 1);
+  }
+
+  #note(words, verdict, accepted, clock) {
+    const log = byId("log"), looks = { class: accepted ? "accepted" : "refused" };
+    const row = element("li", looks, element("time", {}, clockText(clock)), element("b", {}, words), ` ${verdict}`);
+    log.prepend(row);
     while (log.childElementCount > MOST) log.lastElementChild.remove();
+    return row;
   }
 
   #bubble(source, text, accepted) {

@@ -23,8 +23,8 @@ export class Timeline {
   /** Draws the background for the current size; `draw` adds the current time. */
   fit() {
     const density = window.devicePixelRatio || 1;
-    this.canvas.width = Math.round(this.canvas.clientWidth * density);
-    this.canvas.height = Math.round(this.canvas.clientHeight * density);
+    this.canvas.width = Math.max(1, Math.round(this.canvas.clientWidth * density)); // on paper it has no size
+    this.canvas.height = Math.max(1, Math.round(this.canvas.clientHeight * density));
     this.density = density;
     this.background = document.createElement("canvas");
     this.background.width = this.canvas.width;

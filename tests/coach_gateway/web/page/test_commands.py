@@ -94,6 +94,21 @@ def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
     tab.until("document.getElementById('proposal').hidden")
 
 
+def test_the_log_lists_the_requests_of_other_pages_too_and_each_request_once(resting, visit) -> None:
+    tab, other = visit(resting, "referee"), visit(resting, "referee")
+    tab.press("stop")
+    tab.wait_for_log("Stop accepted")
+    other.wait_for_log("referee's page requests: stop")
+    other.press("drop_ball")
+    other.wait_for_log("Drop ball accepted")
+    tab.wait_for_log("referee's page requests: drop ball")
+    for page in (tab, other, visit(resting, "cyan")):
+        page.until("document.querySelectorAll('#log li').length >= 2")
+        page.page.wait_for_timeout(200)
+        requests = [line for line in page.page.locator("#log li").all_text_contents() if "start" not in line]
+        assert len(requests) == 2, requests
+
+
 def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> None:
     tab = visit(match, "referee")
     assert tab.ask("location.href") == f"{tab.origin}/"

@@ -81,7 +81,7 @@ def test_an_order_in_force_is_named_in_the_header_and_by_its_button(
     tab = tabs["referee"]
     assert tab.button("park_order", "magenta").get_attribute("aria-pressed") == "true"
     assert tab.button("play_order", "magenta").get_attribute("aria-pressed") == "false"
-    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'park, acknowledged'")
+    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]')?.textContent === 'park, acknowledged'")
     order(2, CoachMode.HOLD, CoachMode.PARK)
     wait_for_words(cyan="Ordered: Lions hold", referee="Ordered: Lions hold, NuBot park")
     assert tab.ask(
@@ -130,3 +130,5 @@ def test_the_header_cuts_neither_the_phase_nor_the_half_nor_the_time_left(
         for name in ("phase", "half", "left"):
             cut = "(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)"
             assert tab.ask(f"{cut}(document.getElementById({name!r}))") <= 0, name
+            place, field = (tab.page.locator(one).bounding_box() for one in (f"#{name}", ".pitch-section"))
+            assert place["y"] + place["height"] <= field["y"] + 1, name

@@ -331,6 +331,17 @@ def test_print_keeps_bars_and_colours(opened: Opened) -> None:
     assert opened.page.evaluate("getComputedStyle(document.getElementById('events')).overflowY") == "visible"
 
 
+def test_paper_of_another_width_is_printed_without_an_error(browser: Browser, made: tuple[MatchFigures, Path]) -> None:
+    """Its time line is not printed, and has no size."""
+    tab = Opened(browser, made[1])
+    tab.page.emulate_media(media="print")
+    tab.page.set_viewport_size({"width": 700, "height": 900})
+    tab.until("document.getElementById('momentum').width < 700")
+    tab.page.evaluate("window.touchline.player.seek(3.0)")
+    assert tab.faults == []
+    tab.context.close()
+
+
 def test_a_phone_shows_all_columns_of_the_robots(browser: Browser, made: tuple[MatchFigures, Path]) -> None:
     tab = Opened(browser, made[1], 390, 844)
     last = tab.page.locator("#robots thead th").last.bounding_box()
