@@ -42,7 +42,9 @@ def tournament(
         int | None,
         typer.Option(metavar="MATCHES", help="Add rounds until the order is significant, up to this many matches."),
     ] = None,
-    sample: Annotated[int, typer.Option(min=0, help="Of verify: simulate this many matches again; 0 for all.")] = 0,
+    sample: Annotated[
+        int | None, typer.Option(min=0, help="Of verify: read and simulate only this many matches.")
+    ] = None,
     brains: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Of verify: where teams are looked for; by default as then.")
     ] = None,
@@ -64,7 +66,7 @@ def tournament(
     if str(file) == VERIFY:
         if folder is None:
             raise TouchlineError("verify needs the folder of a cup: touchline tournament verify runs/cup")
-        _verify(folder, jobs, sample or None, brains, json=json)
+        _verify(folder, jobs, sample, brains, json=json)
         return
     if str(file) == DIGEST:
         if folder is None:

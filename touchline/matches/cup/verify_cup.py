@@ -15,7 +15,8 @@ from touchline.matches.cup.cup_plan import CupPlan, config_with, digests_of, sto
 from touchline.matches.cup.cup_state import CupState
 from touchline.matches.cup.report import RESULT, report_of
 from touchline.matches.cup.site import standings
-from touchline.matches.engine.outcome import Played
+from touchline.matches.engine.outcome import Failed, Played
+from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.progress import ProgressDisplay
 from touchline.matches.engine.store import RunStore
 from touchline.matches.engine.verify import Depth, sampled, verify_run
@@ -45,12 +46,12 @@ def verify_cup(
     code_folder: Path | None = None,
     progress: ProgressDisplay | None = None,
 ) -> CupVerdict:
-    """Check a cup. Results are compared for all matches; `sample` of them are simulated again, drawn at random.
+    """Check a cup: its files and its table, and `sample` of its matches, drawn at random, by their recordings.
 
     Args:
         folder: the cup's.
         executor: where matches are checked.
-        sample: number of matches to simulate again; None for all.
+        sample: number of matches whose recordings are read and simulated again; None for all.
         code_folder: where teams are looked for; by default where they were when the cup was played.
         progress: shows each match that was checked.
 
@@ -69,20 +70,23 @@ def verify_cup(
     faults = [
         f"{identity}: a stored outcome is of no match of the cup" for identity in outcomes if identity not in known
     ]
-    played = [one for one in matches if isinstance(outcomes.get(one.identity), Played)]
-    again = {one.identity for one in sampled(played, sample)}
+    played, failed = (
+        [one for one in matches if isinstance(outcomes.get(one.identity), kind)] for kind in (Played, Failed)
+    )
+    again = sampled(played, sample)
+    faults += [f"{one.label}: its recording is gone" for one in played if one not in again and not _is_there(one)]
     code_faults, notes = _code_checks(plan)
     faults += code_faults
     ticks = 0
-    ended = [one for one in matches if one.identity in outcomes]
-    checks = verify_run(
-        ended, outcomes, folder, executor, lambda one: Depth(one.identity in again, code=False), progress
-    )
-    for check in checks:
+    for check in verify_run([*failed, *again], outcomes, folder, executor, Depth(code=False), progress):
         faults += [f"{check.label}: {fault}" for fault in check.faults]
         ticks += check.ticks
     faults += _table_faults(state, folder)
     return CupVerdict(faults, notes, len(again), ticks)
+
+
+def _is_there(planned: PlannedMatch) -> bool:
+    return planned.recording is None or planned.recording.exists()
 
 
 def _code_checks(plan: CupPlan) -> tuple[list[str], list[str]]:

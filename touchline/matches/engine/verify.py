@@ -1,7 +1,7 @@
 """Checks a finished run: simulates recordings again, and compares what its table says with them."""
 
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -63,10 +63,8 @@ def sampled(matches: list[PlannedMatch], number: int | None) -> list[PlannedMatc
 
 @dataclass(frozen=True, slots=True)
 class Depth:
-    """How much of a match is checked; its result is compared with its recording in any case."""
+    """What is checked of a match besides its result and its recording."""
 
-    again: bool = True
-    """It is simulated or played again."""
     code: bool = True
     """The files of its teams are compared with their digests."""
     recordings: bool = False
@@ -80,20 +78,19 @@ def verify_run(
     outcomes: Mapping[str, Result | Failed],
     folder: Path,
     executor: Executor,
-    depth_of: Callable[[PlannedMatch], Depth] = lambda _: Depth(),
+    depth: Depth | None = None,
     progress: ProgressDisplay | None = None,
 ) -> Iterator[MatchCheck]:
     """Check each match on the executor; yields each check when it is there, and shows it.
 
     A match with a recording is simulated again from that. One without is played again, in the way it was planned.
     """
+    depth = depth or Depth()
     if progress is not None:
         progress.planned(0, len(matches))
     with StopSignals() as stop:
         ended = Completions(stop)
-        futures = {
-            executor.submit(check_match, one, outcomes.get(one.identity), folder, depth_of(one)): one for one in matches
-        }
+        futures = {executor.submit(check_match, one, outcomes.get(one.identity), folder, depth): one for one in matches}
         for future in futures:
             ended.add(future)
         for _ in matches:
@@ -101,7 +98,7 @@ def verify_run(
             try:
                 check: MatchCheck = future.result()
             except DiedProcessError as error:
-                fails_again = depth_of(planned).failures and planned.identity not in outcomes
+                fails_again = depth.failures and planned.identity not in outcomes
                 faults = () if fails_again else (f"it could not be checked: {error}",)
                 check = MatchCheck(planned.identity, planned.label, faults)
             if progress is not None:
@@ -134,8 +131,8 @@ def check_match(
             faults.append(f"its evidence {outcome.evidence} is gone")
         return MatchCheck(planned.identity, planned.label, tuple(faults))
     if outcome.recording is not None:
-        ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome, simulates=depth.again)
-    elif depth.again and not faults:
+        ticks, more, again = _check_recording(folder / outcome.recording, planned, outcome)
+    elif not faults:
         kept = planned if depth.recordings else replace(planned, recording=None)
         ticks, more, again = _check_again(kept, outcome, note)
     else:
@@ -143,16 +140,14 @@ def check_match(
     return MatchCheck(planned.identity, planned.label, (*faults, *more), ticks, again)
 
 
-def _check_recording(
-    path: Path, planned: PlannedMatch, outcome: Result, *, simulates: bool
-) -> tuple[int, list[str], Played | None]:
+def _check_recording(path: Path, planned: PlannedMatch, outcome: Result) -> tuple[int, list[str], Played | None]:
     try:
         recorded = open_recording(path).manifest.config
         is_own = recorded is not None and _compared(recorded) == _compared(planned.config)
         runs_score = (
             is_own and planned.config.free is not None
         )  # the plan's own program, not one that a recording brings
-        ticks, faults = _simulated(path, runs_score=runs_score) if simulates else (0, [])
+        ticks, faults = _simulated(path, runs_score=runs_score)
         if not is_own:
             faults.append("it is the recording of another match: its configuration is not that of the plan")
         again = None if has_inputs_only(planned.config) else measured(path, planned.identity)

@@ -68,7 +68,7 @@ def verify_study(
         chosen = sampled([match.planned for match in matches.values()], sample)
         unread = {recording_name(one) for one in matches} - {recording_name(one.identity) for one in chosen}
         faults = [*_file_faults(stored, unread), *faults]
-        for check in verify_run(chosen, rows, folder, executor, lambda _: depth, progress):
+        for check in verify_run(chosen, rows, folder, executor, depth, progress):
             faults += [f"{check.label}: {fault}" for fault in check.faults]
             if check.again is not None:
                 outcomes[check.identity] = check.again

@@ -70,7 +70,7 @@ def test_a_stored_result_that_was_changed_is_named_with_its_match_and_the_table(
         assert isinstance(outcome, Played)
         sides = {side: replace(figures, goals=7) for side, figures in outcome.figures.sides.items()}
         store.add(replace(outcome, figures=replace(outcome.figures, sides=sides)))
-    faults = verified(cup).faults
+    faults = verified(cup, None).faults
     assert faults[0].startswith("league 3: ") and faults[0].endswith(" is recorded, and 7 : 7 in the table")
     assert any(fault.startswith("result.json: ") for fault in faults)
 
@@ -79,12 +79,21 @@ def test_a_recording_of_another_match_or_none_is_named(cup: Path) -> None:
     recordings = cup / "recordings"
     shutil.copy(recordings / "league_1.mcap", recordings / "league_2.mcap")
     (recordings / "league_3.mcap").unlink()
-    faults = verified(cup).faults
+    faults = verified(cup, None).faults
     assert any(
         fault == "league 2: it is the recording of another match: its configuration is not that of the plan"
         for fault in faults
     )
     assert any(fault.startswith("league 3: ") for fault in faults)
+
+
+def test_a_sample_reads_no_recording_of_another_match_and_names_one_that_is_gone(cup: Path) -> None:
+    first, *others = sorted((cup / "recordings").glob("league_*.mcap"))
+    first.unlink()
+    for path in others:
+        path.write_bytes(b"")
+    assert verified(cup, 0).faults == ["league 1: its recording is gone"]
+    assert len(verified(cup, 1).faults) in (1, 2)
 
 
 def test_a_published_table_that_does_not_follow_from_the_matches_is_named(cup: Path) -> None:
