@@ -98,8 +98,10 @@ def read_study(folder: Path) -> StoredStudy:
     digests = _json(folder / DIGESTS)
     try:
         table = pd.read_csv(folder / CSV)
-    except (OSError, ValueError) as error:
-        raise TouchlineError(f"{folder / CSV}: {error}; the study has no results yet: run it to its end") from None
+    except OSError as error:
+        raise TouchlineError(f"{folder / CSV}: {error.strerror}; run the study to its end, which writes it") from None
+    except ValueError as error:
+        raise TouchlineError(f"{folder / CSV}: no table ({error}); run the study again, which writes it") from None
     return StoredStudy(folder, plan, digests["seeds"], table, digests)
 
 

@@ -318,7 +318,7 @@ def test_a_match_without_a_recording_is_verified_by_playing_it_again(
         assert isinstance(played, Played)
         forged = {identity: replace(played, chain="0" * 32)}
         (check,) = verify_run(planned, forged, tmp_path, executor)
-    assert check.faults
+    assert check.faults == (f"played again, it was another match: its hash chain ends with {played.chain}",)
 
 
 def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found(

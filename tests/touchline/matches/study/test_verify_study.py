@@ -1,12 +1,14 @@
 """Studies that were played are checked: whatever was changed is named."""
 
 import json
+import re
 import shutil
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
+from schemas.errors import TouchlineError
 from support.short_study import ONE_CELL, Run
 
 pytest.importorskip("scipy", reason="experiments need the extra study")
@@ -108,3 +110,12 @@ def test_a_row_that_was_taken_out_of_the_table_is_missed(played: Path, home: Pat
     table = pd.read_csv(home / "results.csv")
     table.drop(index=1).to_csv(home / "results.csv", index=False, lineterminator="\n")
     assert "cell 2, seed 1: has no result, and was played to its end again" in check(home)
+
+
+@pytest.mark.parametrize(("content", "why"), [(None, "No such file or directory; run"), ("", "no table (No columns")])
+def test_a_table_that_is_gone_or_none_is_one_line(played: Path, home: Path, content: str | None, why: str) -> None:
+    (home / "results.csv").unlink()
+    if content is not None:
+        (home / "results.csv").write_text(content)
+    with pytest.raises(TouchlineError, match=rf"^{re.escape(f'{home}/results.csv: {why}')}"):
+        verdict_of(home)
