@@ -45,6 +45,22 @@ async def test_every_restart_in_json_reaches_the_referee_for_the_right_side() ->
         assert asked(bench) == [f"{word} {side}" for word in RESTARTS.values() for side in Side]
 
 
+async def test_a_command_from_before_the_match_is_known_is_forwarded_as_soon_as_it_is() -> None:
+    async with opened() as bench:
+        known, bench.live.setup = bench.live.setup, None
+        box = Box()
+        client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", await box.open()), bench.logged.append)
+        bench.start(client)
+        await until(lambda: box.links and client.connected)
+        box.say("START")
+        await until(lambda: client.counts["received"])
+        assert asked(bench) == []
+        bench.live.setup = known
+        await until(lambda: asked(bench) == ["start"])
+        bench.stop.set()
+        await box.close()
+
+
 async def test_every_restart_as_a_character_reaches_the_referee_for_the_right_side() -> None:
     async with connected(greets=False) as (bench, box, client):
         bench.stage.say(phase=Phase.STOPPED)
