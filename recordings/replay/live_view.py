@@ -8,8 +8,11 @@ import json
 from queue import SimpleQueue
 from typing import TYPE_CHECKING
 
+from recordings.container.encodings import zenoh_encoding
 from recordings.container.json_schema import flat_schema
 from recordings.container.lineup import Lineup
+from recordings.container.mcap_file import ChannelRecord
+from recordings.reading.log_order import LogMessage
 from recordings.reading.recording import RecordedMessage
 from recordings.replay.player import Player
 from recordings.viz.drawing import SCHEMAS, Drawing, schema_of
@@ -33,8 +36,18 @@ _MAX_SPEED = 1000.0
 class LiveView:
     """A server for viewers on this machine. They may play, pause, seek and change the rate."""
 
-    def __init__(self, name: str, setup: Setup | None, extent_ns: tuple[int, int] | None, port: int) -> None:
+    def __init__(
+        self,
+        name: str,
+        setup: Setup | None,
+        extent_ns: tuple[int, int] | None,
+        port: int,
+        base_ns: int | None = None,
+    ) -> None:
         """`extent_ns` is the range for seeking in simulated time; None if it grows. Port 0 selects a free port.
+
+        A file without a match has `base_ns`, the log time of its first message, from which the replay counts its times.
+        Viewers have log times.
 
         Raises:
             TouchlineError: foxglove-sdk is not installed, or the port is in use.
@@ -49,7 +62,9 @@ class LiveView:
         self._context = foxglove.Context()
         self._channels: dict[str, Channel] = {}
         self._newest: dict[str, tuple[bytes, int]] = {}
-        self._world_ns = -1
+        self._described: dict[str, str] = {}
+        self._base_ns = base_ns or 0
+        self._shown_ns = -1
         self._announced: tuple[bool, float, bool] | None = None
         self._requests: SimpleQueue[PlaybackControlRequest] = SimpleQueue()
         self._new_subscriptions: SimpleQueue[str] = SimpleQueue()
@@ -67,7 +82,7 @@ class LiveView:
             raise TouchlineError(
                 f"--foxglove-port {port} cannot be listened on ({error}); choose another, or 0 for a free one"
             ) from None
-        for topic in SCHEMAS:
+        for topic in SCHEMAS if base_ns is None else ():
             self._open_drawing(topic)
 
     @property
@@ -78,9 +93,7 @@ class LiveView:
     def publish(self, recorded: RecordedMessage) -> None:
         """Send a message that the replay publishes, and its drawing."""
         if recorded.topic is WORLD:
-            if recorded.log_ns < self._world_ns:
-                self._restart_session()
-            self._world_ns = recorded.log_ns
+            self._show_until(recorded.log_ns)
         if recorded.key not in self._channels:
             self._open(recorded.key, "json", self._schema_of(recorded))
         received = recorded.received()
@@ -91,6 +104,16 @@ class LiveView:
                     self._open_drawing(topic)
                 self._send(topic, payload, recorded.log_ns)
 
+    def publish_of_log(self, message: LogMessage) -> None:
+        """Send a message of a file without a match, as that file describes it; a key has its first description."""
+        self._show_until(message.log_ns)
+        described = zenoh_encoding(message.topic)
+        if self._described.setdefault(message.key, described) != described:
+            return
+        if message.key not in self._channels:
+            self._open(message.key, message.topic.encoding, _schema_in(message.topic))
+        self._send(message.key, message.payload, message.log_ns)
+
     def update(self, player: Player) -> None:
         """Apply the requests of viewers, send the newest messages to new ones, and broadcast the time."""
         while not self._new_subscriptions.empty():
@@ -100,14 +123,14 @@ class LiveView:
                 self._channels[topic].log(self._newest[topic][0], log_time=self._newest[topic][1])
         while not self._requests.empty():
             self._apply(self._requests.get(), player)
-        self._server.broadcast_time(player.position_ns)
+        self._server.broadcast_time(self._base_ns + player.position_ns)
         self._announce(player)
 
     def close(self) -> None:
         """End the server."""
         self._server.stop()
 
-    def _open(self, topic: str, encoding: str, schema: "Schema") -> None:
+    def _open(self, topic: str, encoding: str, schema: "Schema | None") -> None:
         from foxglove import Channel
 
         self._channels[topic] = Channel(topic, message_encoding=encoding, schema=schema, context=self._context)
@@ -127,10 +150,15 @@ class LiveView:
         return Schema(name=f"touchline.{model.__name__}", encoding="jsonschema", data=data)
 
     def _send(self, topic: str, payload: bytes, log_ns: int) -> None:
-        self._newest[topic] = payload, log_ns
+        self._newest[topic] = payload, self._base_ns + log_ns
         channel = self._channels[topic]
         if channel.has_sinks():
-            channel.log(payload, log_time=log_ns)
+            channel.log(payload, log_time=self._base_ns + log_ns)
+
+    def _show_until(self, ns: int) -> None:
+        if ns < self._shown_ns:
+            self._restart_session()
+        self._shown_ns = ns
 
     def _restart_session(self) -> None:
         """After a seek back in time: make viewers discard their data, and start a new drawing."""
@@ -143,7 +171,8 @@ class LiveView:
         from foxglove.websocket import PlaybackCommand
 
         if request.seek_time is not None:
-            player.control(ReplayRequest(operation=ReplayOperation.SEEK, to=str(request.seek_time / 1e9)))
+            to = max(0, request.seek_time - self._base_ns) / 1e9
+            player.control(ReplayRequest(operation=ReplayOperation.SEEK, to=str(to)))
         if request.playback_speed > 0.0 and request.playback_speed != _speed(player.status()):
             player.control(ReplayRequest(operation=ReplayOperation.RATE, rate=request.playback_speed))
         wants_play = request.playback_command == PlaybackCommand.Play
@@ -166,7 +195,15 @@ class LiveView:
             status = PlaybackStatus.Ended
         elif player.paused:
             status = PlaybackStatus.Paused
-        self._server.broadcast_playback_state(PlaybackState(status, player.position_ns, speed, did_seek, request_id))
+        here_ns = self._base_ns + player.position_ns
+        self._server.broadcast_playback_state(PlaybackState(status, here_ns, speed, did_seek, request_id))
+
+
+def _schema_in(channel: ChannelRecord) -> "Schema | None":
+    from foxglove import Schema
+
+    schema = channel.schema
+    return Schema(name=schema.name, encoding=schema.encoding, data=schema.data) if schema is not None else None
 
 
 def _speed(status: ReplayReply) -> float:

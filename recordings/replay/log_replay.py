@@ -1,6 +1,6 @@
 """Replays MCAP files of any writer: their messages on keys named like their topics, at log time."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from recordings.container.encodings import zenoh_encoding
 from recordings.container.mcap_file import ChannelRecord
@@ -61,14 +61,16 @@ class Keys:
 class LogReplay(ReplayLoop):
     """Plays a log on a network of Zenoh."""
 
-    def __init__(self, bus: ZenohBus, log: Log, settings: ReplaySettings) -> None:
-        """`settings.start` and `settings.end` are in s since the first message.
+    def __init__(
+        self, bus: ZenohBus, log: Log, settings: ReplaySettings, show: Callable[[LogMessage], None] = lambda _: None
+    ) -> None:
+        """`settings.start` and `settings.end` are in s since the first message; `show` gets all that is published.
 
         Raises:
             TouchlineError: a time is no number, or is beyond the end.
         """
         super().__init__(bus)
-        self._bus = bus
+        self._bus, self._show = bus, show
         self._publishers: dict[tuple[str, str], KeyPublisher] = {}
         self._of_channel: dict[tuple[str, int], KeyPublisher] = {}
         bus.declare_alive(PresenceKind.REPLAY, "replay")
@@ -91,6 +93,7 @@ class LogReplay(ReplayLoop):
         if publisher is None:
             publisher = self._of_channel[key] = self._publisher(message.key, message.topic)
         publisher.put(message.payload)
+        self._show(message)
 
     def _publisher(self, key: str, channel: ChannelRecord) -> KeyPublisher:
         """One for each key and encoding, which channels of several files share."""

@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 
 AS_FAST_AS_POSSIBLE = math.inf
 """Rate at which all messages are due immediately."""
+_LONGEST_NS = 2.0**64
+"""No file is longer: log times have 64 bits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +25,11 @@ class PlaybackClock:
         """Simulated time in ns up to which messages are due."""
         if self.paused or (now <= self.since and not math.isinf(self.rate)):
             return self.at_ns
-        return self.rate if math.isinf(self.rate) else self.at_ns + (now - self.since) * self.rate * 1e9
+        return (
+            self.rate
+            if math.isinf(self.rate)
+            else self.at_ns + round(min((now - self.since) * self.rate * 1e9, _LONGEST_NS))
+        )
 
     def wait(self, ns: int, now: float) -> float:
         """Wall time in s until this simulated time is due; infinite while paused."""

@@ -118,7 +118,7 @@ class Player:
             return self._position_ns
         message = self._next()
         ahead = message.log_ns if message is not None else self._position_ns
-        return max(self._position_ns, round(min(self._playback.due_ns(self._clock.now()), ahead)))
+        return max(self._position_ns, min(round(self._playback.due_ns(self._clock.now())), ahead))
 
     @property
     def end_ns(self) -> int:

@@ -172,9 +172,8 @@ def replay(
     listen = options.endpoint_of(listening) if connect is None else None
     opened_page = open_page(from_options(WebSettings, **page)) if web else None
     if not is_match(files):
-        for option, given in {"--foxglove": foxglove, "--follow": follow}.items():
-            if given:
-                raise TouchlineError(f"{option}: {files[0]} is no recording of a match; leave {option} out")
+        if follow:
+            raise TouchlineError(f"--follow: {files[0]} is no recording of a match; leave --follow out")
         from recordings.replay.log_replay import Keys
         from touchline.launch.log_replay import replay_log
 
@@ -187,6 +186,7 @@ def replay(
             listen=listen,
             credentials=listening.credentials,
             page=opened_page,
+            viewers=foxglove_port if foxglove else None,
             quiet=json,
         )
         if json:

@@ -2,13 +2,14 @@
 
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from functools import partial
 from pathlib import Path
 
 import typer
 
 from recordings.reading.log_order import check_no_match, open_log
+from recordings.replay.live_view import LiveView
 from recordings.replay.log_replay import Keys, LogReplay
 from recordings.replay.player import Player
 from recordings.replay.replay import ReplaySettings
@@ -38,11 +39,13 @@ def replay_log(
     listen: str | None,
     credentials: Path | None,
     page: Page | None,
+    viewers: int | None,
     quiet: bool,
 ) -> ReplayReply:
     """Replay until the end or a signal; the controls are those of a match named `name`, on a page, too.
 
-    Without `connect` it is a router, with `credentials`, the file of a host, only for those who have an account.
+    There is a live view on the port `viewers`, unless it is None. Without `connect` it is a router; with `credentials`,
+    the file of a host, only those who have an account are admitted.
 
     Raises:
         TouchlineError: a file cannot be read, a topic cannot be a key, or there is no network.
@@ -58,7 +61,12 @@ def replay_log(
         bus = stack.enter_context(open_network(name, clock, connect, listen, protection=known))
         stop = stack.enter_context(StopSignals())
         typer.echo(f"{len(log.channels)} channels {'to' if connect else 'at'} {bus.endpoint}", err=True)
-        replay = LogReplay(bus, log, settings)
+        view = None
+        if viewers is not None:
+            extent = log.base_ns, log.base_ns + log.end_ns
+            view = stack.enter_context(closing(LiveView(f"Touchline: {name}", None, extent, viewers, log.base_ns)))
+            typer.echo(f"Foxglove, Lichtblick: open the connection {view.address}", err=True)
+        replay = LogReplay(bus, log, settings, *([view.publish_of_log] if view is not None else []))
         look_after: Callable[[], list[Notice]] = list
         if page is not None:
             bus.declare_alive(PresenceKind.HOST, "host")  # for which a page looks
@@ -73,6 +81,8 @@ def replay_log(
                 if stop.received is not None:
                     player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
                 screen.status(text_of(player.status()))
+                if view is not None:
+                    view.update(player)
                 for notice in look_after():
                     typer.echo(f"touchline: {notice.sentence}", err=True)
 

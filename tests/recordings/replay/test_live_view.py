@@ -10,12 +10,15 @@ import pytest
 from foxglove_schemas_protobuf import FrameTransforms_pb2, SceneUpdate_pb2
 from websockets.sync.client import ClientConnection, connect
 
+from recordings.reading.log_order import open_log
 from recordings.replay.live_view import LiveView
+from recordings.replay.log_cursor import LogCursor
 from recordings.replay.player import Player
 from recordings.replay.replay import Replay, ReplaySettings
 from recordings.viz.drawing import FIELD, SCHEMAS, TF
 from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayRequest
+from support.foreign import START_NS, drive, write_mcap
 from support.stepped_clock import SteppedClock
 
 PATIENCE_S = 30.0
@@ -151,6 +154,29 @@ def test_after_seeking_back_viewers_begin_anew_with_the_pitch(viewer):
     viewer.until(lambda: any(1_000_000_000 <= log_ns < 1_200_000_000 for log_ns, _ in viewer.data.get(FIELD, [])))
     viewer.play(0.2)
     viewer.until(lambda: viewer.data.get(TF, [(0, b"")])[-1][0] == viewer.player.position_ns)
+
+
+def test_a_file_without_a_match_is_shown_with_its_own_schemas_and_log_times(tmp_path):
+    log = open_log([write_mcap(tmp_path / "log.mcap", [*drive(101), ("/map", 1000, b"{}")])])
+    clock, end_ns = SteppedClock(), START_NS + 1_000_000_000
+    with closing(LiveView("a log", None, (START_NS, end_ns), 0, log.base_ns)) as view:
+        player = Player(LogCursor(log), clock, view.publish_of_log, stay=True, time_of=float)
+        with connect(view.address, subprotocols=["foxglove.sdk.v1"], close_timeout=0.5) as socket:
+            viewer = Viewer(socket, view, player, clock)
+            viewer.play(0.1)
+            viewer.until(lambda: viewer.topics)
+            (topic,) = viewer.topics.values()
+            assert (topic["topic"], topic["encoding"], topic["schemaName"]) == ("/robot1/odom", "json", "any")
+            viewer.subscribe()
+            viewer.until(lambda: viewer.data)
+            viewer.play(0.1)
+            viewer.until(lambda: viewer.time_ns == START_NS + 200_000_000)
+            viewer.until(lambda: viewer.data["/robot1/odom"][-1] == (START_NS + 200_000_000, drive(21)[-1][2]))
+            viewer.wish(PAUSE, to_s=end_ns / 1e9 - 0.5)
+            viewer.until(lambda: viewer.player.paused and viewer.states)
+            assert viewer.player.position_ns == pytest.approx(500_000_000, abs=1000)
+            viewer.wish(PLAY, to_s=0.0)
+            viewer.until(lambda: viewer.player.position_ns == 0 and not viewer.player.paused)
 
 
 def test_a_port_in_use_is_reported_in_one_line(viewer, recorded):

@@ -139,7 +139,7 @@ def test_log_times_as_far_apart_as_mcap_can_say_are_played_as_fast_as_possible(t
 @pytest.mark.parametrize(
     ("words", "fault"),
     [
-        (["--foxglove"], "--foxglove: .* is no recording of a match; leave --foxglove out"),
+        (["--follow"], "--follow: .* is no recording of a match; leave --follow out"),
         (["--name", "A/b"], "a match name is a key chunk"),
         (["--from", "goal:1"], '"goal:1" is no time in a log; give seconds since its first message'),
         *((["--from", time], f'"{time}" is a time that no recording has') for time in ("inf", "nan", "-1", "1e300")),

@@ -31,13 +31,14 @@ def test_the_command_serves_a_live_view_until_the_viewer_had_enough(recorded, st
 
 @pytest.mark.processes
 @pytest.mark.parametrize("protected", [False, True], ids=["open", "with passwords"])
-def test_the_command_serves_the_page_of_a_file_without_a_match(tmp_path, start, protected):
+def test_the_command_serves_page_and_live_view_of_a_file_without_a_match(tmp_path, start, protected):
     file = write_mcap(tmp_path / "log.mcap", drive(50))
-    words = [str(file), "--paused", "--web", "--web-port", "0"]
+    words = [str(file), "--paused", "--web", "--web-port", "0", "--foxglove", "--foxglove-port", "0"]
     if protected:
         write_credentials(tmp_path, new_credentials())
         words += ["--credentials", str(tmp_path / HOST_FILE)]
     replay = start("-m", "touchline", "replay", *words, *_ANYWHERE)
+    view = next(line.split()[-1] for line in replay.stderr if "ws://" in line)
     address, _, token = next(line.split()[-1] for line in replay.stderr if "page:" in line).partition("/#token=")
     page = Visitor(address, token, patience=LIMIT)
     assert [topic["key"] for topic in page.hear("welcome", live=False)["topics"]] == ["robot1/odom"]
@@ -45,6 +46,9 @@ def test_the_command_serves_the_page_of_a_file_without_a_match(tmp_path, start, 
     assert page.ask("replay", request={"operation": "play"})["accepted"]
     while page.hear("replay")["replay"]["time"] < 0.49:
         pass
+    with connect(view, subprotocols=["foxglove.sdk.v1"]) as socket:
+        assert json.loads(socket.recv(timeout=LIMIT))["op"] == "serverInfo"
+        assert [one["topic"] for one in json.loads(socket.recv(timeout=LIMIT))["channels"]] == ["robot1/odom"]
     page.close()
     replay.send_signal(signal.SIGINT)
     replay.communicate(timeout=LIMIT)
