@@ -42,9 +42,11 @@ def discipline_phrases(state: GameState) -> list[str]:
     return phrases
 
 
-def question_phrases(state: GameState, names: TeamNames = SIDES_ALONE) -> list[str]:
-    """One phrase for each action that waits for its robot: `Lions names the robot for: yellow card, else cyan4`."""
-    return [
+def waiting_phrases(state: GameState, names: TeamNames = SIDES_ALONE) -> list[str]:
+    """What waits for people: the referee's proposal, without the name of its rule, which its sentence says; and each
+    action that waits for its robot, `Lions names the robot for: yellow card, else cyan4`."""
+    proposed = [] if state.proposal is None else [f"proposed: {names.in_text(state.proposal.split(': ', 1)[-1])}"]
+    return proposed + [
         f"{names[asked.side]} names the robot for: {asked.action.value.replace('_', ' ')}, else {asked.default}"
         for asked in state.questions
     ]
@@ -58,10 +60,7 @@ def state_line(state: GameState, names: TeamNames = SIDES_ALONE) -> str:
     discipline = discipline_phrases(state)
     if discipline:
         parts.append(f"[{'; '.join(discipline)}]")
-    if state.proposal is not None:
-        parts.append(f"proposed: {names.in_text(state.proposal)}")
-    parts += question_phrases(state, names)
-    return "  ".join(parts)
+    return "  ".join([*parts, *waiting_phrases(state, names)])
 
 
 def event_line(event: GameEvent, names: TeamNames = SIDES_ALONE) -> str:

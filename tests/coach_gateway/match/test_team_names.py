@@ -66,6 +66,8 @@ def test_a_line_of_a_state_and_of_an_event_has_the_names() -> None:
     names = named("Lions", "NuBot")
     state = GameState(tick=9, time=61.0, clock=61.0, phase=Phase.CORNER, side=Side.MAGENTA, proposal="corner for cyan")
     assert state_line(state, names) == " 1:01.0  half 1  Lions 0 : 0 NuBot  corner, NuBot  proposed: corner for Lions"
+    goal = state.replace(proposal="goal: goal, counts for cyan: ball over the goal line")
+    assert state_line(goal, names).endswith("  proposed: goal, counts for Lions: ball over the goal line")
     event = GameEvent(tick=9, time=61.0, clock=61.0, kind=EventKind.RESTART, rule="out", text="corner for magenta")
     assert event_line(event, names) == " 1:01.0  restart: corner for NuBot"
 

@@ -7,7 +7,7 @@ from rich.style import Style
 from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, question_phrases
+from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, waiting_phrases
 from coach_gateway.match.orders import OrderBook
 from coach_gateway.match.team_names import TeamNames, printable
 from schemas.messages.coach import CoachOrder
@@ -87,9 +87,7 @@ def head(setup: Setup, state: GameState | None) -> Text:
         f"  {clock_text(state.clock)}  {half_text(state)}  ",
         phase,
     )
-    if state.proposal is not None:
-        line.append(f"  proposed: {names.in_text(state.proposal)}", TROUBLE)
-    for phrase in question_phrases(state, names):
+    for phrase in waiting_phrases(state, names):
         line.append(f"  {phrase}", TROUBLE)
     return line
 

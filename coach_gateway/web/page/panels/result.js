@@ -9,7 +9,7 @@ const COUNTS = [
   ["fouls", (event) => event.kind === "foul"],
   ["yellow cards", (event) => event.card === "yellow"],
   ["red cards", (event) => event.card === "red"],
-  ["times the ball went out", (event) => event.kind === "ball_out"],
+  ["ball out", (event) => event.kind === "ball_out"],
 ];
 
 /** The goals of a list of events that count in the end: {side, robot, clock}; goals that were taken back are left out. */

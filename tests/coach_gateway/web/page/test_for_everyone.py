@@ -57,11 +57,14 @@ def test_a_phone_shows_everything_without_scrolling_sideways(match, visit) -> No
 
 
 def test_a_replay_fits_a_phone_too(replayed, visit) -> None:
-    tab = visit(replayed, "referee", width=360, height=780)
-    assert tab.ask("document.documentElement.scrollWidth") <= 360
-    for place in ("#scrub", "#play", "#next", "#rate"):
-        box = tab.page.locator(place).bounding_box()
-        assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= 360
+    tab = visit(replayed, "referee")
+    for width, height in ((360, 780), (844, 390)):
+        tab.resize(width, height)
+        assert tab.ask("document.documentElement.scrollWidth") <= width
+        for place in ("#moving", "#scrub", "#play", "#next", "#rate"):
+            box = tab.page.locator(place).bounding_box()
+            assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= width
+            assert box["y"] >= 0 and box["y"] + box["height"] <= height
 
 
 def test_every_text_stands_out_from_what_is_behind_it(match, visit) -> None:
@@ -132,6 +135,20 @@ def test_everything_is_reached_and_used_by_keyboard(match, visit) -> None:
     tab.page.locator("#layer-roles").focus()
     tab.page.keyboard.press("Enter")
     assert not tab.page.locator("#layer-roles").is_checked()
+
+
+def test_what_gets_the_focus_on_a_phone_is_not_behind_the_field(match, replayed, visit) -> None:
+    covered = """(() => {
+        const one = document.activeElement, { x, y, width, height } = one.getBoundingClientRect();
+        return !one.contains(document.elementFromPoint(x + width / 2, y + height / 2));
+    })()"""
+    for place in (match, replayed):
+        tab = visit(place, "referee", width=390, height=844)
+        tab.page.locator("#to-robots").click()
+        for key in ("Tab", "Shift+Tab"):
+            for _ in range(4):
+                tab.page.keyboard.press(key)
+                assert not tab.ask(covered), tab.ask("document.activeElement.outerHTML")
 
 
 def test_what_the_field_shows_is_kept_for_the_next_visit(match, visit) -> None:
