@@ -107,6 +107,17 @@ def test_who_watches_a_file_sees_its_topics_and_controls_nothing(log, visit) -> 
     assert log.replay.player.paused
 
 
+def test_the_keys_of_a_file_are_those_of_its_time_line(log, visit) -> None:
+    tab = visit(log, "referee", shown=SHOWN)
+    tab.page.keyboard.press("?")
+    keys = tab.page.locator("#help dt").filter(visible=True).all_inner_texts()
+    assert keys == ["space", "?", "← →", ", .", "enter"]
+    assert "robot" not in tab.page.locator("#help").inner_text().lower()
+    tab.page.keyboard.press("Escape")
+    tab.page.keyboard.press("Shift+ArrowRight")
+    tab.until("document.getElementById('clock').textContent === '0:10.0'")
+
+
 def test_a_rate_that_the_page_does_not_offer_is_shown(log, visit) -> None:
     log.replay.player._playback = log.replay.player._playback.changed(0, 0.0, rate=7.5)
     tab = visit(log, "referee", shown=SHOWN)
