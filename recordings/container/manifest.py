@@ -16,6 +16,8 @@ from schemas.wire.part import Part
 MANIFEST = "manifest"
 RESULT = "result"
 """Names of the two metadata records."""
+MANIFEST_COPY = "manifest_copy"
+"""Name of the manifest's second record: without a manifest nothing of a file can be read."""
 RECOVERED = "recovered"
 """Name of the metadata record that a repair adds."""
 DAMAGED_RECORDS = "damaged_records"

@@ -18,6 +18,7 @@ from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in, unpacked
+from recordings.container.manifest import MANIFEST, MANIFEST_COPY
 from recordings.container.sealed_metadata import is_sealed
 from schemas.errors import TouchlineError
 
@@ -87,9 +88,10 @@ class McapFile:
         return self.path.stat().st_size
 
     def add_metadata(self, record: Metadata) -> None:
-        """Add a metadata record; of several with one name, the last intact one counts."""
-        if record.name not in self.metadata or is_sealed(record.metadata):
-            self.metadata[record.name] = record.metadata
+        """Add a metadata record; of a name, or a manifest and its copy, the last intact one counts."""
+        name = MANIFEST if record.name == MANIFEST_COPY else record.name
+        if name not in self.metadata or is_sealed(record.metadata):
+            self.metadata[name] = record.metadata
 
     def messages(self, keys: set[str], start_ns: int = 0, end_ns: int = END_NS) -> Iterator[tuple[str, Message]]:
         """Yield key and message, in the order of the file, from `start_ns` up to but not including `end_ns`.

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from mcap.opcode import Opcode
 
 from recordings.container.chunks import RECORD_HEADER
-from recordings.container.manifest import MANIFEST, RESULT
+from recordings.container.manifest import MANIFEST, MANIFEST_COPY, RESULT
 
 _CHUNK_PACKED = struct.Struct("<Q")
 """Size of the compressed content of a chunk, which stands before it."""
@@ -16,7 +16,7 @@ _CHUNK_PACKED = struct.Struct("<Q")
 def record_places(content: mmap.mmap) -> list[int]:
     """Offsets at which a chunk, a manifest or a result begins and fits into the file, in order."""
     places = [*_chunk_places(content)]
-    for name in (MANIFEST, RESULT):
+    for name in (MANIFEST, MANIFEST_COPY, RESULT):
         places += _metadata_places(content, name)
     return sorted(places)
 

@@ -13,7 +13,7 @@ from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, PRIVATE, RECORD_HEADER, is_known, unpacked
-from recordings.container.manifest import MANIFEST, RESULT
+from recordings.container.manifest import MANIFEST, MANIFEST_COPY, RESULT
 from recordings.container.mcap_file import stream_of
 from recordings.container.record_search import record_places
 from recordings.container.sealed_metadata import is_sealed
@@ -150,6 +150,6 @@ def _attachment(content: bytes) -> Attachment:
 
 def _metadata(content: bytes) -> Metadata:
     metadata: Metadata = Metadata.read(stream_of(content))
-    if metadata.name in (MANIFEST, RESULT) and not is_sealed(metadata.metadata):
+    if metadata.name in (MANIFEST, MANIFEST_COPY, RESULT) and not is_sealed(metadata.metadata):
         raise ValueError("seal")
     return metadata

@@ -14,7 +14,7 @@ from threading import Thread
 from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
 from recordings.container.json_schema import flat_schema
-from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
+from recordings.container.manifest import MANIFEST, MANIFEST_COPY, RESULT, Manifest, Result
 from recordings.container.mcap_file import ROW
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.parts import NotWritableError, create_part
@@ -151,7 +151,7 @@ class RecordingWriter:
         for name, data in attachments.items():
             media = MEDIA_TYPES[Path(name).suffix]
             self._mcap.add_attachment(now, 0, name, media, data)
-        self._mcap.add_metadata(MANIFEST, manifest)  # again: without a manifest nothing of the file can be read
+        self._mcap.add_metadata(MANIFEST_COPY, manifest)
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
     def _write_batch(self, batch: list[LoggedMessage]) -> None:

@@ -38,6 +38,16 @@ def test_messages_are_chosen_by_key_pattern_and_simulated_time(recorded):
     assert len(chosen) == 25
 
 
+def test_no_two_metadata_records_have_one_name_and_a_damaged_manifest_is_read_from_its_copy(recorded, tmp_path):
+    with recorded.path.open("rb") as source:
+        names = [one.name for one in make_reader(source).iter_metadata()]
+    assert names == ["manifest", "manifest_copy", "result"]
+    content, path = bytearray(recorded.path.read_bytes()), tmp_path / "flipped.mcap"
+    content[content.index(b"contract") + 12] ^= 1
+    path.write_bytes(content)
+    assert open_recording(path).manifest == recorded.manifest
+
+
 def test_a_message_later_than_any_match_is_named(recorded, tmp_path):
     path = tmp_path / "late.mcap"
     with recorded.path.open("rb") as source, path.open("wb") as file:

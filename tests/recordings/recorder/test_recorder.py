@@ -112,7 +112,7 @@ def test_the_manifest_stands_before_the_first_message_and_the_result_after_the_l
     found = records(rig.path)
     named = [(index, record.name) for index, record in enumerate(found) if isinstance(record, Metadata)]
     messages = [index for index, record in enumerate(found) if isinstance(record, Message)]
-    assert [name for _, name in named] == ["manifest", "manifest", "result"]
+    assert [name for _, name in named] == ["manifest", "manifest_copy", "result"]
     assert named[1][0] < messages[0]
     assert named[2][0] > messages[-1]
 

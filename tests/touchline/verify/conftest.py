@@ -119,8 +119,9 @@ def rewrite(
             payloads.append(data if encode(one.fields) == before else encode(one.fields))
             trackers[one.key].add(Stamp(one.sequence, one.sent_ns, one.log_ns), len(payloads[-1]))
         for record in reader.iter_metadata():
-            fields = metadata(record.name, record.metadata)
-            if record.name == "manifest":
+            name = record.name.removesuffix("_copy")
+            fields = metadata(name, record.metadata)
+            if name == "manifest":
                 digests = {name: digest(content) for name, (_, content) in attached.items()}
                 fields = {**fields, "attached": encode(digests).decode()}
             elif record.name == "result" and recount:
