@@ -47,7 +47,7 @@ export class Scoreboard {
   #log() {
     const { name, replay } = this.match;
     document.title = name;
-    setText(byId("score"), name);
+    for (const id of ["title", "score"]) setText(byId(id), name);
     if (replay === null) return;
     setText(byId("clock"), clockText(replay.time));
     setText(byId("phase"), replay.paused ? "Paused" : "Playing");
