@@ -121,7 +121,7 @@ def log_lines(facts: LogFacts) -> list[tuple[str, str]]:
         "messages": f"{facts.messages}"
         + (f", {facts.lost} lost" if facts.lost is not None else "")
         + (f", {facts.unwritten} unwritten at the end" if facts.unwritten else ""),
-        "ended": f"{facts.ended}: the recorder was killed, and its losses are not known" if facts.ended else "",
+        "ended": f"{facts.ended}: its recorder did not end it, and the losses are not known" if facts.ended else "",
         "files": str(len(facts.files)) if len(facts.files) > 1 else "",
         "attachments": " ".join(facts.attachments),
         "metadata": " ".join(facts.metadata),

@@ -68,6 +68,7 @@ def health(
             raise TouchlineError("--watch, --connect and --match are for a running match; leave them out with a file")
         from touchline.commands.diagnosis.health.recorded import ledger_of_recording
 
+        options.check_span(start, end)
         _show(ledger_of_recording(file, start, end), json=json)
         return
     if start is not None or end is not None:

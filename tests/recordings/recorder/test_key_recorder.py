@@ -154,7 +154,7 @@ def test_of_a_recorder_of_keys_that_was_killed_info_says_that_its_losses_are_not
         assert (facts.ended, facts.messages, facts.lost) == ("cut_off", 1, None)
         lines = dict(log_lines(facts))
         assert lines["messages"] == "1"
-        assert lines["ended"] == "cut_off: the recorder was killed, and its losses are not known"
+        assert lines["ended"] == "cut_off: its recorder did not end it, and the losses are not known"
 
 
 def test_what_is_no_key_expression_is_refused_in_one_line(tmp_path):

@@ -147,3 +147,14 @@ def test_a_selection_of_nothing_is_refused_in_one_line(tmp_path: Path, words: tu
     assert done.output.count("\n") == 1
     assert not out.exists()
     assert [file.name for file in tmp_path.iterdir()] == ["a.mcap"]
+
+
+@pytest.mark.parametrize("time", ["nan", "inf", "-1", "1e300"])
+@pytest.mark.parametrize("command", ["replay", "health", "filter", "diff"])
+def test_a_time_that_no_recording_has_is_one_line(tmp_path, command, time):
+    path = str(write(tmp_path / "a.mcap"))
+    more = {"filter": ["--out", str(tmp_path / "out.mcap")], "diff": [path]}.get(command, [])
+    result = touchline(command, path, *more, "--from", time)
+    assert result.exit_code == 2
+    said = " ".join(result.output.split())
+    assert "no recording has; give seconds from 0 on" in said and "Traceback" not in said
