@@ -102,7 +102,7 @@ def run(
         raise typer.Exit(128 + signal.SIGINT)
     failed = result.failed
     stored = read_study(folder)
-    sentences = [sentence_of_missing(name) for name in study.responses if name not in stored.table]
+    sentences = [sentence_of_missing(name, list(stored.table)) for name in study.responses if name not in stored.table]
     sentences += [sentence_of_unread(key) for key in unread_factors(plan, stored.table)]
     sentences += [
         sentence_of(one, name) for name, groups in compared(plan, stored.table).items() for one in answers(groups)

@@ -40,7 +40,7 @@ def report_of(
         seeds=len(seeds),
         interval=_interval_text(plan, table),
         failed=failed,
-        missing=[sentence_of_missing(name) for name in study.responses if name not in table],
+        missing=[sentence_of_missing(name, list(table)) for name in study.responses if name not in table],
         unread=map(sentence_of_unread, unread_factors(plan, table)),
         answers=[(one.is_found, sentence_of(one, name)) for name in groups for one in answers(groups[name])],
         responses=[_response(plan, table, name, groups[name]) for name in groups],

@@ -1,6 +1,8 @@
 """What a comparison shows, in one sentence that promises no more than the matches support."""
 
 import math
+from collections.abc import Sequence
+from difflib import get_close_matches
 
 from touchline.matches.statistics.paired import Comparison
 from touchline.matches.study.match_figures import DIFFERENCE
@@ -36,9 +38,11 @@ def sentence_of_unread(key: str) -> str:
     return f"{key}: all matches are equal to the byte at each of its levels; does the team read it?"
 
 
-def sentence_of_missing(response: str) -> str:
-    """That no match has a figure of this name."""
-    return f"No match has a figure {response}; the columns of the table of results are its names."
+def sentence_of_missing(response: str, known: Sequence[str]) -> str:
+    """That no match has a figure of this name; `known` are the names of those that they have."""
+    close = get_close_matches(response, known, n=1)
+    remedy = f'did you mean "{close[0]}"?' if close else "the columns of the table of results are its names."
+    return f"No match has a figure {response}; {remedy}"
 
 
 def response_text(response: str) -> str:
