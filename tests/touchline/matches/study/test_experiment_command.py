@@ -43,7 +43,7 @@ def test_a_response_that_no_match_has_is_named_where_the_answers_are(tmp_path: P
     (tmp_path / "try.toml").write_text(STUDY.replace('["distance"]', '["distance", "goal"]'))
     status, text = run(tmp_path / "try.toml", "--out", tmp_path / "out", "--jobs", "1")
     assert status == 0
-    assert "No match has a figure goal; did you mean \"goals\"?" in text.splitlines()
+    assert 'No match has a figure goal; did you mean "goals"?' in text.splitlines()
 
 
 def test_matplotlib_does_not_say_that_it_builds_a_cache_of_fonts() -> None:
