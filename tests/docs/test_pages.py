@@ -92,6 +92,18 @@ def test_every_module_class_and_function_that_is_named_is_there(document: str) -
     assert missing == []
 
 
+PUBLIC = ("touchline", "touchline.testing", "recordings.reading.recording", "recordings.soccer.stats.match_statistics")
+"""The modules that docs/team.md calls public."""
+
+
+def test_what_users_copy_imports_public_names_only(fenced: Fenced) -> None:
+    folders = (ROOT / "examples", ROOT / "touchline" / "team" / "template")
+    texts = [piece for document in ("README.md", *PAGES) for piece in fenced(read(document), "python")]
+    texts += [path.read_text("utf-8") for folder in folders for path in folder.rglob("*.py")]
+    imported = {name for text in texts for name in re.findall(r"^ *(?:from|import) ([\w.]+)", text, re.MULTILINE)}
+    assert {name for name in imported if re.match(rf"(runtime|{PACKAGES})\b", name)} <= {*PUBLIC}
+
+
 @every_document
 def test_every_file_that_is_named_is_there(document: str) -> None:
     named = re.findall(r"`([\w.]+/[\w./]*\.\w+)`", read(document))
