@@ -4,6 +4,7 @@ import signal
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from types import FrameType
 
 from robot_agent.loading.user_code import is_users, shown_path
@@ -17,17 +18,19 @@ class BrainRunner(Runner):
     """Answers each sight by a brain; the brain is not interrupted."""
 
     def _think(self, sight: Sight) -> bytes:
-        def report(frame: FrameType | None) -> None:
-            stack = [one for one in traceback.extract_stack(frame) if is_users(one.filename)]
-            if stack:
-                log_line("".join(traceback.format_list(stack)), Level.WARNING, tick=sight.tick)
-                log_note(
-                    f"act has not returned for {HANG_S:g} s in {shown_path(stack[-1].filename)}",
-                    f"{sight.robot} is in line {stack[-1].lineno} at tick {sight.tick}; its log has the stack",
-                )
-
-        with _hang_alarm(HANG_S, report):
+        with _hang_alarm(HANG_S, partial(report_hang, sight)):
             return super()._think(sight)
+
+
+def report_hang(sight: Sight, frame: FrameType | None) -> None:
+    """Log the stack of a brain that has not answered a sight for `HANG_S`, of the innermost `frame`, and note it."""
+    stack = [one for one in traceback.extract_stack(frame) if is_users(one.filename)]
+    if stack:
+        log_line("".join(traceback.format_list(stack)), Level.WARNING, tick=sight.tick)
+        log_note(
+            f"act has not returned for {HANG_S:g} s in {shown_path(stack[-1].filename)}",
+            f"{sight.robot} is in line {stack[-1].lineno} at tick {sight.tick}; its log has the stack",
+        )
 
 
 @contextmanager

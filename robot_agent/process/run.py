@@ -1,4 +1,4 @@
-"""One robot's process: bus, brain, run. Importing it loads what every robot needs, and no brain."""
+"""The process of one robot, or of a team: bus, brains, run. Importing it loads what every robot needs, and no brain."""
 
 import signal
 
@@ -10,6 +10,7 @@ from robot_agent.process.robot_code import end_robot, start_robot
 from robot_agent.process.runner import serve
 from robot_agent.process.settings import AgentSettings
 from robot_agent.process.stdio.program_runner import ProgramRunner
+from robot_agent.process.team_process import MakeRunner, serve_team
 from robot_agent.sdk.contract import Brain, Briefing
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.bus.zenoh.waiting_client import open_when_there
@@ -22,7 +23,7 @@ from schemas.messages.setup import Setup
 
 
 def run(settings: AgentSettings) -> int:
-    """Run one robot; exit status 0: the match is over or the process was ended; others as in `serve`.
+    """Run one robot, or several; exit status 0: the match is over or the process was ended; others as in `serve`.
 
     Raises:
         TouchlineError: no host answers, the brain cannot be made, or a program is to be reloaded.
@@ -33,32 +34,34 @@ def run(settings: AgentSettings) -> int:
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a polite end, as from a keyboard
     clock = WallClock()
     skipped = skip_breakpoints(settings, clock)
+    brains: dict[str, Brain] = {}
 
     def connect(patience: float) -> ZenohBus:
         return open_client(settings.match, clock, settings.connect, patience, settings.credentials, any_match=True)
 
-    brain: Brain | None = None
+    def serve_robot(robot: str, make_runner: MakeRunner) -> int:
+        def build(setup: Setup) -> Brain:
+            end_robot(brains.pop(robot, None))
+            use_batch_scheduling(setup.pace == LOCKSTEP)
+            if skipped is not None:
+                skipped.tick_s = setup.time.tick
+            folders = settings.brain_folder, settings.launch_folder
+            brains[robot] = start_robot(settings.brain, settings.stdio, Briefing.of(robot, setup), *folders)
+            return brains[robot]
+
+        membership = Membership(bus, robot, settings.launch_token, settings.match, settings.side)
+        reload = BrainReload(robot, build) if settings.reload else None
+        return serve(bus, build, robot, settings.patience, membership, make_runner, reload)
+
     try:
         client = open_when_there(connect, clock, settings.patience, log_line)
         assert client is not None  # a wait that nothing stops
         with client as bus:
-
-            def build(setup: Setup) -> Brain:
-                nonlocal brain
-                end_robot(brain)
-                use_batch_scheduling(setup.pace == LOCKSTEP)
-                if skipped is not None:
-                    skipped.tick_s = setup.time.tick
-                briefing = Briefing.of(settings.robot, setup)
-                folders = settings.brain_folder, settings.launch_folder
-                brain = start_robot(settings.brain, settings.stdio, briefing, *folders)
-                return brain
-
-            membership = Membership(bus, settings.robot, settings.launch_token, settings.match, settings.side)
-            runner_class = ProgramRunner if settings.stdio else BrainRunner
-            reload = BrainReload(settings.robot, build) if settings.reload else None
-            return serve(bus, build, settings.robot, settings.patience, membership, runner_class, reload)
+            if settings.mates:
+                return serve_team((settings.robot, *settings.mates), serve_robot)
+            return serve_robot(settings.robot, ProgramRunner if settings.stdio else BrainRunner)
     except KeyboardInterrupt:
         return 0
     finally:
-        end_robot(brain)
+        for brain in brains.values():
+            end_robot(brain)

@@ -127,7 +127,7 @@ def serve(
     robot: str,
     patience: float,
     membership: Membership | None = None,
-    runner_class: type[Runner] = Runner,
+    runner_class: Callable[[Bus, Brain, str], Runner] = Runner,
     reload: BrainReload | None = None,
 ) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.

@@ -39,7 +39,9 @@ class AgentOptions(ClientSettings, LogSettings):
 
 
 class AgentSettings(AgentOptions):
-    """One robot's process, with a brain or a program."""
+    """One robot's process, with a brain or a program; or that of several robots with the same brain."""
 
+    mates: list[Name] = Field(default_factory=list)
+    """Further robots of the process, each with a brain of its own."""
     stdio: list[str] = Field(default_factory=list)
     """Command line of a program that reads sights and writes commands as lines of JSON, in place of a brain."""

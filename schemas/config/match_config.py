@@ -195,6 +195,13 @@ class MatchConfig(ConfigModel):
         team = self.team(side)
         return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
 
+    def processes(self, side: Side) -> dict[str, list[str]]:
+        """Name of each process that the launcher starts for the robots of a side → its robots."""
+        robots = self.robots(side)
+        if robots and self.team(side).process == "team":
+            return {side.value: robots}
+        return {robot: [robot] for robot in robots}
+
     def limits_of(self, side: Side) -> Limits:
         """The limits of a robot of a side."""
         return self.team(side).limits.over(self.limits)

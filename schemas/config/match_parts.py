@@ -41,6 +41,8 @@ class TeamConfig(ConfigModel):
     """Command line of a program in any language, in place of a brain; environment variables name its robot."""
     stdio: list[str] | None = None
     """Command line of a program that reads sights and writes commands as lines of JSON, in place of a brain."""
+    process: Literal["robot", "team"] = "robot"
+    """With processes: a process for each robot, or one for all robots of the team, whose brains think in turns."""
     remote: bool = False
     """The robots' programs are started on other machines, with `touchline team` or `touchline agent`."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = DEFAULT_SIZE
@@ -84,6 +86,8 @@ class TeamConfig(ConfigModel):
             raise ValueError(f"{' and '.join(given)} are both given; a team has one or the other")
         if self.remote and given:
             raise ValueError(f"the team is remote, and is started elsewhere; leave {given[0]} out")
+        if self.process == "team" and (self.remote or self.program is not None):
+            raise ValueError('process = "team" is for brains in Python that the match starts; leave it out')
         return self
 
 

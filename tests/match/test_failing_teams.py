@@ -29,11 +29,11 @@ class Raises(Still):
 def play(start, tmp_path):
     """Plays a short match of a team of two against one robot that stands still; returns the program, ended."""
 
-    def play(brain: str, seconds: float = 2.0):
+    def play(brain: str, seconds: float = 2.0, process: str = "robot"):
         (tmp_path / "team.py").write_text(TEAM)
         (tmp_path / "match.toml").write_text(
             f'duration = {seconds}\n[teams.cyan]\nname = "Lions"\nbrain = "team:{brain}"\nsize = 2\n'
-            f'[teams.magenta]\nname = "Tigers"\nbrain = "team:Still"\nsize = 1\n'
+            f'process = "{process}"\n[teams.magenta]\nname = "Tigers"\nbrain = "team:Still"\nsize = 1\n'
         )
         words = ("match", "match.toml", "--listen", "tcp/127.0.0.1:0")
         program = start("touchline", *words, folder=tmp_path, name=brain)
@@ -53,6 +53,16 @@ def test_a_team_whose_robots_all_fail_at_once_ends_the_match_with_the_reason_and
     assert f"no robot of Lions (cyan) is left; cyan1: {fault}; logs are in runs/" in line
     (recording,) = tmp_path.glob("runs/*/match.mcap")
     assert open_recording(recording).complete
+
+
+def test_a_team_in_one_process_ends_with_the_robot_that_fails_and_the_match_with_it(play, tmp_path):
+    program = play("Raises", 600.0, "team")
+    assert program.status() == 1
+    assert program.out.count("cyan failed at its first sight; not started again: ") == 1
+    line = program.err.splitlines()[-1]
+    assert "no robot of Lions (cyan) is left; cyan: act raised at tick 0 (team.py, line 13): ValueError" in line
+    (log,) = tmp_path.glob("runs/*/cyan.log")
+    assert "has failed, and with it the process of its team" in log.read_text()
 
 
 def test_a_recorder_without_a_host_reports_that_it_waits_and_can_be_interrupted(start, tmp_path):

@@ -1,4 +1,4 @@
-"""A recorded match once more, by the commands themselves: a side that its ghosts play."""
+"""A recorded match once more, by the commands themselves: a side that its ghosts play, teams in one process each."""
 
 import pytest
 
@@ -50,3 +50,11 @@ def test_a_side_that_its_ghosts_play_makes_the_recorded_match_again(played, star
     assert chains(again) == chains(played)
     assert len(chains(again)) > 100
     assert again.manifest.setup.teams["magenta"].name.endswith(", recorded")
+
+
+def test_teams_with_one_process_each_play_the_same_match(played, start, folder):
+    in_one = MATCH.replace("size = 2", 'size = 2\nprocess = "team"')
+    (folder / "match.toml").write_text(in_one)
+    together = recorded(start, folder, "together")
+    assert chains(together) == chains(played)
+    assert {"cyan", "magenta"} <= {path.stem for path in folder.glob("runs/*/*.log")}

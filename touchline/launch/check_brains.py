@@ -81,6 +81,8 @@ def check_reload(config: MatchConfig) -> None:
     """
     if all(config.team(side).program is not None or side in config.remote_sides for side in Side):
         raise TouchlineError("--reload is for brains, and no team of this match has one on this machine; leave it out")
+    if any(config.team(side).process == "team" for side in Side):
+        raise TouchlineError('--reload: robots of a process = "team" share their modules; leave one of them out')
     if config.isolate is Isolation.BUBBLEWRAP:
         raise TouchlineError("--reload: robots in bubblewrap do not see changed files; leave one of them out")
 

@@ -188,7 +188,8 @@ class MatchRun:
         """A side of which no robot is left, or has come; None while both play."""
         if self._remote.absent is not None:
             return self._remote.absent
-        return next((side for side in Side if self._supervisor.has_no_robot(self._plan.config.robots(side))), None)
+        processes = {side: [*self._plan.config.processes(side)] for side in Side}
+        return next((side for side, names in processes.items() if self._supervisor.has_no_robot(names)), None)
 
     def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:
         """Why a match ended, of which one side has no robot left."""
@@ -200,7 +201,7 @@ class MatchRun:
             if state is not None
             else "before it began"
         )
-        first = self._plan.config.robots(side)[0]
+        first = next(iter(self._plan.config.processes(side)))
         log = self._supervisor.last_lines(first)
         return (
             f"match ended {when}: no robot of {self._names.with_side(side)} is left; "

@@ -126,7 +126,7 @@ class TeamRun:
         program = (
             team_program(self._config, self._plan.side, None) if self._config.team(self._plan.side).command else ()
         )
-        return robot_process(agent, self._plan.side, program, self._plan.folder, confinement)
+        return robot_process(agent.robot, agent, self._plan.side, program, self._plan.folder, confinement)
 
 
 def _config_of(plan: TeamPlan, match: str, robots: Sequence[str]) -> MatchConfig:

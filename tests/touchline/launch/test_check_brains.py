@@ -124,6 +124,7 @@ def test_an_empty_command_is_refused() -> None:
     [
         ({"teams.cyan": {"command": ["a"]}, "teams.magenta": {"remote": True}}, "no team of this match has one"),
         ({"isolate": "bubblewrap"}, "do not see changed files"),
+        ({"teams.cyan": {"brain": "nubot", "process": "team"}}, "share their modules"),
     ],
 )
 def test_code_is_reloaded_only_where_brains_can_see_it(changes: dict[str, object], sentence: str) -> None:

@@ -1,7 +1,7 @@
 """The processes of a match: the programs to launch for a match file."""
 
 import socket
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -111,6 +111,7 @@ def check_robot_names(config: MatchConfig) -> None:
         TouchlineError: a robot has such a name.
     """
     taken = [kind.value for kind in ProcessKind if kind is not ProcessKind.AGENT]
+    taken += [side.value for side in Side if side.value in config.processes(side)]
     for name in (name for side in Side for name in config.robots(side)):
         if name in taken:
             raise TouchlineError(f'a robot is named "{name}", as a process of the match is; rename it')
@@ -150,7 +151,8 @@ def client_processes(plan: MatchPlan) -> list[Process]:
     confinements = plan.confinements or team_confinements(config, plan.brain_folder, folder.parent)
     for side in config.local_sides:
         processes += [
-            _robot_of(robot, side, plan, confinements[side].in_folder(folder / robot)) for robot in config.robots(side)
+            _process_of(name, robots, side, plan, confinements[side].in_folder(folder / name))
+            for name, robots in config.processes(side).items()
         ]
     operator = plan.credentials_of(Account.OPERATOR)  # a gateway officiates, and gives the orders of both coaches
     gateway = GatewaySettings(connect=connect, match=match, credentials=operator, tokens=plan.tokens)
@@ -163,15 +165,16 @@ def client_processes(plan: MatchPlan) -> list[Process]:
     return processes
 
 
-def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
-    """The process of one robot of a match."""
+def _process_of(name: str, robots: Sequence[str], side: Side, plan: MatchPlan, confinement: Confinement) -> Process:
+    """The process of one robot of a match, or of all robots of a side."""
     team = plan.config.team(side)
     program = team_program(plan.config, side, plan.brain_folder)
     settings = AgentSettings(
         connect=plan.connect,
         match=plan.config.name,
         credentials=plan.credentials_of(Account.of_team(side)),
-        robot=robot,
+        robot=robots[0],
+        mates=list(robots[1:]),
         brain=team.brain or "",
         stdio=list(program) if team.stdio else [],
         brain_folder=plan.brain_folder,
@@ -179,4 +182,4 @@ def _robot_of(robot: str, side: Side, plan: MatchPlan, confinement: Confinement)
         reload=plan.reload and not team.stdio,
         launch_token=plan.launch_token,
     )
-    return robot_process(settings, side, program if team.command else (), plan.folder, confinement)
+    return robot_process(name, settings, side, program if team.command else (), plan.folder, confinement)

@@ -21,11 +21,14 @@ ROBOT_ENVIRONMENT = {**COMMON_ENVIRONMENT, "PYTHONHASHSEED": "0"}
 
 
 def robot_process(
-    settings: AgentSettings, side: Side, command: Sequence[str], folder: Path, confinement: Confinement
+    name: str, settings: AgentSettings, side: Side, command: Sequence[str], folder: Path, confinement: Confinement
 ) -> Process:
-    """A robot's brain, or its team's own program, which reads what the settings say from its environment.
+    """The brain of a robot, those of all robots of a side, or a team's own program for a robot.
+
+    The program reads what the settings say from its environment.
 
     Args:
+        name: of the process: the robot's, or the side's.
         settings: with paths that are valid in this process's folder; the robot works in its confinement's folder.
         command: the team's own program, with absolute paths; empty for a brain.
     """
@@ -46,6 +49,6 @@ def robot_process(
     given = {name: value for name, value in environment.items() if value is not None}
     if command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(settings.robot, ProcessKind.AGENT, tuple(command), given, restarts, confinement=confinement)
-    process = library_process(settings.robot, ProcessKind.AGENT, settings, folder, given)
+        return Process(name, ProcessKind.AGENT, tuple(command), given, restarts, confinement=confinement)
+    process = library_process(name, ProcessKind.AGENT, settings, folder, given)
     return replace(process, confinement=confinement)

@@ -4,7 +4,7 @@ import json
 from collections.abc import Mapping
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -59,6 +59,8 @@ class TeamEntry(ConfigModel):
     """Command line of a program in any language, which joins on the network."""
     stdio: list[str] | None = None
     """Command line of a program that reads sights and writes commands as lines."""
+    process: Literal["robot", "team"] = "robot"
+    """With `way = "processes"`: a process for each robot, or one for all robots of the team."""
     version: str = ""
     """Version of the team, for display."""
     digest: Annotated[str, Field(pattern=r"^([0-9a-f]{32})?$")] = ""
@@ -84,6 +86,8 @@ class TeamEntry(ConfigModel):
         if len(given) != 1:
             found = " and ".join(given) or "none"
             raise ValueError(f'"{self.name}" has {found}; give one of brain, command and stdio')
+        if self.process == "team" and self.brain is None:
+            raise ValueError(f'"{self.name}" has {given[0]}; process = "team" is for a brain, leave it out')
         return self
 
 

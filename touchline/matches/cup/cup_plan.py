@@ -187,7 +187,9 @@ def config_with(entry: TeamEntry, cup: CupConfig) -> MatchConfig:
 def _team(entry: TeamEntry, cup: CupConfig) -> TeamConfig:
     brain = brain_of(entry.brain) if entry.brain is not None else None
     size = entry.size or cup.size
-    return TeamConfig(name=entry.name, brain=brain, command=entry.command, stdio=entry.stdio, size=size)
+    return TeamConfig(
+        name=entry.name, brain=brain, command=entry.command, stdio=entry.stdio, process=entry.process, size=size
+    )
 
 
 def _result(slot: Slot, played: Played) -> MatchResult:

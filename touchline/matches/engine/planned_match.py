@@ -50,7 +50,7 @@ class PlannedMatch:
     def identity(self) -> str:
         """A digest of configuration and code: equal for matches with equal results."""
         content = {
-            "config": _as_published(json.loads(self.config.model_dump_json(exclude={"record", "patience", "pace"}))),
+            "config": _as_published(json.loads(self.config.model_dump_json(exclude={**_NO_PART}))),
             "pace": self.config.pace if self.config.pace != LOCKSTEP else None,
             "code": {side.value: digest for side, digest in self.code.items()},
             **({"drill": True} if self.is_drill else {}),
@@ -59,6 +59,13 @@ class PlannedMatch:
         return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
 
 
+_NO_PART: Mapping[str, Any] = {
+    "record": True,
+    "patience": True,
+    "pace": True,
+    "teams": {side.value: {"process"} for side in Side},
+}
+"""Fields of a config on which the result of a match does not depend."""
 _LATER = {"game": GameName.SOCCER, "free": None, "mass": None, "friction": None}
 """Fields that the configs of published matches do not have → the value at which an identity leaves them out."""
 

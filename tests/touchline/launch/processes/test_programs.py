@@ -77,6 +77,17 @@ def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> Non
     assert agent.restarts == PROCESSES[ProcessKind.AGENT].restarts == 3
 
 
+def test_a_team_in_one_process_has_the_name_of_its_side_and_all_robots() -> None:
+    processes = by_name(plan(None, **{"teams.cyan": {"brain": "nubot", "process": "team"}}))
+    assert list(processes) == ["host", "cyan", *(f"magenta{n}" for n in range(1, 6))]
+    settings = processes["cyan"].settings
+    assert isinstance(settings, AgentSettings)
+    assert [settings.robot, *settings.mates] == [f"cyan{n}" for n in range(1, 6)]
+    named = {"teams.cyan": {"brain": "nubot", "process": "team"}, "teams.magenta.robots": ["cyan"]}
+    with pytest.raises(TouchlineError, match='a robot is named "cyan", as a process of the match is; rename it'):
+        check_robot_names(load_match(None, named))
+
+
 def test_agents_reload_code_in_a_match_that_does() -> None:
     settings = by_name(replace(plan(), reload=True))["cyan1"].settings
     assert isinstance(settings, AgentSettings) and settings.reload

@@ -48,6 +48,7 @@ def test_the_identity_depends_on_configuration_and_code_alone(match_of: MatchOf,
     assert (
         replace(planned, label="final", recording=tmp_path / "a.mcap", way=Way.PROCESSES).identity == planned.identity
     )
+    assert replace(planned, config=match_of(**{"teams.magenta.process": "team"})).identity == planned.identity
     assert replace(planned, config=match_of(seed=2)).identity != planned.identity
     assert replace(planned, config=match_of(**{"radio.loss": 0.5})).identity != planned.identity
     assert replace(planned, code={Side.CYAN: "0" * 32}).identity != planned.identity

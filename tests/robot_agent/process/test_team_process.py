@@ -1,0 +1,103 @@
+"""The robots of a team in one process: turns, and what ends all of them."""
+
+import threading
+import time
+
+import pytest
+
+from robot_agent.process import brain_runner
+from robot_agent.process.team_process import MakeRunner, Turns, serve_team
+from runtime.process.process_log import NOTE
+from schemas.errors import TouchlineError
+from schemas.messages.command import Command
+from schemas.topics import COMMAND, SIGHT
+from support.in_process_bus import SharedState
+from support.stepped_clock import SteppedClock
+
+ROBOTS = ("cyan1", "cyan2", "cyan3")
+LIMIT_S = 60.0
+
+
+class Alone:
+    """Answers, and notes whether another brain is within `act` at the same time."""
+
+    acting = 0
+    most = 0
+
+    def act(self, sight):
+        Alone.acting += 1
+        Alone.most = max(Alone.most, Alone.acting)
+        time.sleep(0.002)  # others may run meanwhile
+        Alone.acting -= 1
+        return Command(answers_tick=sight.tick)
+
+
+def test_each_robot_answers_its_sights_and_none_thinks_while_another_does(sight_of):
+    medium = SharedState()
+    host = medium.open_bus("friendly", SteppedClock())
+    commands = host.subscribe(COMMAND)
+    sights = {robot: host.publisher(SIGHT, robot=robot) for robot in ROBOTS}
+    together = threading.Barrier(len(ROBOTS), timeout=LIMIT_S)
+
+    def serve_robot(robot: str, make_runner: MakeRunner) -> int:
+        runner = make_runner(medium.open_bus("friendly", SteppedClock()), Alone(), robot)
+        together.wait()
+        for tick in range(10):
+            sights[robot].put(sight_of(tick))
+            runner.answer(runner.next_sight(0.0))
+        together.wait()
+        return 0
+
+    assert serve_team(ROBOTS, serve_robot) == 0
+    answered = [received.message().answers_tick for received in iter(commands.receive, None)]
+    assert sorted(answered) == sorted(3 * [*range(10)])
+    assert Alone.most == 1
+
+
+def ended(event: threading.Event) -> int:
+    """The status of a robot that plays until the event."""
+    return 0 if event.wait(LIMIT_S) else 1
+
+
+def test_the_first_robot_that_ends_ends_the_process_with_its_status():
+    others = threading.Event()
+    assert serve_team(ROBOTS, lambda robot, _: 3 if robot == "cyan2" else ended(others)) == 3
+    others.set()
+
+
+def test_what_one_robot_raises_the_process_raises():
+    others = threading.Event()
+
+    def serve_robot(robot: str, _: MakeRunner) -> int:
+        if robot == "cyan3":
+            raise TouchlineError("cyan3: refused by the host")
+        return ended(others)
+
+    with pytest.raises(TouchlineError, match="cyan3: refused by the host"):
+        serve_team(ROBOTS, serve_robot)
+    others.set()
+
+
+def test_a_robot_that_keeps_its_turn_is_named_once_with_its_line(sight_of, capfd, monkeypatch):
+    monkeypatch.setattr(brain_runner, "HANG_S", 7.0)
+    turns, goes_on, has_turn = Turns(), threading.Event(), threading.Event()
+
+    def think() -> None:
+        with turns.of(sight_of(4)):
+            has_turn.set()
+            goes_on.wait(LIMIT_S)
+
+    thread = threading.Thread(target=think)
+    turns.look()
+    thread.start()
+    has_turn.wait(LIMIT_S)
+    turns.look()
+    assert capfd.readouterr().err == ""
+    turns.look()
+    _, note = capfd.readouterr().err.split(NOTE)
+    assert note.startswith("act has not returned for 7 s in tests/robot_agent/process/test_team_process.py: ")
+    turns.look()
+    goes_on.set()
+    thread.join()
+    turns.look()
+    assert capfd.readouterr().err == ""
