@@ -104,6 +104,13 @@ def test_the_page_of_a_forfeit_shows_its_evidence(tmp_path: Path) -> None:
     assert "did not start: no &lt;module&gt;" in text
 
 
+def test_the_page_of_a_team_lists_its_own_matches(tmp_path: Path) -> None:
+    Site(tmp_path, {}).write(state(), running=False)
+    (page,) = (tmp_path / "teams").glob("alpha_*.html")
+    listed = re.findall(r"matches/(\w+)\.html", page.read_text("utf-8"))
+    assert listed == ["admission_1", "group_a_2", "group_a_3", "semi_final_2", "third_place"]
+
+
 def test_scores_in_the_row_of_a_team_begin_with_its_goals(tmp_path: Path) -> None:
     Site(tmp_path, {}).write(state(FormatKind.ROUND_ROBIN), running=False)
     text = (tmp_path / "index.html").read_text("utf-8")

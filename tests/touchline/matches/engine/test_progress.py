@@ -2,6 +2,7 @@
 
 import json
 import sys
+from datetime import datetime
 from io import StringIO
 
 import pytest
@@ -30,6 +31,7 @@ def test_the_end_is_estimated_from_the_matches_that_have_ended_in_this_run() -> 
     clock.sleep_until(6.0)
     run.add(failed=False)
     assert run.remaining == 18.0
+    assert run.text.endswith(f"ends {datetime.fromtimestamp(clock.unix_ns() / 1e9 + 18.0):%H:%M}")
     assert (run.done, run.total) == (11, 14)
 
 
