@@ -172,6 +172,8 @@ def test_processes_and_one_process_play_the_same_match(match_of: MatchOf, folder
     assert there.chain == here.chain
     assert there.goals == here.goals
     assert verify(tmp_path / "match.mcap").identical
+    left = [path for path in (tmp_path / "logs").rglob("*") if path.is_file()]
+    assert left and {path.suffix for path in left} == {".log"}, "no credentials, in a folder that is published"
 
 
 @pytest.mark.processes

@@ -50,7 +50,7 @@ def test_a_brain_that_raises_costs_its_match_only(match_file: Path) -> None:
     words = (match_file, "--seeds", "2", "--both-sides", "--magenta", "few_brains:RaisesInMagenta")
     result = series(*words)
     assert result.exit_code == 1
-    assert "1 of 2 matches, 1 failed" in result.stdout
+    assert "1 of 2 matches, 1 failed; in brackets" in result.stdout
     assert "seed 2: failed: magenta1, tick 20: ValueError: no idea (few_brains.py, line " in result.stderr
     found = rows(*words)
     assert [(row["seed"], row["swapped"]) for row in found["matches"]] == [(2, True)]

@@ -1,8 +1,13 @@
 """The figures of a series, from rows made by hand."""
 
+from types import SimpleNamespace
+from typing import Any
+
 from pytest import approx
 
-from touchline.matches.series.match_row import MatchRow, TeamRow
+from schemas.side import Side
+from touchline.matches.engine.outcome import Played
+from touchline.matches.series.match_row import MatchRow, TeamRow, row_of
 from touchline.matches.series.summary import Figure, Summary, summary_of
 from touchline.matches.statistics.estimates import Estimate
 
@@ -95,6 +100,17 @@ def test_the_longest_times_are_given_with_their_match() -> None:
     rows = [row(1, team(), team(), longest_stuck_s=1.0), row(2, team(), team(), longest_stuck_s=4.0)]
     longest = {one.name: (one.seconds, one.row.seed) for one in summary_of(rows).longest}
     assert longest["longest time that a robot was stuck"] == (4.0, 2)
+
+
+def test_the_row_of_a_match_has_the_times_of_its_figures() -> None:
+    team = SimpleNamespace(goals=None, kicks=None, saves=None, fouls={}, cards={}, possession_s=None)
+    robots = [SimpleNamespace(side=Side.CYAN, keeper=True, longest_stuck_s=seconds) for seconds in (2.0, 3.0)]
+    times = {"in_play_s": 50.0, "crowded_s": 4.0, "longest_crowd_s": 1.5}
+    figures: Any = SimpleNamespace(sides=dict.fromkeys(Side, team), robots=robots, **times)
+    match: Any = SimpleNamespace(seed=1, swapped=False, sides=tuple(Side))
+    made = row_of(1, match, Played("", figures, 60.0, "chain"))
+    assert {name: getattr(made, name) for name in times} == times
+    assert isinstance(made, MatchRow) and made.longest_stuck_s == 3.0
 
 
 def test_a_series_of_which_nothing_was_played_has_no_figures() -> None:
