@@ -5,6 +5,7 @@ A process that dies or hangs costs its own match only.
 
 import multiprocessing
 import os
+import signal
 import tempfile
 import threading
 from collections.abc import Callable
@@ -47,7 +48,9 @@ class FreshProcesses(Executor):
 
     def __init__(self, jobs: int) -> None:
         """`jobs` is the number of processes at a time."""
-        self._threads = ThreadPoolExecutor(jobs, "match")
+        self._context = multiprocessing.get_context("forkserver")
+        self._context.Lock()  # starts multiprocessing's tracker of locks, which lets Ctrl-C through to what follows it
+        self._threads = ThreadPoolExecutor(jobs, "match", _block_interrupts)
         self._lock = threading.Lock()
         self._running: set[Future[Any]] = set()
         self._is_closed = False
@@ -67,13 +70,12 @@ class FreshProcesses(Executor):
         self._threads.shutdown(wait, cancel_futures=cancel_futures)
 
     def _call(self, call: Callable[[Path], Any], module: str) -> Any:
-        context = multiprocessing.get_context("forkserver")
-        context.set_forkserver_preload([_PRELOAD, module])
+        self._context.set_forkserver_preload([_PRELOAD, module])
         with tempfile.TemporaryDirectory(prefix="touchline-") as folder:
             with self._lock:
                 if self._is_closed:
                     raise DiedProcessError("it was not started any more")
-                process = _in_process(context)(call, Path(folder))
+                process = _in_process(self._context)(call, Path(folder))
                 self._running.add(process)
             try:
                 return process.result()
@@ -87,6 +89,11 @@ class FreshProcesses(Executor):
                     self._running.discard(process)
 
 
+def _block_interrupts() -> None:
+    """Keep Ctrl-C from the fork server that this thread starts, which would print what it was importing."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+
+
 def _in_process(context: ForkServerContext) -> "Callable[..., Future[Any]]":
     """Calls `_run` in a process, which may start others: it is no daemon."""
     options: dict[str, Any] = {"daemon": False, "context": context}  # stubs of pebble name the context differently
@@ -96,6 +103,7 @@ def _in_process(context: ForkServerContext) -> "Callable[..., Future[Any]]":
 
 def _run(call: Callable[[Path], Any], folder: Path) -> Any:
     """What the process does."""
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the programs that it starts have it
     threading.Thread(target=_end_with_parent, daemon=True).start()
     os.dup2(2, 1)  # what brains print is no part of the result
     return call(folder)

@@ -2,6 +2,7 @@
 
 import os
 import re
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -33,6 +34,19 @@ def in_fresh_process(planned: PlannedMatch) -> Outcome:
     with FreshProcesses(1) as executor:
         outcome: Outcome = executor.submit(play, planned).result()
         return outcome
+
+
+def interrupts_of(_: Path) -> tuple[bool, bool]:
+    """Whether Ctrl-C is kept from the fork server, and from what this process starts."""
+    masks = [Path(f"/proc/{one}/status").read_text() for one in (os.getppid(), os.getpid())]
+    blocked = [int(mask.partition("SigBlk:")[2].split()[0], 16) for mask in masks]
+    server, own = (bool(one >> (signal.SIGINT - 1) & 1) for one in blocked)
+    return server, own
+
+
+def test_ctrl_c_reaches_the_command_and_not_the_fork_server_that_still_imports() -> None:
+    with FreshProcesses(1) as executor:
+        assert executor.submit(interrupts_of).result() == (True, False)
 
 
 def test_a_match_has_the_same_outcome_each_time_and_as_json(match_of: MatchOf, folder: Path) -> None:
