@@ -2,8 +2,8 @@
 
 ADDRESS is printed by `touchline match --web` or `touchline replay FILE --web`. The screenshot is taken when the page's
 phase, score or event list contains WORDS, or at once without WORDS; trails are `off`, `short` or `all`. In
-`docs/images`, `page_live.png` and `page_phone.png` show a match with seed 9 and `--referee mixed`, `page_replay.png`
-its recording, and `coverage.png` `examples/coverage/coverage.toml`: `ADDRESS coverage.png 1366 768 0.7 all`.
+`docs/images`, `page_live.png` and `page_phone.png` show a match with seed 9 and `--referee mixed`, `page_replay.png` a
+recording of one, and `coverage.png` `examples/coverage/coverage.toml`: `ADDRESS coverage.png 1366 768 0.7 all`.
 """
 
 import os

@@ -132,3 +132,8 @@ def test_the_header_cuts_neither_the_phase_nor_the_half_nor_the_time_left(
             assert tab.ask(f"{cut}(document.getElementById({name!r}))") <= 0, name
             place, field = (tab.page.locator(one).bounding_box() for one in (f"#{name}", ".pitch-section"))
             assert place["y"] + place["height"] <= field["y"] + 1, name
+    names = "const { teams } = window.touchline.match.setup; teams.cyan.name = 'Tech United Eindhoven';"
+    tab.ask(f"(() => {{ {names} teams.magenta.name = 'CAMBADA Aveiro Portugal'; }})()")
+    staged.host.say(phase=Phase.KICK_OFF, side=Side.MAGENTA, running=True, left=9.0)
+    tab.until("document.getElementById('phase').textContent === 'Kick off, CAMBADA Aveiro Portugal, started'")
+    assert tab.page.locator("#phase").bounding_box()["width"] > 120  # what is played is in view
