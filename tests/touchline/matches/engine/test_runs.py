@@ -12,6 +12,7 @@ from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -20,13 +21,13 @@ from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.matches.engine.code_digest import code_digest
-from touchline.matches.engine.fresh_process import FreshProcesses
+from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
 from touchline.matches.engine.outcome import Failed, FailureKind, Outcome, Played, to_json
 from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import RunStore
-from touchline.matches.engine.verify import verify_run
+from touchline.matches.engine.verify import Depth, verify_run
 
 MatchOf = Callable[..., MatchConfig]
 
@@ -334,3 +335,21 @@ def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found(
         (untouched,) = verify_run(planned, outcomes, tmp_path, executor)
     assert check.faults == ("its figures are not those of its recording, such as cards and penalties",)
     assert untouched.faults == ()
+
+
+def test_a_check_whose_process_is_lost_is_a_fault_but_for_a_match_that_had_failed(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    def submit(*_: object) -> "Future[None]":
+        lost: Future[None] = Future()
+        lost.set_exception(DiedProcessError("its process was killed"))
+        return lost
+
+    stored, failed = matches(match_of, folder, 2)
+    outcomes: Any = {stored.identity: None}
+    executor: Any = SimpleNamespace(submit=submit)
+    checks = verify_run([stored, failed], outcomes, tmp_path, executor, Depth(failures=True))
+    assert {check.label: check.faults for check in checks} == {
+        stored.label: ("it could not be checked: its process was killed",),
+        failed.label: (),
+    }
