@@ -125,7 +125,7 @@ def test_the_header_cuts_neither_the_phase_nor_the_half_nor_the_time_left(
     tab = visit(staged.origin, "referee", width, height)
     staged.host.say(stage=GameStage.EXTRA_TIME, half=3)
     for phase in (Phase.KICK_OFF, Phase.GOAL_KICK):
-        staged.host.say(phase=phase, side=Side.MAGENTA, running=True, left=10.0)
+        staged.host.say(phase=phase, side=Side.MAGENTA, running=True, left=168.0)
         tab.until(f"document.getElementById('phase').textContent.startsWith({phase.value.capitalize()[:4]!r})")
         for name in ("phase", "half", "left"):
             cut = "(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)"
