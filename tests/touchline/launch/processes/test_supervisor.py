@@ -5,6 +5,7 @@ import pytest
 
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.process.settings import FIRST_SIGHT_FAILED, AgentSettings
+from runtime.process.settings_file import WRONG
 from schemas.errors import TouchlineError
 from support.stepped_clock import SteppedClock
 from touchline.launch.processes.process_table import Process, ProcessKind
@@ -181,11 +182,32 @@ def test_a_brain_that_failed_later_is_launched_again_even_if_it_then_fails_at_it
     ]
 
 
-def test_a_team_s_own_program_may_use_any_status() -> None:
+def test_a_brain_that_cannot_begin_is_not_launched_again_even_after_a_crash() -> None:
+    stage = Stage(agents=AgentSettings(robot="cyan1", brain="my_team:Striker"))
+    sentences = []
+    for status in (1, WRONG):
+        stage.end("cyan1", status)
+        sentences += [notice.sentence for notice in stage.supervisor.check()]
+    assert sentences == [
+        "cyan1 ended with status 1; started again (1 of 3)",
+        f"cyan1 ended with status {WRONG}; not started again",
+    ]
+
+
+@pytest.mark.parametrize("status", [WRONG, FIRST_SIGHT_FAILED])
+def test_a_team_s_own_program_may_use_any_status(status: int) -> None:
     stage = Stage()
-    stage.end("cyan1", FIRST_SIGHT_FAILED)
+    stage.end("cyan1", status)
     (notice,) = stage.supervisor.check()
-    assert notice.sentence == "cyan1 ended with status 3; started again (1 of 3)"
+    assert notice.sentence == f"cyan1 ended with status {status}; started again (1 of 3)"
+
+
+def test_a_page_and_a_recorder_that_end_with_status_0_are_not_reported() -> None:
+    stage = Stage(page=True)
+    for name in ("page", "recorder"):
+        stage.end(name, 0)
+    assert stage.supervisor.check() == []
+    assert stage.supervisor.ended == {"recorder": 0, "page": 0}
 
 
 def test_a_side_has_no_robot_when_all_its_programs_have_ended_for_good() -> None:

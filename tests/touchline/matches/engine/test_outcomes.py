@@ -114,6 +114,30 @@ def test_a_process_that_is_slow_while_no_brain_has_control_is_nobodys_fault(matc
     assert (outcome.kind, outcome.culprits) == (FailureKind.WORKER, ())
 
 
+@pytest.mark.parametrize(
+    ("status", "kind"),
+    [
+        (1, FailureKind.CRASHED),
+        (254, FailureKind.CRASHED),
+        (255, FailureKind.WORKER),
+        (0, FailureKind.WORKER),
+        (-signal.SIGSEGV, FailureKind.CRASHED),
+        (-signal.SIGXCPU, FailureKind.CRASHED),
+        (-signal.SIGKILL, FailureKind.WORKER),
+        (-signal.SIGTERM, FailureKind.WORKER),
+    ],
+)
+def test_a_process_that_ended_itself_is_the_fault_of_who_acted_and_one_that_was_ended_is_not(
+    match_of: MatchOf, status: int, kind: FailureKind
+) -> None:
+    error = DiedProcessError("its process has ended", status, Note(acting="magenta1"))
+    outcome = outcome_of_death(PlannedMatch(match_of()), error)
+    at_fault = kind is FailureKind.CRASHED
+    assert outcome.kind is kind
+    assert outcome.culprits == ((Side.MAGENTA,) if at_fault else ())
+    assert outcome.reason == ("magenta1: " if at_fault else "") + "its process has ended"
+
+
 def test_what_an_earlier_attempt_has_left_is_removed(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
     logs, recording = tmp_path / "logs", tmp_path / "match.mcap"
     logs.mkdir()

@@ -27,7 +27,7 @@ from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.store import RunStore
-from touchline.matches.engine.verify import Depth, verify_run
+from touchline.matches.engine.verify import Depth, check_match, sampled, verify_run
 
 MatchOf = Callable[..., MatchConfig]
 
@@ -257,6 +257,77 @@ def test_an_exception_of_the_executor_fails_the_match_and_not_the_run(
         assert outcome.reason == "its worker failed: KilledWorkerError: lost three times"
 
 
+def test_a_match_whose_worker_is_lost_is_begun_three_times(match_of: MatchOf, folder: Path) -> None:
+    plan = ListPlan(tuple(matches(match_of, folder, 2)))
+    begun = []
+
+    class Counted(LostWorkers):
+        def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+            begun.append(args[0].label)
+            return super().submit(fn, *args, **kwargs)
+
+    log = Log()
+    with Counted(1) as executor:
+        run_plan(plan, executor, None, log)
+    assert sorted(begun) == ["seed 1"] * 3 + ["seed 2"] * 3
+    assert sorted(log.ended_labels) == ["seed 1", "seed 2"]
+
+
+@dataclass
+class Shown:
+    """Notes what is shown of a run."""
+
+    counts: list[tuple[int, int, int]] = field(default_factory=list)
+    lines: list[tuple[str, bool]] = field(default_factory=list)
+
+    def planned(self, done: int, due: int, failed: int = 0) -> None:
+        self.counts.append((done, due, failed))
+
+    def ended(self, sentence: str, *, failed: bool = False) -> None:
+        self.lines.append((sentence, failed))
+
+
+class Given(ThreadPoolExecutor):
+    """Matches have ended as the test says: label → outcome."""
+
+    outcomes: Mapping[str, Outcome]
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
+        return super().submit(lambda: self.outcomes[args[0].label])
+
+
+def test_a_run_shows_how_many_matches_are_done_due_and_failed_with_those_of_before(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    before, failed, played = matches(match_of, folder, 3)
+    shown, executor = Shown(), Given(1)
+    executor.outcomes = {
+        "seed 2": Failed(failed.identity, FailureKind.CRASHED, "no idea"),
+        "seed 3": Played(played.identity, None, 0.5, "0" * 32, missed={"cyan1": 3}),
+    }
+    with executor, closing(RunStore(tmp_path)) as store:
+        store.add(Failed(before.identity, FailureKind.HUNG, "no answer"))
+        run_plan(ListPlan((before, failed, played)), executor, store, Log(), shown)
+    assert shown.counts[0] == (1, 2, 1)
+    assert shown.counts[-1] == (3, 0, 2)
+    (third, is_third_failed), second = sorted(shown.lines, key=lambda line: line[1])
+    assert second == ("seed 2", True)
+    assert third.startswith("seed 3; ") and "cyan1 3" in third and not is_third_failed
+
+
+def test_a_folder_that_holds_no_run_is_neither_read_nor_written_over(tmp_path: Path) -> None:
+    with pytest.raises(TouchlineError, match=r"has no run\.sqlite; give the folder of a run"):
+        RunStore(tmp_path / "none", read_only=True)
+    assert not (tmp_path / "none").exists()
+    (tmp_path / "file").write_text("")
+    with pytest.raises(TouchlineError, match=r"file: cannot be used for a run .*; give another folder"):
+        RunStore(tmp_path / "file")
+    (tmp_path / "run.sqlite").write_text("notes of a user, and no database at all")
+    with pytest.raises(TouchlineError, match="cannot be used for a run"):
+        RunStore(tmp_path)
+    assert (tmp_path / "run.sqlite").read_text().startswith("notes of a user")
+
+
 def test_equal_matches_in_a_plan_are_refused(match_of: MatchOf, folder: Path) -> None:
     (one,) = matches(match_of, folder, 1)
     with pytest.raises(TouchlineError, match='has "seed 1" and "seed 1", which are the same match'):
@@ -335,6 +406,44 @@ def test_figures_in_the_table_that_are_not_those_of_the_recording_are_found(
         (untouched,) = verify_run(planned, outcomes, tmp_path, executor)
     assert check.faults == ("its figures are not those of its recording, such as cards and penalties",)
     assert untouched.faults == ()
+
+
+def test_a_match_that_was_not_played_and_evidence_that_is_gone_are_faults(
+    match_of: MatchOf, folder: Path, tmp_path: Path
+) -> None:
+    missing, failed = matches(match_of, folder, 2)
+    outcome = Failed(failed.identity, FailureKind.CRASHED, "no idea", (Side.CYAN,), "logs/2")
+    assert check_match(missing, None, tmp_path).faults == ("it was not played",)
+    assert check_match(failed, outcome, tmp_path).faults == ("its evidence logs/2 is gone",)
+    (tmp_path / "logs" / "2").mkdir(parents=True)
+    assert check_match(failed, outcome, tmp_path).faults == ()
+    assert check_match(failed, replace(outcome, evidence=None), tmp_path).faults == ()
+
+
+def test_digests_of_teams_are_compared_unless_code_is_left_out(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    (one,) = matches(match_of, folder, 1)
+    planned = replace(one, code={Side.MAGENTA: "0" * 32, Side.CYAN: code_digest(one.config, Side.CYAN, folder)})
+    outcome = Failed(planned.identity, FailureKind.CRASHED, "no idea")
+    assert check_match(planned, outcome, tmp_path).faults == ("the files of Still have changed since then",)
+    assert check_match(planned, outcome, tmp_path, Depth(code=False)).faults == ()
+
+
+def test_a_match_that_fails_when_it_is_played_again_is_a_fault(match_of: MatchOf, folder: Path, tmp_path: Path) -> None:
+    planned = PlannedMatch(match_of("Raises"), brain_folder=folder)
+    check = check_match(planned, Played(planned.identity, None, 0.5, "0" * 32), tmp_path)
+    (fault,) = check.faults
+    assert fault.startswith("played again, it failed: cyan1, tick 10: ValueError: no idea")
+    assert (check.ticks, check.again) == (0, None)
+
+
+def test_a_sample_is_so_many_of_the_matches_in_their_order_and_the_same_each_time(
+    match_of: MatchOf, folder: Path
+) -> None:
+    all_of_them = matches(match_of, folder, 20)
+    drawn = sampled(all_of_them, 5)
+    assert len(drawn) == 5
+    assert drawn == [one for one in all_of_them if one in drawn] == sampled(all_of_them, 5)
+    assert sampled(all_of_them, 30) == sampled(all_of_them, None) == all_of_them
 
 
 def test_a_check_whose_process_is_lost_is_a_fault_but_for_a_match_that_had_failed(
