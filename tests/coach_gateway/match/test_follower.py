@@ -1,4 +1,7 @@
+import pytest
+
 from coach_gateway.match.follower import MatchFollower, MatchNews
+from coach_gateway.timing import STATE_SETTLES_S
 from runtime.bus.contract import Bus, ReceivedMessage
 from runtime.process.clock import WallClock
 from schemas.messages.coach import ActiveOrder, CoachOrder
@@ -38,6 +41,16 @@ def state(tick: int, phase: Phase = Phase.PLAY) -> GameState:
 
 def goal(tick: int) -> GameEvent:
     return GameEvent(tick=tick, time=tick * 0.02, clock=tick * 0.02, kind=EventKind.GOAL, rule="goal", text="goal")
+
+
+def test_a_state_is_waited_for_until_it_is_settled_or_patience_ends() -> None:
+    host, follower = seats()
+    assert follower.wait_for_state(2.0) is None
+    clock = follower.bus.clock
+    assert clock.now() == pytest.approx(2.0, abs=0.1)
+    host.publisher(STATE).put(state(1))
+    assert follower.wait_for_state(100.0) == state(1)
+    assert clock.now() == pytest.approx(2.0 + STATE_SETTLES_S, abs=0.2)
 
 
 def test_the_newest_state_and_health_and_every_event_are_kept() -> None:

@@ -19,6 +19,7 @@ from schemas.config.match_config import load_match
 from schemas.side import Side
 from support.isolated_match import needs_bubblewrap
 from support.process_story import is_running
+from support.stepped_clock import SteppedClock
 from touchline.launch.confinement.robot_confinement import Confinement
 from touchline.launch.confinement.team_code import system_folders
 from touchline.launch.processes.child_process import ChildProcess
@@ -114,6 +115,20 @@ def test_a_robot_has_its_own_log_and_exit_status(launch: Launch, tmp_path: Path,
     (line,) = launched.last_lines()
     assert line.startswith(f"touchline: --connect {_NOBODY}: no host answers there")
     assert (tmp_path / "cyan1.log").read_text().startswith("earlier\n")
+
+
+class SleepingClock(SteppedClock):
+    """A clock on which nobody waits without sleeping."""
+
+    def sleep_until(self, moment: float) -> None:
+        assert moment > self.now()
+        super().sleep_until(moment)
+
+
+def test_who_waits_for_a_robot_sleeps_until_the_time_is_over(launch: Launch) -> None:
+    clock = SleepingClock()
+    assert launch(python("import time; time.sleep(600)")).wait(0.5, clock) is None
+    assert clock.now() == pytest.approx(0.5, abs=0.1)
 
 
 def test_of_a_log_in_json_the_messages_are_shown(launch: Launch) -> None:

@@ -56,6 +56,12 @@ def test_of_two_teams_the_first_begins_in_cyan_and_is_in_magenta_in_the_second_h
     assert [one.teams for one in round_robin(["a", "b"], "league", double=True)] == [("a", "b"), ("b", "a")]
 
 
+def test_a_round_robin_that_is_repeated_swaps_sides_from_each_time_to_the_next() -> None:
+    fixtures = round_robin(["a", "b"], "league", repeats=5)
+    assert [one.teams for one in fixtures] == [("a", "b"), ("b", "a"), ("a", "b"), ("b", "a"), ("a", "b")]
+    assert [one.round for one in fixtures] == [1, 2, 3, 4, 5]
+
+
 def test_sides_are_swapped_in_each_second_match_of_a_fixture() -> None:
     fixture = Fixture("league 1", "league", 1, ("a", "b"), best_of=3)
     assert [fixture.sides(leg) for leg in range(3)] == [("a", "b"), ("b", "a"), ("a", "b")]

@@ -48,6 +48,12 @@ def test_a_cup_whose_folder_was_moved_is_verified(cup: Path) -> None:
     assert 0 < part.ticks < whole.ticks
 
 
+def test_a_cup_that_has_not_begun_is_not_verified(tmp_path: Path) -> None:
+    RunStore(tmp_path).close()
+    with pytest.raises(TouchlineError, match="its cup has not begun; nothing can be verified"):
+        verified(tmp_path)
+
+
 def test_a_cup_by_a_rule_book_of_its_own_is_verified_where_that_file_is_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

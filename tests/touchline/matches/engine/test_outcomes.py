@@ -1,9 +1,13 @@
 """How planned matches end, and whose fault it is if they do not."""
 
+import faulthandler
 import os
 import re
 import signal
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,9 +17,11 @@ from schemas.config.match_config import MatchConfig
 from schemas.side import Side
 from support.free_match import free_match
 from support.process_story import descendants, is_running, wait_for
+from support.stepped_clock import SteppedClock
+from touchline.matches.engine import hang_watch
 from touchline.matches.engine.code_digest import code_digest
 from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
-from touchline.matches.engine.hang_watch import Note
+from touchline.matches.engine.hang_watch import HangWatch, Note
 from touchline.matches.engine.in_process import outcome_of_death
 from touchline.matches.engine.inputs_only import with_inputs_only
 from touchline.matches.engine.measurement import measured
@@ -24,6 +30,7 @@ from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.play import play
 from touchline.matches.engine.run import run_plan
+from touchline.timing import HANG_RENEW_S
 from touchline.verify.resimulate import verify
 
 MatchOf = Callable[..., MatchConfig]
@@ -106,6 +113,50 @@ def test_a_brain_that_does_not_answer_is_named_with_its_stack(match_of: MatchOf,
         assert (outcome.kind, outcome.reason, outcome.culprits) == (*ends[one.label], (Side.CYAN,))
         assert outcome.evidence is not None
         assert "planned_brains.py" in Path(outcome.evidence).read_text()
+
+
+RESTS = """
+import os, sys, time
+from pathlib import Path
+from touchline.matches.engine.fresh_process import FreshProcesses
+
+def rest(file, note):
+    file.with_suffix(".draft").write_text(str(os.getpid()))
+    file.with_suffix(".draft").rename(file)
+    time.sleep(600.0)
+
+if __name__ == "__main__":
+    from rests import rest
+    FreshProcesses(1).submit(rest, Path(sys.argv[1]))
+"""
+
+
+def test_a_process_of_a_match_ends_when_those_who_wait_for_it_are_killed(tmp_path: Path) -> None:
+    file = tmp_path / "pid"
+    (tmp_path / "rests.py").write_text(RESTS)
+    waiting = subprocess.Popen([sys.executable, str(tmp_path / "rests.py"), str(file)], start_new_session=True)
+    try:
+        wait_for(file.exists)
+        waiting.kill()
+        wait_for(lambda: not is_running(int(file.read_text())))
+    finally:
+        waiting.kill()
+        waiting.wait()
+
+
+def test_the_time_of_a_brain_begins_anew_at_most_once_in_a_while(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each time costs a thread in C."""
+    clock, begun = SteppedClock(), []
+    clock.sleep_until(100.0)
+    monkeypatch.setattr(faulthandler, "dump_traceback_later", lambda seconds, **_: begun.append((clock.now(), seconds)))
+    monkeypatch.setattr(hang_watch, "WallClock", lambda: clock)
+    with closing(HangWatch(tmp_path, 5.0)) as watch:
+        for step in range(5):
+            clock.sleep_until(100.0 + step * HANG_RENEW_S / 2)
+            watch.renew()
+    assert begun == [(100.0 + step * HANG_RENEW_S, 5.0 + HANG_RENEW_S) for step in range(3)]
 
 
 def test_a_process_that_is_slow_while_no_brain_has_control_is_nobodys_fault(match_of: MatchOf) -> None:

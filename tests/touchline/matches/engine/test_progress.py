@@ -21,6 +21,7 @@ class Terminal(StringIO):
 
 def counts(at_once: int = 2) -> tuple[RunCounts, SteppedClock]:
     clock = SteppedClock()
+    clock.sleep_until(100.0)
     return RunCounts(clock, due=4, at_once=at_once), clock
 
 
@@ -28,7 +29,7 @@ def test_the_end_is_estimated_from_the_matches_that_have_ended_in_this_run() -> 
     run, clock = counts()
     run.plan(10, 4, 0)
     assert run.remaining is None
-    clock.sleep_until(6.0)
+    clock.sleep_until(106.0)
     run.add(failed=False)
     assert run.remaining == 18.0
     assert run.text.endswith(f"ends {datetime.fromtimestamp(clock.unix_ns() / 1e9 + 18.0):%H:%M}")

@@ -1,0 +1,61 @@
+"""The replay of files that are no recordings of a match, with what stands beside it."""
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+
+from recordings.replay.log_replay import Keys
+from recordings.replay.replay import ReplaySettings
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file, new_credentials, write_credentials
+from schemas.messages.replay import ReplayReply
+from support.foreign import drive, write_mcap
+from touchline.launch import log_replay
+
+
+def replayed(folder: Path, credentials: Path | None = None) -> ReplayReply:
+    file = write_mcap(folder / "log.mcap", drive(50))
+    settings, page = ReplaySettings(file, rate=None), object()
+    options: dict[str, Any] = {"name": "replay", "connect": None, "listen": "tcp/127.0.0.1:0", "viewers": None}
+    return log_replay.replay_log(
+        [file], settings, Keys(settings), **options, credentials=credentials, page=page, quiet=True
+    )
+
+
+@pytest.mark.parametrize("has_passwords", [False, True])
+def test_the_page_beside_a_replay_has_the_operator_s_account_where_there_are_passwords(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, has_passwords: bool
+) -> None:
+    given: list[Path | None] = []
+
+    @contextmanager
+    def serve(*arguments: Any) -> Iterator[Any]:
+        given.append(arguments[-1])
+        yield list
+
+    monkeypatch.setattr(log_replay, "serve_page_beside", serve)
+    write_credentials(tmp_path, new_credentials())
+    replayed(tmp_path, tmp_path / "host.json" if has_passwords else None)
+    assert given == [account_file(tmp_path, Account.OPERATOR) if has_passwords else None]
+
+
+def test_a_replay_that_a_signal_ends_has_the_status_of_the_signal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    @contextmanager
+    def serve(*_: Any) -> Iterator[Any]:
+        def look_after() -> list[Any]:
+            signal.raise_signal(signal.SIGTERM)
+            return []
+
+        yield look_after
+
+    monkeypatch.setattr(log_replay, "serve_page_beside", serve)
+    with pytest.raises(typer.Exit) as ended:
+        replayed(tmp_path)
+    assert ended.value.exit_code == 128 + signal.SIGTERM
