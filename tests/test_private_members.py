@@ -15,8 +15,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 OURS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
 FOLDERS = (*OURS, "benchmarks", "docs", "examples", "tests")
-DOCUMENTED = {"__struct_config__", "_asdict", "_exit", "_fields", "_make", "_replace"}
-"""Of named tuples and `os`: public in spite of their names."""
+DOCUMENTED = {"__struct_config__", "_asdict", "_current_frames", "_exit", "_fields", "_make", "_replace"}
+"""Of named tuples, `os` and `sys`: public in spite of their names."""
 SPECIAL = {name for thing in (type, ast, ast.walk, list[int], IOBase, Exception()) for name in dir(thing)} | {
     "__all__",
     "__excepthook__",
@@ -24,6 +24,7 @@ SPECIAL = {name for thing in (type, ast, ast.walk, list[int], IOBase, Exception(
     "__signature__",
     "__slots__",
     "__metadata__",
+    "__path__",
     "__struct_fields__",
 }
 """Names with two underscores at both ends that Python or msgspec documents."""

@@ -166,4 +166,4 @@ def test_a_stretch_without_a_report_is_refused(recording: Path) -> None:
     result = touchline(str(recording), "--from", "500")
     assert result.exit_code == 2
     assert "no report of the host's health after 500 s; reports come four times a second" in result.stderr
-    assert "is not after" in touchline(str(recording), "--from", "2", "--to", "1").stderr
+    assert "--from is 2 and --to is 1; give" in touchline(str(recording), "--from", "2", "--to", "1").stderr
