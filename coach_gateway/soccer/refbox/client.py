@@ -20,6 +20,7 @@ from coach_gateway.soccer.refbox.framing import Framer
 from coach_gateway.soccer.refbox.own_world_state import own_world_state
 from coach_gateway.soccer.refbox.signal_queue import BoxSignal, SignalQueue
 from coach_gateway.timing import BOX_FIRST_PAUSE_S, BOX_PERIOD_S, SILENCE_S, START_AGAIN_S, UNREAD_S
+from runtime.process.process_log import NOTE
 from runtime.process.timing import GIVE_UP_S
 from schemas.errors import TouchlineError
 from schemas.messages.coach import CoachMode
@@ -125,9 +126,13 @@ class RefBoxClient:
 
     def _note_refusal(self, why: str) -> None:
         """Log why a command is unreadable or not forwarded; once, if one after the other is for the same reason."""
-        if why != self._noted:
-            self._noted = why
+        if not self._has_noted(why):
             self._log(f"referee box: {why}")
+
+    def _has_noted(self, what: str) -> bool:
+        """Whether this was the last thing to be noted; now it is."""
+        before, self._noted = self._noted, what
+        return before == what
 
     def _set_connected(self, connected: bool) -> None:
         self.connected = connected
@@ -210,10 +215,11 @@ class RefBoxClient:
 
     async def _ask(self, action: RefereeAction) -> None:
         """Ask for an action until the host has replied: the box does not repeat it, and START must not overtake it."""
+        about = " ".join(filter(None, (action.action, action.side, action.robot)))
         while (reply := await self._reply_to(action)) is None:
+            if not self._has_noted(about):
+                self._log(f"{NOTE}{about} of the referee box: no reply of the host; it is repeated, later signals wait")
             self.counts["repeated"] += 1
-            about = " ".join(filter(None, (action.action, action.side, action.robot)))
-            self._note_refusal(f"{about}: no reply of the host; it is repeated, and later signals wait for it")
             await asyncio.sleep(START_AGAIN_S)
         self.counts["forwarded" if reply.accepted else "refused"] += 1
         if not reply.accepted:

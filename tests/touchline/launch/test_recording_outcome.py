@@ -3,7 +3,14 @@ from pathlib import Path
 
 import pytest
 
+from runtime.bus.contract import ReceivedMessage, Stamp
+from runtime.bus.outcome_file import write_outcome
 from schemas.config.match_config import load_match
+from schemas.messages.soccer.game import GameState
+from schemas.soccer.game import Phase, Score
+from schemas.topics import STATE
+from support.brisk import BRISK
+from support.recorded_match import record_match
 from touchline.launch.processes.programs import MatchPlan
 from touchline.launch.recording_outcome import finished_recording, outcome_of, unfinished_recording
 
@@ -56,3 +63,16 @@ def test_a_recording_of_which_nothing_is_left_is_lost() -> None:
 def test_what_a_recorder_ended_with_is_the_reason(status: int, fault: str) -> None:
     plan = MatchPlan(load_match(None), None, PATH.parent, PATH)
     assert fault in outcome_of(plan, status, ["touchline: disk full"]).fault
+
+
+def test_a_recording_that_ends_before_the_match_is_not_called_whole(tmp_path: Path) -> None:
+    """Another recorder's file of this path had 272 of 1,201 ticks, and the match said that nothing is lost."""
+    config = load_match(None, {"duration": 2.0, "teams.cyan.size": 1, "teams.magenta.size": 1, "rules": BRISK})
+    path = tmp_path / "match.mcap"
+    plan = MatchPlan(config, None, tmp_path, path)
+    record_match(path, config, until=1.0)
+    for tick, fault in ((50, ""), (200, "it ends with tick 50, the match with tick 200 or a later one")):
+        over = GameState(tick=tick, time=tick / 50, phase=Phase.FULL_TIME, clock=1.0, score=Score())
+        write_outcome(plan.outcome, [ReceivedMessage(STATE, STATE.key, over.encode(), Stamp(1, 1, 1))])
+        assert fault in outcome_of(plan, 0, []).fault
+        assert bool(fault) == bool(outcome_of(plan, 0, []).fault)
