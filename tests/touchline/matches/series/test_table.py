@@ -1,6 +1,6 @@
 """What a terminal shows of a series."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import pytest
@@ -30,9 +30,9 @@ def test_a_figure_has_three_digits_and_its_interval(value: Estimate | int | None
     assert figure_rows([Figure("goals", (value, 1), percent)]) == [("goals", cell, "1")]
 
 
-def row(**fields: Any) -> MatchRow:
-    plain = dict.fromkeys(MatchRow.__dataclass_fields__, 0) | {"seed": 7, "swapped": False}
-    return MatchRow(**(plain | fields))
+def row(**given: Any) -> MatchRow:
+    plain = dict.fromkeys([one.name for one in fields(MatchRow)], 0) | {"seed": 7, "swapped": False}
+    return MatchRow(**(plain | given))
 
 
 def test_a_headline_counts_the_matches_that_failed_and_those_that_were_not_played() -> None:
