@@ -124,7 +124,8 @@ def test_the_match_of_the_next_host_is_played_to_its_end_by_the_same_agents(stor
 
 def test_an_agent_plays_where_pybullet_is_not_installed_and_leaves_politely(story):
     assert story.agent_statuses == [0, 0]
-    assert [agent.err for agent in story.agents] == ["", ""]
+    lines = [line for agent in story.agents for line in agent.err.splitlines()]
+    assert [line for line in lines if "waiting for it for up to" not in line] == []  # it may be there before its host
 
 
 def test_an_agent_whose_host_does_not_come_back_ends_by_itself(start, folder, without_pybullet):
