@@ -69,8 +69,9 @@ class ProcessWatch:
         while not self._ended.wait(SAMPLE_S):
             parents = dict(_stats())
             for process, (parent, ticks) in parents.items():
-                if process not in self._kinds and parent in self._kinds:
-                    self._kinds[process] = _kind(process)
+                known = self._kinds.get(process)
+                if known == "agents" or (known is None and parent in self._kinds):
+                    self._kinds[process] = _kind(process)  # a fork has its parent's command until it runs its own
                 if process in self._kinds:
                     self._ticks[process] = ticks
 
