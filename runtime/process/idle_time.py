@@ -12,6 +12,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, suppress
+from pathlib import Path
 from queue import SimpleQueue
 
 from runtime.process.clock import WallClock
@@ -44,6 +45,15 @@ def core_wait() -> Iterator[CoreWait]:
         yield lambda: _waited_s(os.pread(descriptor, 100, 0))
     finally:
         os.close(descriptor)
+
+
+def core_wait_of(pid: int) -> float:
+    """The wall time in s that the running threads of a process have waited for a core, added up; 0 if unknown."""
+    total = 0.0
+    for schedstat in Path(f"/proc/{pid}/task").glob("*/schedstat"):
+        with suppress(OSError):  # the thread has ended
+            total += _waited_s(schedstat.read_bytes()) or 0.0
+    return total
 
 
 def _waited_s(schedstat: bytes) -> float | None:

@@ -1,6 +1,7 @@
 """Work that can wait: done while a core is idle, and also where no core ever is."""
 
 import os
+import subprocess
 import sys
 import threading
 from collections.abc import Iterator
@@ -8,8 +9,9 @@ from contextlib import nullcontext
 
 import pytest
 
-from runtime.process.idle_time import CoreWaitMeter, core_wait, run_in_idle_time, start_thread
+from runtime.process.idle_time import CoreWaitMeter, core_wait, core_wait_of, run_in_idle_time, start_thread
 from runtime.process.scheduling import use_batch_scheduling
+from support.process_story import wait_for
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="a policy of the Linux kernel")
 
@@ -101,6 +103,21 @@ def test_a_thread_started_in_idle_time_has_the_policy_of_the_requesting_thread()
     start_thread(thread := threading.Thread(target=lambda: born.append(os.sched_getscheduler(0))))
     thread.join()
     assert born == [os.SCHED_BATCH] * 2
+
+
+@pytest.mark.processes
+def test_a_process_that_shares_its_core_waits_and_one_that_is_not_there_does_not():
+    cores = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(cores)})
+    busy = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(3)]
+    os.sched_setaffinity(0, cores)
+    try:
+        wait_for(lambda: core_wait_of(busy[0].pid) > 0.1, "its turn")
+    finally:
+        for one in busy:
+            one.kill()
+            one.wait()
+    assert core_wait_of(busy[0].pid) == 0.0
 
 
 def test_the_kernel_reports_how_long_this_thread_has_waited_for_a_core():

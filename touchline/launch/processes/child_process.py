@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from coach_gateway.ports import inheritance_of
 from runtime.process.clock import Clock
+from runtime.process.idle_time import core_wait_of
 from runtime.process.leash import OwnConfinement, leashed
 from runtime.process.process_log import message_of
 from runtime.process.settings_file import STANDARD_INPUT, write_settings
@@ -41,6 +42,7 @@ class ChildProcess:
         """
         self.process, self.log = process, folder / f"{process.name}.log"
         self._status: int | None = None
+        self._core_wait = 0.0
         _write_files_of(process)
         with self.log.open("ab") as out:
             self._log_start = out.tell()
@@ -77,6 +79,11 @@ class ChildProcess:
             self._signal_within(number)
         else:
             self._signal_group(number)
+
+    def core_wait(self) -> float:
+        """Wall time in s in which its threads were ready and had no core so far, as far as the kernel tells."""
+        self._core_wait = max(self._core_wait, core_wait_of(self.pid))  # a thread that ends takes its time with it
+        return self._core_wait
 
     def breach(self) -> str:
         """What the process did beyond its limits, with the remedy, if it has ended for that; empty if not."""

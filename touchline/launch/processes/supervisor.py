@@ -37,6 +37,8 @@ class EndStep:
     number: signal.Signals
     since_host: bool = False
     """The time counts from the end of the host, not from the beginning of the shutdown."""
+    is_work: bool = False
+    """Time in which the processes were ready and had no core does not count: a busy machine cuts nothing short."""
 
 
 _ALL = frozenset(ProcessKind)
@@ -50,8 +52,8 @@ _RECORDER_S = RECONNECT_S + GIVE_UP_S
 AFTER_THE_MATCH = (
     EndStep(0.0, _RECONNECTING, signal.SIGTERM),
     EndStep(PROGRAM_ENDS_S, _RECONNECTING, signal.SIGKILL),
-    EndStep(_RECORDER_S, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
-    EndStep(_RECORDER_S + PARTING_S, _ALL, signal.SIGKILL),
+    EndStep(_RECORDER_S, frozenset({ProcessKind.RECORDER}), signal.SIGTERM, is_work=True),
+    EndStep(_RECORDER_S + PARTING_S, _ALL, signal.SIGKILL, is_work=True),
 )
 """The host has ended by itself: processes that would wait for its return are signalled; the recorder may finish."""
 
@@ -163,16 +165,33 @@ class Supervisor:
         Processes of the kinds `keep` go on.
         """
         began, host_ended = self._clock.now(), float("inf")
+        waited = {name: running.core_wait() for name, running in self._running.items()}
         waiting = list(steps)
         while self._still_running(keep) and not should_abort():
             now = self._clock.now()
             if self.host_status is not None:
                 host_ended = min(host_ended, now)
-            due = [step for step in waiting if step.after <= now - (host_ended if step.since_host else began)]
+            due = [
+                step
+                for step in waiting
+                if step.after + self._core_wait(step, waited) <= now - (host_ended if step.since_host else began)
+            ]
             waiting = [step for step in waiting if step not in due]
             for step in due:
                 self._signal(step, keep)
             self._clock.sleep_until(self._clock.now() + POLL_S)
+
+    def _core_wait(self, step: EndStep, before: dict[str, float]) -> float:
+        """The longest that a process of the step has waited for a core since `before`, in s; 0 where that counts."""
+        kinds = step.kinds if step.is_work else ()
+        return max(
+            (
+                self._running[name].core_wait() - waited
+                for name, waited in before.items()
+                if name not in self.ended and self._processes[name].kind in kinds
+            ),
+            default=0.0,
+        )
 
     def _still_running(self, keep: frozenset[ProcessKind]) -> bool:
         for name in self._running:

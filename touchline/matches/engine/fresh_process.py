@@ -9,7 +9,7 @@ import signal
 import tempfile
 import threading
 from collections.abc import Callable
-from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from functools import partial
 from multiprocessing.context import ForkServerContext
 from pathlib import Path
@@ -20,6 +20,7 @@ from pebble import ProcessExpired, concurrent
 from robot_agent.loading.brain_folders import added_folders, remove_folders
 from touchline.launch.processes.supervisor import ending
 from touchline.matches.engine.hang_watch import Note, read_note
+from touchline.timing import PROGRAM_ENDS_S
 
 _PRELOAD = "touchline.matches.engine.preload"
 """What the fork server imports once for all processes; not imported here."""
@@ -52,7 +53,8 @@ class FreshProcesses(Executor):
         self._context.Lock()  # starts multiprocessing's tracker of locks, which lets Ctrl-C through to what follows it
         self._threads = ThreadPoolExecutor(jobs, "match", _block_interrupts)
         self._lock = threading.Lock()
-        self._running: set[Future[Any]] = set()
+        self._name = f"match-{id(self)}"
+        """The name of its processes."""
         self._is_closed = False
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
@@ -65,8 +67,13 @@ class FreshProcesses(Executor):
         if cancel_futures:
             with self._lock:
                 self._is_closed = True
-                for process in self._running:
-                    process.cancel()
+            # not by their futures: pebble's thread fails where a result has come just before
+            running = [one for one in multiprocessing.active_children() if one.name == self._name]
+            for process in running:
+                process.terminate()
+            for process in running:
+                process.join(PROGRAM_ENDS_S)
+                process.kill()
         self._threads.shutdown(wait, cancel_futures=cancel_futures)
 
     def _call(self, call: Callable[[Path], Any], module: str) -> Any:
@@ -75,18 +82,15 @@ class FreshProcesses(Executor):
             with self._lock:
                 if self._is_closed:
                     raise DiedProcessError("it was not started any more")
-                process = _in_process(self._context)(call, Path(folder))
-                self._running.add(process)
+                process = _in_process(self._context, self._name)(call, Path(folder))
             try:
                 return process.result()
             except ProcessExpired as error:
                 status = error.exitcode or 0
                 raise DiedProcessError(f"its process {ending(status)}", status, read_note(Path(folder))) from None
-            except CancelledError:
-                raise DiedProcessError("it was ended with the run") from None
             finally:
-                with self._lock:
-                    self._running.discard(process)
+                if self._is_closed:  # whatever a process makes of its signal
+                    raise DiedProcessError("it was ended with the run")
 
 
 def _block_interrupts() -> None:
@@ -94,9 +98,10 @@ def _block_interrupts() -> None:
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
-def _in_process(context: ForkServerContext) -> "Callable[..., Future[Any]]":
+def _in_process(context: ForkServerContext, name: str) -> "Callable[..., Future[Any]]":
     """Calls `_run` in a process, which may start others: it is no daemon."""
-    options: dict[str, Any] = {"daemon": False, "context": context}  # stubs of pebble name the context differently
+    options: dict[str, Any] = {"name": name, "daemon": False}
+    options["context"] = context  # stubs of pebble name it differently
     decorated: Callable[..., Callable[..., Future[Any]]] = concurrent.process(**options)
     return decorated(_run)
 

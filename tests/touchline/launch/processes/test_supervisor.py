@@ -20,6 +20,7 @@ class Actor:
         self.exceeded = ""
         self.ended: int | None = None
         self.heard: list[tuple[float, signal.Signals]] = []
+        self.has_core = True
         self._clock = clock
         self._deaf_to = deaf_to
 
@@ -30,6 +31,9 @@ class Actor:
         self.heard.append((round(self._clock.now(), 2), number))
         if number not in self._deaf_to and self.ended is None:
             self.ended = -number
+
+    def core_wait(self) -> float:
+        return 0.0 if self.has_core else self._clock.now()
 
     def last_lines(self, count: int = 5) -> list[str]:
         return [f"last word of {self.name}"]
@@ -304,6 +308,18 @@ def test_no_process_is_restarted_for_a_host_that_is_gone() -> None:
     assert stage.supervisor.check() == []
     assert stage.supervisor.host_status == 3
     assert len(stage.cast["cyan1"]) == 1
+
+
+def test_a_recorder_that_has_no_core_is_not_ended_after_the_match_before_it_has_had_its_time() -> None:
+    stage = Stage(deaf_to=frozenset({signal.SIGTERM}))
+    stage.end("host", 0)
+    recorder = stage.cast["recorder"][-1]
+    recorder.has_core = False
+    stage.supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stage.clock.now() > 300.0)
+    assert recorder.heard == []
+    recorder.has_core = True
+    stage.supervisor.end(AFTER_THE_MATCH)
+    assert recorder.ended == -signal.SIGKILL
 
 
 def test_at_once_the_host_hears_first_and_the_recorder_last() -> None:

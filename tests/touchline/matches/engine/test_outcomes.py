@@ -6,6 +6,8 @@ import re
 import signal
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
@@ -277,6 +279,25 @@ def test_a_match_that_is_cancelled_leaves_no_process(match_of: MatchOf, folder: 
     executor.shutdown(cancel_futures=True)
     assert isinstance(future.exception(), DiedProcessError)
     wait_for(lambda: not any(map(is_running, programs)), "the end of the host")
+
+
+def end_slowly(done: Path, _: Path) -> None:
+    """Return at once, in a process that goes on for a while and is deaf to SIGTERM."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    threading.Thread(target=time.sleep, args=[60.0]).start()
+    done.touch()
+
+
+def test_a_run_that_ends_just_as_a_match_has_ended_is_tidy(tmp_path: Path) -> None:
+    threads = threading.active_count()
+    executor = FreshProcesses(1)
+    future = executor.submit(end_slowly, done := tmp_path / "done")
+    wait_for(done.exists, "the end of the function")
+    time.sleep(0.3)  # for its result to be read
+    executor.shutdown(cancel_futures=True)
+    with pytest.raises(DiedProcessError, match="it was ended with the run"):
+        future.result()
+    wait_for(lambda: threading.active_count() <= threads, "the end of all threads, none by an exception")
 
 
 def command_line(pid: int) -> str:
