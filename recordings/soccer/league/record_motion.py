@@ -20,14 +20,14 @@ Mask = npt.NDArray[np.bool_]
 
 _X, _Y, _THIRD, _VX, _VY, _VTHIRD = 1, 2, 3, 4, 5, 6
 """Columns of a row after its time: two coordinates, heading or height, and their rates."""
-_WINDOW_S = 0.12
+_ROUNDING_S = 1e-6
+_WINDOW_S = 0.12 + _ROUNDING_S
 """s before and after a record in which its velocity is the slope of the positions. Chosen here: errors of some cm in
 positions of 25 Hz become 0.2 m/s."""
 _APART_S = 0.04
 """s between the first and the last record from which a velocity is derived. Chosen here: the league's highest rate."""
 _MOVES_MPS = 0.7
 """m/s above which a body moves. Chosen here: well above the error of a derived velocity."""
-_ROUNDING_S = 1e-6
 _ENOUGH = 10
 """Records in which a body moves, below which its velocities are not judged as a whole. Chosen here."""
 

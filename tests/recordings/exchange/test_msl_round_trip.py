@@ -5,6 +5,7 @@ import math
 import re
 import tracemalloc
 from collections.abc import Callable
+from datetime import datetime
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -40,6 +41,12 @@ def back(log: Path) -> Recording:
     placed = [finding.what for finding in imported.coped]
     assert all(re.match(r"jump of (robot \d|the ball) of [AB]?", what) for what in placed), placed
     return open_recording(imported.out)
+
+
+def test_the_files_of_a_log_are_named_by_the_time_at_which_the_match_began(real: Recording, log: Path) -> None:
+    began = datetime.fromisoformat(real.manifest.started).strftime("%Y%m%d_%H%M%S")
+    with ZipFile(log) as archive:
+        assert sorted(archive.namelist()) == [f"{began}.A.msl", f"{began}.B.msl", f"{began}.msl"]
 
 
 def worlds(recording: Recording) -> dict[int, World]:

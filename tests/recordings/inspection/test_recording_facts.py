@@ -1,6 +1,8 @@
 import json
 from dataclasses import asdict, replace
 
+from recordings.container.manifest import KeyCount
+from recordings.inspection.contradictions import contradictions
 from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
 from recordings.inspection.recording_facts import CUT_OFF, facts_of
 from recordings.reading.recording import open_recording
@@ -100,3 +102,11 @@ def test_the_summary_names_match_teams_numbers_and_losses(recorded):
     assert lines["duration"] == "3.98 s simulated, from 0.00 to 3.98 s" and lines["last tick"] == "199 at 3.98 s"
     assert (lines["seed"], lines["pace"], lines["events"]) == ("7", "lockstep", "1")
     assert lines["size"] == f"{facts.size} bytes, cut off"
+
+
+def test_a_key_of_the_result_that_the_file_lacks_is_named(rig):
+    rig.play(range(20))
+    rig.leave()
+    recording = rig.read()
+    recording.result.keys["world/other"] = KeyCount(messages=3)
+    assert "world/other: 0 messages in the file, 3 in the result" in contradictions(recording)
