@@ -59,7 +59,7 @@ def main() -> None:
 
     def host() -> None:
         for commanded in inputs:
-            tick = simulation.step(commanded)  # returns sights, beliefs and inputs encoded
+            tick = simulation.step(commanded, send=lambda *_: None)  # encodes sights, beliefs and inputs
             encode({"version": VERSION, **tick.world})  # as `Publisher.put_fields` does
 
     raw = Engine(simulation.profile, simulation.roster)

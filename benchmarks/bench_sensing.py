@@ -73,7 +73,7 @@ def main() -> None:
         write, advance = Timed(simulation._subsystems.sights.at), Timed(simulation.world.advance)
         simulation._subsystems.sights.at, simulation.world.advance = write, advance  # type: ignore[method-assign, assignment]
         for _ in range(TICKS):
-            simulation.step(commands(simulation, simulation.now.tick))
+            simulation.step(commands(simulation, simulation.now.tick), send=lambda *_: None)
             snapshot = simulation.world.snapshot()
             sense(snapshot, simulation.state.cyan_attacks)
             scan(snapshot)

@@ -3,7 +3,7 @@
 Ten sights a tick are most of what a host publishes.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
@@ -19,6 +19,26 @@ from sim_host.snapshot import Roster, Snapshot
 
 Send = Callable[[str, bytes], None]
 """Sends a robot, by its name, its encoded sight."""
+
+
+class TickSights(Mapping[str, bytes]):
+    """Robot → its encoded sight of one tick. A sight is encoded when it is first read."""
+
+    def __init__(self) -> None:
+        self.perceived: dict[str, Sight] = {}
+        """The same as messages. Robots and ticks share parts of them: a reader must not change these."""
+        self._encoded: dict[str, bytes] = {}
+
+    def __getitem__(self, robot: str) -> bytes:
+        if robot not in self._encoded:
+            self._encoded[robot] = self.perceived[robot].encode()
+        return self._encoded[robot]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.perceived)
+
+    def __len__(self) -> int:
+        return len(self.perceived)
 
 
 class Sights:
@@ -44,17 +64,17 @@ class Sights:
         orders: Mapping[Side, CoachOrder],
         commands: Mapping[str, Command],
         refusals: Mapping[str, list[str]],
-        send: Send,
-    ) -> dict[str, bytes]:
-        """Robot → its encoded `schemas.messages.sight.Sight`; each is sent as soon as it is encoded."""
+        send: Send | None,
+    ) -> TickSights:
+        """The sights of all robots; with `send`, each is sent as soon as it is made."""
         percepts = self._perception.at(snapshot, cyan_attacks)
         sensed = self._sensors.at(snapshot)
         received = self._radio.receive(snapshot.tick)
-        sights = {}
+        sights = TickSights()
         for index, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
             percept, command = percepts[index], commands.get(name)
             x, y, heading, vx, vy, omega = percept.own
-            sight = Sight(
+            sights.perceived[name] = Sight(
                 tick=snapshot.tick,
                 time=snapshot.time,
                 robot=name,
@@ -73,10 +93,10 @@ class Sights:
                     answers_tick=command.answers_tick if command is not None else None,
                     refused=refusals.get(name, []),
                 ),
-                sensors=sensed[index],
-            ).encode()
-            send(name, sight)
-            sights[name] = sight
+                sensors=dict(sensed[index]),
+            )
+            if send is not None:
+                send(name, sights[name])
         self._perception.develop()
         return sights
 

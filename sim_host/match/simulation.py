@@ -28,7 +28,7 @@ from sim_host.match.opening import opening_layout
 from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.radio_use import RadioUse
-from sim_host.match.sights import Send
+from sim_host.match.sights import Send, TickSights
 from sim_host.match.subsystems import Subsystems
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, world_fields
@@ -44,8 +44,8 @@ class TickResult:
     time: float
     world: Fields
     """`schemas.messages.world.World`."""
-    sights: dict[str, bytes]
-    """Robot → `schemas.messages.sight.Sight`, encoded."""
+    sights: TickSights
+    """Robot → `schemas.messages.sight.Sight`, encoded when it is read; `sights.perceived` has the messages."""
     applied: Fields
     """`schemas.messages.applied.Applied`."""
     applied_encoded: bytes
@@ -57,10 +57,6 @@ class TickResult:
     """One for each action, in order."""
     refused: Mapping[str, int] = field(default_factory=dict)
     """Robot → number of parts of its command that could not be carried out."""
-
-
-def _discard_sight(robot: str, sight: bytes) -> None:
-    """Send nothing: the caller finds the sights in the result of the tick."""
 
 
 class Simulation:
@@ -123,13 +119,14 @@ class Simulation:
         self,
         commands: Mapping[str, Command],
         actions: Sequence[RefereeAction] = (),
-        send: Send = _discard_sight,
+        send: Send | None = None,
         silent: Container[str] = (),
         refbox: bool = False,
     ) -> TickResult:
         """One tick: apply commands, move the world, let the referee decide, make the sights.
 
-        `send` is called with each robot's sight as soon as it is encoded, so that robots think while the tick ends.
+        `send` is called with each robot's encoded sight as soon as it is made, so that robots think while the tick
+        ends; without it, sights are encoded when they are read from the result.
         `silent` are robots whose agent is gone or does not answer; the referee may take them off the field. `refbox` is
         whether a league's referee box is connected, which then decides alone when a part of the match ends.
         """
@@ -201,9 +198,9 @@ class Simulation:
         stuck: Sequence[bool],
         commands: Mapping[str, Command],
         refusals: Mapping[str, list[str]],
-        send: Send,
-    ) -> dict[str, bytes]:
-        """Robot → its encoded sight; each is sent as soon as it is encoded."""
+        send: Send | None,
+    ) -> TickSights:
+        """The sights of all robots; with `send`, each is sent as soon as it is made."""
         views = self.judge.views(self.state, self.episode)
         return self._subsystems.sights.at(
             snapshot, self.state.cyan_attacks, views, stuck, self.orders, commands, refusals, send
@@ -215,7 +212,7 @@ class Simulation:
         changes.checkpoint = True
         snapshot = self.world.snapshot()
         stuck = [False] * len(self.roster.names)
-        sights = self._sights(snapshot, stuck, {}, {}, _discard_sight)
+        sights = self._sights(snapshot, stuck, {}, {}, None)
         return TickResult(
             tick=snapshot.tick,
             time=snapshot.time,

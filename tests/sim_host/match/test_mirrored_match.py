@@ -6,7 +6,7 @@ engine leaves in its search for contact points, which depends on the direction i
 
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -68,7 +68,7 @@ class Step(NamedTuple):
     touched: bool
     """A robot has touched the ball or another robot."""
     events: tuple[list[GameEvent], list[GameEvent]]
-    sights: tuple[dict[str, bytes], dict[str, bytes]]
+    sights: tuple[Mapping[str, bytes], Mapping[str, bytes]]
 
 
 def closest_robots(world: Fields) -> float:

@@ -292,6 +292,17 @@ def test_readings_and_numbers_survive_the_wire(play) -> None:
     assert Sight.decode(payload).encode() == payload, "programs that read lines get this"
 
 
+def test_a_sight_is_the_same_whenever_it_is_read(play) -> None:
+    one, other = (play(sensor("front", "range", **FRONT) + sensor("north", "compass")) for _ in range(2))
+    sent: list[tuple[str, bytes]] = []
+    for _ in range(8):
+        one.step({}, send=lambda *sight: sent.append(sight))
+    ticks = [other.step({}).sights for _ in range(8)]
+    perceived = [pair for sights in ticks for pair in sights.perceived.items()]
+    assert [(robot, Sight.decode(sight)) for robot, sight in sent] == perceived
+    assert [pair for sights in ticks for pair in sights.items()] == sent
+
+
 def test_the_fullest_world_is_within_its_limit(play) -> None:
     one = play(
         sensor("front", "range", **{**FRONT, "beams": (480, "1"), "max_distance": (200.0, "m")}),
