@@ -1,6 +1,9 @@
 """What one robot knows at one tick, in its team frame: each team attacks +x in its own frame."""
 
-from typing import ClassVar
+from copy import deepcopy
+from typing import ClassVar, Self
+
+from msgspec.structs import replace
 
 from schemas.config.sensors.table import Reading
 from schemas.messages.coach import CoachOrder
@@ -104,6 +107,17 @@ class Sight(Message):
     """What became of the robot's last command."""
     sensors: dict[Name, Reading] = {}
     """Sensor of the profile → its newest reading; omitted for a robot without sensors."""
+
+    def own_copy(self) -> Self:
+        """The same sight, with lists and mappings that no other has: its reader may change them."""
+        return replace(
+            self,
+            obstacles=[*self.obstacles],
+            radio={name: replace(message, extra={**message.extra}) for name, message in self.radio.items()},
+            game=replace(self.game, robots={**self.game.robots}),
+            outcome=replace(self.outcome, refused=[*self.outcome.refused]),
+            sensors=deepcopy(self.sensors) if self.sensors else {},
+        )
 
 
 __all__ = ["BallBelief", "BallSight", "Motion", "Obstacle", "Outcome", "ReceivedRadio", "Sight"]

@@ -1,7 +1,7 @@
 """A whole match in one process, without a network: for tests, for learning, and for trying a team out.
 
-Sights and commands cross as the same bytes as on the bus; a match played here and one played by ten processes in
-lockstep from the same seed are the same, tick for tick.
+Each brain gets a copy of its sight, and its commands cross as the same bytes as on the bus. A match played here and one
+played by ten processes in lockstep from the same seed are the same, tick for tick.
 """
 
 from collections.abc import Callable, Mapping
@@ -99,12 +99,12 @@ class InProcessMatch:
 
     def answers(self) -> dict[str, Command]:
         """The commands with which the brains answer the newest sights."""
-        sights = self.simulation.now.sights
+        sights = self.simulation.now.sights.perceived
         commands: dict[str, Command] = {}
         try:
             for name, brain in self.brains.items():
                 self.acting = name
-                commands[name] = Command.decode(_command(brain, Sight.decode(sights[name])).encode())
+                commands[name] = Command.decode(_command(brain, sights[name].own_copy()).encode())
         except BaseException as error:
             error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
             raise
