@@ -12,6 +12,7 @@ from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.debug import RobotDebug
+from schemas.messages.hardware import HardwareHealth
 from schemas.messages.health import Health, Invalid
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersReply, ParametersRequest
@@ -82,6 +83,17 @@ COMMAND = Topic(
     Delivery.EVERY,
     True,
     "drive, dribbler, kick and radio message of this robot",
+)
+HARDWARE = Topic(
+    "robot/{robot}/hardware",
+    HardwareHealth,
+    Party.ROBOT,
+    (Party.RECORDER, Party.VIEWER),
+    "4 Hz of wall time, of robots on hardware",
+    Delivery.RECOVERED,
+    False,
+    "state of this robot's hardware: rates, times, refused readings, shortened demands",
+    cache_size=8,  # 2 s
 )
 MANUAL = Topic(
     "robot/{robot}/manual",
@@ -335,6 +347,7 @@ TOPICS: dict[str, Topic] = {
     "world_ball": WORLD_BALL,
     "sight": SIGHT,
     "command": COMMAND,
+    "hardware": HARDWARE,
     "manual": MANUAL,
     "belief": BELIEF,
     "debug": DEBUG,

@@ -10,6 +10,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from robot_agent.hardware.contract import BodyBall as BodyBall
+    from robot_agent.hardware.contract import Hardware as Hardware
+    from robot_agent.hardware.contract import Picture as Picture
+    from robot_agent.hardware.contract import SensorReadings as SensorReadings
     from robot_agent.sdk.contract import Brain as Brain
     from robot_agent.sdk.contract import Briefing as Briefing
     from robot_agent.sdk.world_model import SeenBall as SeenBall
@@ -20,6 +24,7 @@ if TYPE_CHECKING:
     from robot_agent.teams.player import Player as Player
     from schemas.config.match_config import MatchConfig as MatchConfig
     from schemas.config.match_config import load_match as load_match
+    from schemas.config.robot_model import RobotModel as RobotModel
     from schemas.messages.coach import CoachOrder as CoachOrder
     from schemas.messages.command import Command as Command
     from schemas.messages.command import Drive as Drive
@@ -30,6 +35,7 @@ if TYPE_CHECKING:
     from schemas.messages.radio import BallBelief as BallBelief
     from schemas.messages.radio import Motion as Motion
     from schemas.messages.radio import Radio as Radio
+    from schemas.messages.sight import Obstacle as Obstacle
     from schemas.messages.sight import Sight as Sight
     from schemas.soccer.game import TeamPhase as TeamPhase
     from sim_host.free.score import Moment as Moment
@@ -39,18 +45,20 @@ if TYPE_CHECKING:
     from touchline.play.play_match import play_match as play_match
 
 _NAMES = {
+    "robot_agent.hardware.contract": ("BodyBall", "Hardware", "Picture", "SensorReadings"),
     "robot_agent.sdk.contract": ("Brain", "Briefing"),
     "robot_agent.teams.action": ("Action",),
     "robot_agent.teams.player": ("Player",),
     "robot_agent.sdk.world_model": ("SeenBall", "Teammate", "WorldBelief", "WorldModel"),
     "schemas.config.match_config": ("MatchConfig", "load_match"),
+    "schemas.config.robot_model": ("RobotModel",),
     "schemas.soccer.game": ("TeamPhase",),
     "schemas.messages.coach": ("CoachOrder",),
     "schemas.messages.command": ("Command", "Drive", "Kick", "KickMode"),
     "schemas.messages.debug": ("Debug",),
     "schemas.messages.drawing": ("Drawing",),
     "schemas.messages.radio": ("BallBelief", "Motion", "Radio"),
-    "schemas.messages.sight": ("Sight",),
+    "schemas.messages.sight": ("Obstacle", "Sight"),
     "sim_host.free.score": ("Moment", "Score"),
     "touchline.play.play_match": ("MatchOutcome", "play_match"),  # these two need PyBullet
 }

@@ -14,6 +14,7 @@ from schemas.messages.claim import AgentClaim, AgentClaimReply
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.debug import Debug, DebugCircle, DebugLine, RobotDebug
+from schemas.messages.hardware import CallHealth, DeviceHealth, Fallback, HardwareHealth, HardwareState
 from schemas.messages.health import AccountHealth, Health, Invalid, RobotHealth
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
@@ -106,6 +107,16 @@ def _robot() -> tuple[Message, ...]:
             radio=_RADIO,
             acknowledges_order=_ORDER.sequence,
             debug=_DEBUG,
+        ),
+        HardwareHealth(
+            time=8.31,
+            robot="cyan2",
+            state=HardwareState.ACTIVE,
+            armed=True,
+            fallback=Fallback.BRAKE,
+            clamped=3,
+            devices={"motion": DeviceHealth(readings=414, refused=1, rate=50.0, age=0.0021)},
+            calls={"sense": CallHealth(calls=415, mean_ms=0.112, worst_ms=3.4)},
         ),
         ManualDrive(drive=Drive(vx=1.0, omega=-1.0), dribble=True),
         Belief(tick=_TICK + 1, time=_TIME + 0.02, robot="cyan2", radio=_RADIO),

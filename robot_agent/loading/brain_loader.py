@@ -27,6 +27,27 @@ class _FunctionBrain:
         self.act = function
 
 
+def load_object(said: str, spec: str, beside: Path | None = None, here: Path | None = None) -> tuple[Any, str]:
+    """The object that `module:name` names, and its name; `said` is what the user has written, for messages.
+
+    Modules are also looked for in the folder `beside`, and then in the current directory, or in `here`.
+
+    Raises:
+        TouchlineError: one line with the wrong part of the spec, or with what the import raised, and where.
+    """
+    module_name, _, name = spec.partition(":")
+    folders = BrainFolders(beside, here)
+    folders.add_to_module_path()
+    module = _import(said, module_name, folders)
+    _check_origin(said, module, folders)
+    found = getattr(module, name, None)
+    if found is None:
+        public = [word for word, value in vars(module).items() if callable(value) and not word.startswith("_")]
+        hint = did_you_mean(name, public) if public else "it defines no public names"
+        raise TouchlineError(f"{said}; {module_name} has no {name}; {hint}")
+    return found, name
+
+
 def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, here: Path | None = None) -> Brain:
     """The brain that `module:name` names, or that of a shipped team: a class built with the briefing, or a function
     `act(sight)`.
@@ -39,16 +60,8 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
     """
     if remedy := wrong_team(spec):
         raise TouchlineError(f'brain is "{spec}"; {remedy}')
-    module_name, _, name = brain_of(spec).partition(":")
-    folders = BrainFolders(beside_match, here)
-    folders.add_to_module_path()
-    module = _import(spec, module_name, folders)
-    _check_origin(spec, module, folders)
-    found = getattr(module, name, None)
-    if found is None:
-        public = [word for word, value in vars(module).items() if callable(value) and not word.startswith("_")]
-        hint = did_you_mean(name, public) if public else "it defines no public names"
-        raise TouchlineError(f'brain is "{spec}"; {module_name} has no {name}; {hint}')
+    said = f'brain is "{spec}"'
+    found, name = load_object(said, brain_of(spec), beside_match, here)
     if not isinstance(found, type):
         if not callable(found):
             raise TouchlineError(f'brain is "{spec}"; {name} is {found!r}; name a class or a function act(sight)')
@@ -101,7 +114,7 @@ def _takes(function: Callable[..., Any], argument: object) -> bool:
     return True
 
 
-def _import(spec: str, module_name: str, folders: BrainFolders) -> ModuleType:
+def _import(said: str, module_name: str, folders: BrainFolders) -> ModuleType:
     importlib.invalidate_caches()
     try:
         return importlib.import_module(module_name)
@@ -109,27 +122,27 @@ def _import(spec: str, module_name: str, folders: BrainFolders) -> ModuleType:
         package = (error.name or "").partition(".")[0]
         own = folders.file_of(package) if package in OWN_PACKAGES else None
         if own is not None and Path(sys.modules[package].__file__ or "").resolve() != own.resolve():
-            fault = f'brain is "{spec}"; importing {module_name} raised {_one_line(error)}'
+            fault = f"{said}; importing {module_name} raised {_one_line(error)}"
             raise TouchlineError(f"{fault}; {package} is Touchline's, not {own}; rename that file") from error
         if not isinstance(error, ModuleNotFoundError):
-            raise TouchlineError(f'brain is "{spec}"; importing {module_name} raised {_one_line(error)}') from error
+            raise TouchlineError(f"{said}; importing {module_name} raised {_one_line(error)}") from error
         missing = error.name or module_name
         if module_name != missing and not module_name.startswith(missing + "."):
             raise TouchlineError(
-                f'brain is "{spec}"; {module_name} imports {missing}, which is not installed; install it'
+                f"{said}; {module_name} imports {missing}, which is not installed; install it"
             ) from error
         parent, _, last = missing.rpartition(".")
         if parent:
-            _check_origin(spec, importlib.import_module(missing.partition(".")[0]), folders)
+            _check_origin(said, importlib.import_module(missing.partition(".")[0]), folders)
         where = "" if parent else f" {folders}"
         known = _modules_in(parent, folders)
         hint = did_you_mean(last, known) if known else f"{parent} has no modules" if parent else "put its file there"
-        raise TouchlineError(f'brain is "{spec}"; there is no module {missing}{where}; {hint}') from None
+        raise TouchlineError(f"{said}; there is no module {missing}{where}; {hint}") from None
     except (Exception, SystemExit) as error:
-        raise TouchlineError(f'brain is "{spec}"; importing {module_name} raised {_one_line(error)}') from error
+        raise TouchlineError(f"{said}; importing {module_name} raised {_one_line(error)}") from error
 
 
-def _check_origin(spec: str, module: ModuleType, folders: BrainFolders) -> None:
+def _check_origin(said: str, module: ModuleType, folders: BrainFolders) -> None:
     """Check that a module is the user's where the folders of brains have a file of its name.
 
     Raises:
@@ -139,7 +152,7 @@ def _check_origin(spec: str, module: ModuleType, folders: BrainFolders) -> None:
     loaded = getattr(module, "__file__", None) or "built into Python"
     if meant is None or module.__name__.partition(".")[0] in OWN_PACKAGES or Path(loaded).resolve() == meant.resolve():
         return
-    raise TouchlineError(f'brain is "{spec}"; the module {module.__name__} is {loaded}, not {meant}; rename that file')
+    raise TouchlineError(f"{said}; the module {module.__name__} is {loaded}, not {meant}; rename that file")
 
 
 def _modules_in(package: str, folders: BrainFolders) -> list[str]:

@@ -1,21 +1,32 @@
 """The process of one robot, or of a team: bus, brains, run. Importing it loads what every robot needs, and no brain."""
 
 import signal
+from contextlib import ExitStack
 
+from robot_agent.hardware.guard import HardwareError
 from robot_agent.loading.brain_reload import BrainReload
 from robot_agent.process.brain_runner import BrainRunner
 from robot_agent.process.breakpoints import skip_breakpoints
 from robot_agent.process.claim import Membership
+from robot_agent.process.hardware_run import (
+    check_body,
+    guarded_hardware,
+    open_free_network,
+    serve_open,
+    setup_without_host,
+)
+from robot_agent.process.hardware_runner import HardwareRunner
 from robot_agent.process.robot_code import end_robot, start_robot
-from robot_agent.process.runner import serve
+from robot_agent.process.runner import Runner, serve
 from robot_agent.process.settings import AgentSettings
 from robot_agent.process.stdio.program_runner import ProgramRunner
 from robot_agent.process.team_process import MakeRunner, serve_team
 from robot_agent.sdk.contract import Brain, Briefing
+from runtime.bus.contract import Bus
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.bus.zenoh.waiting_client import open_when_there
 from runtime.process.clock import WallClock
-from runtime.process.process_log import configure_log, log_line
+from runtime.process.process_log import Level, configure_log, log_line
 from runtime.process.scheduling import use_batch_scheduling
 from schemas.config.match_config import LOCKSTEP
 from schemas.errors import TouchlineError
@@ -30,13 +41,17 @@ def run(settings: AgentSettings) -> int:
     """
     if settings.reload and settings.stdio:
         raise TouchlineError("--reload is for brains in Python, --stdio starts a program; leave one of them out")
+    check_body(settings)
     configure_log("agent", settings.log_format, settings.robot)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a polite end, as from a keyboard
     clock = WallClock()
     skipped = skip_breakpoints(settings, clock)
     brains: dict[str, Brain] = {}
+    setups: dict[str, Setup] = {}
 
     def connect(patience: float) -> ZenohBus:
+        if settings.body.match_file is not None:
+            return open_free_network(settings, clock, patience)
         return open_client(settings.match, clock, settings.connect, patience, settings.credentials, any_match=True)
 
     def serve_robot(robot: str, make_runner: MakeRunner) -> int:
@@ -46,9 +61,19 @@ def run(settings: AgentSettings) -> int:
             if skipped is not None:
                 skipped.tick_s = setup.time.tick
             folders = settings.brain_folder, settings.launch_folder
+            setups[robot] = setup
             brains[robot] = start_robot(settings.brain, settings.stdio, Briefing.of(robot, setup), *folders)
             return brains[robot]
 
+        if settings.body.match_file is not None:
+            return serve_open(bus, setup_without_host(settings), settings, build)
+
+        def on_hardware(bus: Bus, brain: Brain, robot: str) -> Runner:
+            guard = hardware.enter_context(guarded_hardware(settings, setups[robot], clock))
+            side, period = setups[robot].sides[robot], setups[robot].time.tick
+            return HardwareRunner(guard, side, period, bus, brain, robot)
+
+        make_runner = on_hardware if settings.body.hardware else make_runner
         membership = Membership(bus, robot, settings.launch_token, settings.match, settings.side)
         reload = BrainReload(robot, build) if settings.reload else None
         return serve(bus, build, robot, settings.patience, membership, make_runner, reload)
@@ -56,10 +81,13 @@ def run(settings: AgentSettings) -> int:
     try:
         client = open_when_there(connect, clock, settings.patience, log_line)
         assert client is not None  # a wait that nothing stops
-        with client as bus:
+        with client as bus, ExitStack() as hardware:
             if settings.mates:
                 return serve_team((settings.robot, *settings.mates), serve_robot)
             return serve_robot(settings.robot, ProgramRunner if settings.stdio else BrainRunner)
+    except HardwareError as error:
+        log_line(f"{settings.robot}: {error}", Level.ERROR)
+        return 1
     except KeyboardInterrupt:
         return 0
     finally:

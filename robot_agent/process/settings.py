@@ -5,14 +5,29 @@ from typing import Annotated
 
 from pydantic import Field
 
-from runtime.bus.settings import ClientSettings
+from runtime.bus.settings import ClientSettings, Endpoint
 from runtime.process.log_format import LogSettings
-from schemas.config.settings import CommandLine
+from schemas.config.settings import CommandLine, Settings
 from schemas.side import Side
 from schemas.wire.message import Name
 
 FIRST_SIGHT_FAILED = 3
 """Exit status of an agent whose brain failed at its first sight: it would fail again."""
+
+
+class BodyOptions(Settings):
+    """The robot's own hardware, in place of a body in the simulation; without a host, its network and its match."""
+
+    hardware: str = ""
+    """The robot's own hardware: module:Class, a hardware file *.toml, or dummy, simulated, replayed."""
+    arm: bool = False
+    """Let the hardware move the robot; without it sensors are read and the brain runs, and the motors get nothing."""
+    match_file: Path | None = None
+    """Without a host: the match file with robots, profile and rules. The game is free, until the agent is stopped."""
+    listen: Endpoint | None = None
+    """Without a host: the endpoint at which this robot waits for teammates and recorders, who --connect to it."""
+    insecure: bool = False
+    """Without a host: let other machines connect, too. There are no credentials; use a network of your own."""
 
 
 class AgentOptions(ClientSettings, LogSettings):
@@ -36,6 +51,8 @@ class AgentOptions(ClientSettings, LogSettings):
     """Secret of the host that the agent joins; by default none."""
     patience: Annotated[float, Field(ge=0)] = 10.0
     """s of wall time to wait for a host that is not there."""
+    body: BodyOptions = BodyOptions()
+    """The robot's own hardware; by default its body is simulated by the host."""
 
 
 class AgentSettings(AgentOptions):

@@ -1,7 +1,8 @@
 """The times of a robot's process, in s of wall time, each with its reason."""
 
 IDLE_S = 0.25
-"""Without a sight, until the host is looked for; also the longest wait for an answer of a program of lines."""
+"""Without a sight, until the host is looked for; also the longest wait for an answer of a program of lines, and between
+two reports on hardware."""
 CLAIM_REPLY_S = 4.0
 """For a reply to a claim: the host replies at once, or after the link of an earlier agent has expired."""
 PROGRAM_SILENT_S = 1.0

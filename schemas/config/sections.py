@@ -1,7 +1,9 @@
 """The sections of a profile as frozen data with units: pitch, bodies, drive, ball handling, sensing and radio."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated
 
 from schemas.config.quantity import Choice, Quantity
@@ -175,6 +177,38 @@ class Wheels:
     def no_load_rim_speed(self) -> float:
         """Rim speed at which the torque of the motors is zero, in m/s."""
         return self.no_load_speed * self.radius / self.gear
+
+    @property
+    def rows(self) -> tuple[tuple[float, float, float], ...]:
+        """Per wheel: its rim speed for a unit of vx, vy and omega in the body frame.
+
+        A rim speed is positive where it turns the robot counter-clockwise: of two wheels, the first is the left one,
+        whose speed ahead is negative.
+        """
+        return _wheel_rows(self.count, self.angle, self.arm)
+
+    def rim_speeds(self, vx: float, vy: float, omega: float) -> tuple[float, ...]:
+        """Per wheel: its rim speed in m/s if it rolls without slip at a twist, in m/s and rad/s in the body frame."""
+        return tuple(ahead * vx + aside * vy + arm * omega for ahead, aside, arm in self.rows)
+
+    def twist(self, rim_speeds: Sequence[float]) -> tuple[float, float, float]:
+        """The twist, vx, vy and omega in the body frame, at which wheels with these rim speeds roll without slip.
+
+        Of four wheels, whose speeds may contradict each other, it is the twist with the least squares of slip.
+        """
+        count, across = self.count, 2.0 if self.count > 2 else 1.0
+        pairs = list(zip(self.rows, rim_speeds, strict=True))
+        vx = across / count * sum(row[0] * speed for row, speed in pairs)
+        vy = across / count * sum(row[1] * speed for row, speed in pairs)
+        return vx, vy, sum(rim_speeds) / (count * self.arm)
+
+
+@cache
+def _wheel_rows(count: int, angle: float, arm: float) -> tuple[tuple[float, float, float], ...]:
+    if count == 2:
+        return ((-1.0, 0.0, arm), (1.0, 0.0, arm))
+    angles = [angle + 2 * math.pi * number / count for number in range(count)]
+    return tuple((-math.sin(one), math.cos(one), arm) for one in angles)
 
 
 @dataclass(frozen=True, slots=True)

@@ -190,9 +190,13 @@ class Setup(Message):
         types = {name: chosen for team in self.teams.values() for name, chosen in team.types.items()}
         return types.get(robot, STANDARD)
 
+    def model_of(self, robot: str) -> RobotModel:
+        """The model of a robot's type."""
+        return self.models[self._type_of(robot)]
+
     def for_robot(self, robot: str) -> Self:
         """The same setup with this robot's own parts in place of the standard robot's."""
-        model = self.models[self._type_of(robot)]
+        model = self.model_of(robot)
         own = {
             "robot": model.body,
             "drive": model.drive,

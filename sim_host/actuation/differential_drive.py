@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.robot_model import RobotModel
-from schemas.config.sections import TimeSteps
+from schemas.config.sections import TimeSteps, Wheels
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
 from sim_host.actuation.ramp import Flags
@@ -32,8 +32,7 @@ class _Axle(NamedTuple):
 
     top_speed: float
     top_turn_rate: float
-    top_rim_speed: float
-    arm: float
+    wheels: Wheels
     gain: float
     loss: float
     turn_change: float
@@ -48,8 +47,7 @@ class _Axle(NamedTuple):
         return cls(
             top_speed=drive.max_speed,
             top_turn_rate=drive.max_turn_rate,
-            top_rim_speed=wheels.max_speed,
-            arm=wheels.arm,
+            wheels=wheels,
             gain=drive.acceleration * step,
             loss=drive.deceleration * step,
             turn_change=turn,
@@ -59,7 +57,8 @@ class _Axle(NamedTuple):
 
     def within_rims(self, ahead: float, turn_rate: float) -> _Motion:
         """A motion shortened as a whole until its faster wheel is within its limit."""
-        scale = self.top_rim_speed / max(self.top_rim_speed, abs(ahead) + self.arm * abs(turn_rate))
+        top = self.wheels.max_speed
+        scale = top / max(top, *map(abs, self.wheels.rim_speeds(ahead, 0.0, turn_rate)))
         return ahead * scale, turn_rate * scale
 
     def within_limits(self, demand: Drive) -> _Motion:

@@ -13,7 +13,6 @@ Wheels are (4, n); a robot on three wheels has a fourth that touches nothing. Al
 the same bits on every machine.
 """
 
-import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
@@ -116,6 +115,4 @@ def _robots_last(each: Sequence[ArrayLike], shape: tuple[int, ...]) -> Floats:
 
 def _geometry(wheels: Wheels) -> Floats:
     """(4, 3): the rim speed of each wheel for a unit of vx, vy and omega; zeros for a missing wheel."""
-    angles = [wheels.angle + 2 * math.pi * number / wheels.count for number in range(wheels.count)]
-    rows = [(-math.sin(angle), math.cos(angle), wheels.arm) for angle in angles]
-    return np.array(rows + [(0.0, 0.0, 0.0)] * (_MAX_WHEELS - wheels.count))
+    return np.array([*wheels.rows, *[(0.0, 0.0, 0.0)] * (_MAX_WHEELS - wheels.count)])

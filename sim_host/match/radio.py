@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
+from schemas.messages.percept import DIGITS
 from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
@@ -16,7 +17,6 @@ from schemas.wire.part import encode
 from sim_host.match.radio_medium import Budget, SharedChannel
 from sim_host.match.radio_timing import NEVER, RadioTiming, Ticks, arrival_ticks, last_arrival
 from sim_host.match.radio_use import RadioUse
-from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
 

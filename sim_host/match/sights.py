@@ -7,13 +7,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.radio import Motion
-from schemas.messages.sight import BallSight, Outcome, Sight
+from schemas.messages.sight import Outcome, Sight
 from schemas.messages.soccer.game import GameView
 from schemas.side import Side
 from sim_host.match.radio import RadioAir
 from sim_host.match.world_fields import Fields
-from sim_host.sensing.perception import Percept, Perception
+from sim_host.sensing.perception import Perception
 from sim_host.sensing.sensors.suite import SensorSuite
 from sim_host.snapshot import Roster, Snapshot
 
@@ -73,14 +72,13 @@ class Sights:
         sights = TickSights()
         for index, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
             percept, command = percepts[index], commands.get(name)
-            x, y, heading, vx, vy, omega = percept.own
             sights.perceived[name] = Sight(
                 tick=snapshot.tick,
                 time=snapshot.time,
                 robot=name,
                 side=side,
-                self=Motion(x=x, y=y, heading=heading, vx=vx, vy=vy, omega=omega),
-                ball=_ball(percept),
+                self=percept.motion(),
+                ball=percept.ball_sight(),
                 holding=name == snapshot.possession,
                 kicker_ready=snapshot.kickers_ready[index],
                 stuck=stuck[index],
@@ -99,11 +97,3 @@ class Sights:
                 send(name, sights[name])
         self._perception.develop()
         return sights
-
-
-def _ball(percept: Percept) -> BallSight | None:
-    """The ball, or None if the robot has never seen it."""
-    if percept.ball is None:
-        return None
-    x, y, z, vx, vy = percept.ball
-    return BallSight(x=x, y=y, z=z, vx=vx, vy=vy, age=percept.ball_age, visible=percept.visible)

@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.sections import Sensing
+from schemas.messages.percept import DIGITS
 from schemas.messages.sight import Obstacle
-from sim_host.sensing.digits import DIGITS, rounded
+from sim_host.sensing.digits import rounded
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.pair_draws import pair_draws
 from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId, Vectors

@@ -1,9 +1,7 @@
-"""The resolution of the sensors."""
+"""The resolution of the sensors, in arrays."""
 
+from schemas.messages.percept import DIGITS
 from sim_host.sensing.random_streams import Floats
-
-DIGITS = 4
-"""Decimal places of all perceived numbers: 0.1 mm is below any sensor's noise, and halves the bytes of a sight."""
 
 
 def rounded(numbers: Floats) -> Floats:

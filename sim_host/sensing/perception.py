@@ -12,32 +12,14 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.sections import Sensing
-from schemas.messages.sight import Obstacle
+from schemas.messages.percept import DIGITS, Percept
 from sim_host.sensing.camera import Camera, Picture, rotated_ball
-from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion
 from sim_host.sensing.random_streams import BatchedDraws, RandomStreams
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import RobotMotions, Roster, Snapshot
-
-
-class Percept(NamedTuple):
-    """What one robot perceives."""
-
-    own: list[float]
-    """x, y, heading, vx, vy, omega: m, rad, m/s, rad/s."""
-    ball: list[float] | None
-    """x, y, z, vx, vy, in m and m/s, as last seen; None if the robot has never seen the ball."""
-    ball_age: float
-    """s since the picture in which the ball was last seen."""
-    visible: bool
-    """The ball is in the newest picture."""
-    obstacles: list[Obstacle]
-    """The nearest first; the same list in every tick until the next picture."""
-    obstacles_age: float
-    """s since the picture that shows them."""
 
 
 class LastSeen(NamedTuple):

@@ -17,7 +17,6 @@ LIMITS = {
     "CHANGELOG.md": (60, 110),
     "CONTRIBUTING.md": (85, 110),
 }
-LIMITS |= {"docs/first_week.md": (60, 110)}
 """Most lines, and most characters of a line."""
 GENERATED = ("docs/protocol.md", "docs/rules.md")
 MOST_WORDS = 5700

@@ -8,8 +8,9 @@ from schemas.config.noise import PERFECT
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import Sensing
+from schemas.messages.percept import Percept
 from schemas.side import Side
-from sim_host.sensing.perception import Percept, Perception
+from sim_host.sensing.perception import Perception
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 

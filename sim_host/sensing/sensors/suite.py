@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from schemas.config.profile import Profile
 from schemas.config.sensors.table import Reading
-from sim_host.sensing.digits import DIGITS
+from schemas.messages.percept import DIGITS
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.sensing.sensors.carried import Carried, ComputedSensor
 from sim_host.sensing.sensors.table import COMPUTED

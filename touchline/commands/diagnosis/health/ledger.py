@@ -1,9 +1,10 @@
 """The ledger of each robot over a stretch of a match, computed from the host's reports at its two ends."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import zip_longest
 
+from schemas.messages.hardware import HardwareHealth
 from schemas.messages.health import AccountHealth, Health, RobotHealth
 from schemas.messages.latency_counts import quantile_ms
 from schemas.side import Side
@@ -87,6 +88,8 @@ class Ledger:
     """Command key → messages on it, for names that no robot of the match has."""
     recorders: dict[str, int]
     """Recorder → ticks that it is behind."""
+    hardware: dict[str, HardwareHealth] = field(default_factory=dict)
+    """Robot on hardware → its own newest report; none of a recording."""
 
 
 def ledger_of(last: Health, sides: Mapping[str, Side], first: Health | None = None) -> Ledger:

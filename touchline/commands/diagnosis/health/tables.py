@@ -37,6 +37,8 @@ def ledger_view(ledger: Ledger) -> RenderableType:
     parts: list[RenderableType] = [Text(_headline(ledger), style="bold"), _robot_table(ledger)]
     if ledger.accounts:
         parts += [Text(), _account_table(ledger)]
+    if ledger.hardware:
+        parts += [Text(), _hardware_table(ledger)]
     return Group(*parts, *map(Text, _remarks(ledger)))
 
 
@@ -67,7 +69,25 @@ def _account_table(ledger: Ledger) -> Table:
     return shown
 
 
+def _hardware_table(ledger: Ledger) -> Table:
+    """A row for each device and each call of a robot's hardware."""
+    shown = table(("robot", "hardware", "device or call", "count", "refused or late", "Hz", "ms", "worst ms"), names=3)
+    for name, robot in ledger.hardware.items():
+        state, style = f"{robot.state}, {'armed' if robot.armed else 'not armed'}", _TROUBLE if robot.reason else None
+        for device, read in robot.devices.items():
+            age = _ms(1e3 * read.age if read.age is not None else None)
+            row = str(read.readings), str(read.refused), f"{read.rate:.0f}", age, _UNKNOWN
+            shown.add_row(name, state, device, *row, style=style)
+        for method, call in robot.calls.items():
+            row = str(call.calls), str(call.late), _UNKNOWN, _ms(call.mean_ms), _ms(call.worst_ms)
+            shown.add_row(name, state, f"{method}()", *row, style=style)
+    return shown
+
+
 def _remarks(ledger: Ledger) -> Iterator[str]:
+    for name, robot in ledger.hardware.items():
+        counts = f"{robot.clamped} demands shortened, fell back {robot.fell_back} times"
+        yield f"{name}: {counts}" + (f"; {robot.fallback}: {robot.reason}" if robot.reason else "")
     for row in ledger.robots:
         if row.fault:
             yield f"{row.robot}: {row.fault}"

@@ -1,0 +1,134 @@
+"""The hardware `simulated`: the driver of a motor controller on a serial line."""
+
+import os
+import subprocess
+import sys
+import tty
+from contextlib import suppress
+from typing import Any
+
+from robot_agent.hardware.contract import BodyBall, Picture, SensorReadings
+from robot_agent.hardware.simulated import frames
+from robot_agent.hardware.simulated.board import BoardNumbers, settings_line
+from robot_agent.hardware.simulated.frames import FrameReader, Kind
+from schemas.config.robot_model import RobotModel
+from schemas.messages.command import Drive, Kick
+from schemas.messages.radio import Motion
+from schemas.messages.sight import Obstacle
+
+_ENDS_S = 2.0
+"""For the board to end when its input has ended."""
+
+
+class Simulated:
+    """Speaks the frames of `frames` with a board: one that it starts, or one at the port that is given."""
+
+    def __init__(self, model: RobotModel, *, port: str = "", camera_delay: float = 0.0, **numbers: Any) -> None:
+        """Prepare the driver.
+
+        Args:
+            model: its wheels turn velocities into rim speeds.
+            port: path of the serial line; empty to start a board.
+            camera_delay: s from taking a picture to its arrival, as far as it is known.
+            numbers: true numbers of the board that is started, fields of `BoardNumbers`.
+
+        Raises:
+            TypeError: a number that no board has.
+        """
+        self._wheels, self._board_numbers = model.wheels, BoardNumbers(**numbers)
+        self._port, self._delay = port, camera_delay
+        self._board: subprocess.Popen[bytes] | None = None
+        self._line: int | None = None
+        self._reader = FrameReader()
+        self.holding, self.charged = False, True
+
+    @property
+    def board_pid(self) -> int | None:
+        """The process of the board that was started; None without one."""
+        return self._board.pid if self._board is not None else None
+
+    @property
+    def wrong_frames(self) -> int:
+        """Frames from the board whose checksum was wrong."""
+        return self._reader.wrong
+
+    def configure(self) -> None:
+        """Open the line; start the board where no port is given.
+
+        Raises:
+            OSError: there is no such port, or the board does not start.
+        """
+        self.close()
+        port = self._port or self._start_board()
+        self._line = os.open(port, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+        tty.setraw(self._line)
+
+    def activate(self) -> None:
+        """Power the motors."""
+        self._write(frames.power(True))
+
+    def sense(self, time: float) -> SensorReadings:
+        """What has arrived: the newest pose and the newest picture."""
+        motion, picture, at = None, None, time
+        for kind, content in self._reader.feed(self._read()):
+            if kind == Kind.MOTION:
+                read = frames.read_motion(content)
+                at, self.holding, self.charged = time - read.age, read.holding, read.charged
+                motion = Motion(x=read.x, y=read.y, heading=read.heading, vx=read.vx, vy=read.vy, omega=read.omega)
+            elif kind == Kind.PICTURE:
+                seen = frames.read_picture(content)
+                ball = BodyBall(*seen.ball) if seen.ball is not None else None
+                picture = Picture(time - seen.age - self._delay, ball, tuple(Obstacle(*body) for body in seen.bodies))
+        return SensorReadings(at, motion, picture, self.holding, self.charged)
+
+    def actuate(self, drive: Drive | None, kick: Kick | None, dribble: bool) -> None:
+        """Send rim speeds, and a kick."""
+        rims = None if drive is None else self._wheels.rim_speeds(drive.vx, drive.vy, drive.omega)
+        self._write(frames.demand(rims, dribble) + (frames.kick(kick) if kick is not None else b""))
+
+    def deactivate(self) -> None:
+        """Take the power away."""
+        self._write(frames.power(False))
+
+    def close(self) -> None:
+        """Close the line, and end the board that was started."""
+        if self._line is not None:
+            os.close(self._line)
+            self._line = None
+        if self._board is not None and self._board.stdin is not None and self._board.stdout is not None:
+            self._board.stdin.close()
+            self._board.stdout.close()
+            try:
+                self._board.wait(_ENDS_S)
+            except subprocess.TimeoutExpired:
+                self._board.kill()
+                self._board.wait()
+            self._board = None
+
+    def _start_board(self) -> str:
+        command = [sys.executable, "-m", "robot_agent.hardware.simulated.board"]
+        self._board = board = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        assert board.stdin is not None and board.stdout is not None
+        board.stdin.write(settings_line(self._wheels, self._board_numbers))
+        board.stdin.flush()
+        port = board.stdout.readline().decode().strip()
+        if not port:
+            raise OSError("the simulated board did not start; its log has the reason")
+        return port
+
+    def _read(self) -> bytes:
+        data = b""
+        with suppress(BlockingIOError):
+            while piece := os.read(self._open_line(), 4096):
+                data += piece
+        return data
+
+    def _write(self, data: bytes) -> None:
+        written = os.write(self._open_line(), data)
+        if written < len(data):
+            raise OSError("the serial line takes nothing more; does the board read it?")
+
+    def _open_line(self) -> int:
+        if self._line is None:
+            raise OSError("the serial line is not open")
+        return self._line

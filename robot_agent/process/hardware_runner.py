@@ -1,0 +1,175 @@
+"""Runs a brain on a robot's own hardware, at the robot's own rate: readings in, a sight, a demand out."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from robot_agent.hardware.guard import HardwareGuard
+from robot_agent.hardware.own_percepts import OwnPercepts
+from robot_agent.process.brain_runner import BrainRunner
+from robot_agent.process.timing import IDLE_S
+from robot_agent.sdk.contract import Brain
+from runtime.bus.contract import Bus
+from schemas.messages.coach import CoachOrder
+from schemas.messages.command import Command
+from schemas.messages.sight import Outcome, ReceivedRadio, Sight
+from schemas.messages.soccer.game import GameView
+from schemas.side import Side
+from schemas.soccer.game import TeamPhase
+from schemas.topics import COMMAND, HARDWARE, SIGHT, STATE
+from schemas.wire.message import valid
+
+
+class News(NamedTuple):
+    """What a robot knows of its match that its own sensors do not tell."""
+
+    tick: int
+    """The tick that commands answer."""
+    time: float
+    """Time of the match in s."""
+    game: GameView
+    attack: int
+    """Sign of the x direction that the robot's team attacks."""
+    radio: dict[str, ReceivedRadio] = {}
+    order: CoachOrder | None = None
+
+
+class HardwareRunner(BrainRunner):
+    """A robot on hardware in the match of a host, which gives it game, order and radio in its sights."""
+
+    def __init__(self, guard: HardwareGuard, side: Side, period: float, bus: Bus, brain: Brain, robot: str) -> None:
+        """`period` is the time between two sights of the robot in s."""
+        super().__init__(bus, brain, robot)
+        self.guard = guard
+        self._robot, self._side, self._period = robot, side, period
+        self._percepts = OwnPercepts()
+        self._due = guard.time
+        self._health_due = 0.0
+        self._tick = -1
+        self._sent_tick: int | None = None
+        """The tick of the newest command that was sent."""
+        self._demanded: int | None = None
+        """The tick of the robot's newest demand."""
+        self._news: News | None = None
+        self._news_at = 0.0
+        self._health = bus.publisher(HARDWARE, robot=robot)
+        self._states = bus.subscribe(STATE, newest=True)
+        self._attack = 1
+
+    def next_sight(self, timeout: float | None) -> Sight | None:  # noqa: ARG002 - it waits for its own rate
+        """The sight that is due next, from the robot's own sensors; None before a pose and news of the match.
+
+        Raises:
+            HardwareError: the hardware fails.
+        """
+        self._wait()
+        readings = self.guard.sense()
+        now = self.guard.time
+        self._percepts.update(readings)
+        self._publish_health(now)
+        self._hear(now)
+        percept = self._percepts.percept(now, self._news.attack) if self._news is not None else None
+        if percept is None or self._news is None or not self._knows_its_place(now):
+            return None  # the brain is not asked, and the guard falls back
+        news, newest = self._news, self._percepts.newest
+        time = news.time + now - self._news_at
+        self._tick = max(self._tick + 1, round(time / self._period))
+        return Sight(
+            tick=self._tick,
+            time=round(time, 6),
+            robot=self._robot,
+            side=self._side,
+            self=percept.motion(),
+            ball=self._percepts.ball_sight(percept),
+            holding=newest.holding,
+            kicker_ready=newest.kicker_ready,
+            stuck=newest.stuck,
+            obstacles=percept.obstacles,
+            obstacles_age=percept.obstacles_age,
+            radio=news.radio,
+            game=news.game,
+            order=news.order,
+            outcome=Outcome(answers_tick=self._demanded, refused=self.guard.refused),
+            sensors=self._percepts.readings(now),
+        )
+
+    def _think(self, sight: Sight) -> bytes:
+        """Decide, and let the hardware do it; the host's sight is answered."""
+        command = Command.decode(super()._think(sight))
+        self.guard.actuate(command)
+        self._demanded = sight.tick
+        return command.replace(answers_tick=self._news.tick if self._news is not None else sight.tick).encode()
+
+    def _wait(self) -> None:
+        """Wait for the next moment of the robot's own rate; moments that were missed are left out."""
+        clock, now = self._clock, self.guard.time
+        self._due = max(self._due + self._period, now)
+        clock.sleep_until(clock.now() + self._due - now)
+
+    def _knows_its_place(self, now: float) -> bool:
+        """Whether the newest pose is fresh."""
+        motion = self._percepts.motion
+        return motion is not None and now - motion[0] <= self.guard.watchdog
+
+    def _send(self) -> None:
+        """Send the answer to a sight of the host once, however often the robot has thought meanwhile."""
+        if self._news is not None and self._news.tick != self._sent_tick:
+            self._sent_tick = self._news.tick
+            super()._send()
+
+    def _publish_health(self, now: float) -> None:
+        if now >= self._health_due:
+            self._health_due = now + IDLE_S
+            self._health.put(self.guard.health())
+
+    def _hear(self, now: float) -> None:
+        """Take over what has arrived."""
+        while (received := self._states.receive()) is not None:
+            state = valid(received.message)
+            if state is not None:
+                self._attack = self._side.attack(state.cyan_attacks)
+        while (sight := super().next_sight(0.0)) is not None:
+            self._news = News(sight.tick, sight.time, sight.game, self._attack, sight.radio, sight.order)
+            self._news_at = now
+
+
+class OpenRunner(HardwareRunner):
+    """A robot on hardware without a host: the game is free, and teammates hear each other's commands."""
+
+    def __init__(
+        self,
+        mates: Sequence[str],
+        guard: HardwareGuard,
+        side: Side,
+        period: float,
+        bus: Bus,
+        brain: Brain,
+        robot: str,
+    ) -> None:
+        super().__init__(guard, side, period, bus, brain, robot)
+        self._attack = side.attack(1)
+        self._own_sights = bus.publisher(SIGHT, robot=robot)
+        self._mates = [bus.subscribe(COMMAND, newest=True, robot=mate) for mate in mates]
+        self._heard: dict[str, tuple[float, ReceivedRadio]] = {}
+        """Teammate → its newest radio message, and when it arrived."""
+
+    def next_sight(self, timeout: float | None) -> Sight | None:
+        """As in `HardwareRunner`; the sight is published for recorders."""
+        sight = super().next_sight(timeout)
+        if sight is not None:
+            self._clock.sim_ns = round(sight.time * 1e9)
+            self._own_sights.put(sight)
+        return sight
+
+    def _think(self, sight: Sight) -> bytes:
+        self._news = self._news and self._news._replace(tick=sight.tick)
+        return super()._think(sight)
+
+    def _hear(self, now: float) -> None:
+        for mate in self._mates:
+            received = mate.receive()
+            command = valid(received.message) if received is not None else None
+            if received is not None and command is not None and command.radio is not None:
+                self._heard[received.chunks["robot"]] = now, ReceivedRadio.of(command.radio)
+        radio = {name: one.replace(age=round(now - then, 4)) for name, (then, one) in self._heard.items()}
+        game = GameView(phase=TeamPhase.PLAY, running=True, clock=round(now, 4), our_score=0, their_score=0)
+        self._news, self._news_at = News(self._tick, now, game, self._attack, radio), now

@@ -1,0 +1,120 @@
+"""docs/real_robots.md: its class is hardware, its tables are complete, and its commands drive a robot."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from robot_agent.hardware.guard import HardwareGuard
+from robot_agent.hardware.settings import HardwareSettings, hardware_settings
+from runtime.bus.endpoint import with_free_port
+from schemas.messages.command import Command, Drive
+from support.messages import make_setup
+from support.stepped_clock import SteppedClock
+
+Fenced = Callable[[str, str], list[str]]
+
+
+@pytest.fixture(scope="module")
+def page(root: Path) -> str:
+    return (root / "docs" / "real_robots.md").read_text("utf-8")
+
+
+class Line:
+    """The serial line that the page's class opens."""
+
+    def __init__(self) -> None:
+        self.sent: list[str] = []
+
+    def send(self, text: str) -> None:
+        self.sent.append(text)
+
+    def pose(self) -> tuple[float, float, float]:
+        return 1.0, 2.0, 0.5
+
+    def ball(self) -> tuple[float, float]:
+        return 3.0, 0.1
+
+    def close(self) -> None:
+        self.sent.append("close")
+
+
+def test_its_class_is_hardware_that_a_guard_drives(page: str, fenced: Fenced) -> None:
+    line = Line()
+    names: dict[str, Any] = {"open_line": lambda port: line if port == "/dev/ttyUSB0" else None}
+    exec(fenced(page, "python")[0], names)  # the documents are ours
+    model, clock = make_setup("differential").model_of("cyan2"), SteppedClock()
+    hardware = names["TwoWheels"](model)
+    guard = HardwareGuard(hardware, HardwareSettings(hardware="page"), model, "cyan2", clock, armed=True)
+    guard.start()
+    for _ in range(50):
+        clock.sleep_until(clock.now() + 0.02)
+        readings = guard.sense()
+        guard.actuate(Command(answers_tick=1, drive=Drive(vx=0.5, omega=1.0)))
+    guard.stop()
+    assert readings.motion is not None and readings.motion.x == 1.0 and readings.picture is not None
+    assert line.sent[0] == "power on" and line.sent[-2:] == ["power off", "close"]
+    arm = model.wheels.arm
+    assert line.sent[-3] == f"speeds {0.5 - arm:.3f} {0.5 + arm:.3f}"
+
+
+def test_all_keys_of_a_hardware_file_are_listed_with_their_defaults(page: str) -> None:
+    rows = dict(re.findall(r"^\| `(\w+)` \| `?([^|`]+)`? \|", page, re.MULTILINE))
+    given = {name: field.get_default() for name, field in HardwareSettings.model_fields.items() if field.default}
+    assert list(rows) == list(HardwareSettings.model_fields)
+    assert {name: rows[name] for name in given if rows[name] != "–"} == {
+        name: str(default) for name, default in given.items() if rows[name] != "–"
+    }
+
+
+@contextmanager
+def running(command: list[str], folder: Path) -> Iterator[subprocess.Popen[str]]:
+    """A process of the page, which is interrupted at the end."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "touchline", *command], cwd=folder, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        sys.stderr.write(process.communicate(timeout=20.0)[1])
+
+
+@pytest.mark.processes
+def test_its_commands_drive_record_and_show_simulated_hardware(page: str, fenced: Fenced, tmp_path: Path) -> None:
+    (tmp_path / "robot.toml").write_text("watchdog = 9.0  # for a busy machine\n" + fenced(page, "toml")[0])
+    (tmp_path / "match.toml").write_text("")
+    assert hardware_settings(str(tmp_path / "robot.toml")).options["ball"] == [1.0, 0.0]
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    typed = fenced(page, "sh")[0].replace('"', "").replace("tcp/127.0.0.1:7447", endpoint)
+    agent, record, health, info = (line.split()[1:] for line in typed.splitlines())
+    with running([*agent, "--listen", endpoint], tmp_path) as robot:
+        with running(record, tmp_path) as recorder:
+            deadline = time.monotonic() + 60.0
+            shown = ""
+            while "sense()" not in shown and time.monotonic() < deadline:
+                shown = _run(health, tmp_path)
+            assert re.search(r"cyan2 +active, armed +motion", shown)
+            time.sleep(2.0)
+        assert recorder.returncode == 0
+    assert robot.returncode == 0
+    assert re.search(r"robot/cyan2/command +json +object +\d{2,}", _run(info, tmp_path)), _run(info, tmp_path)
+
+
+def _run(command: list[str], folder: Path) -> str:
+    environment = {**os.environ, "COLUMNS": "200"}
+    made = [sys.executable, "-m", "touchline", *command]
+    return subprocess.run(made, cwd=folder, capture_output=True, text=True, timeout=60, env=environment).stdout
+
+
+def test_its_hardware_file_is_valid_toml(page: str, fenced: Fenced) -> None:
+    assert tomllib.loads(fenced(page, "toml")[0])["hardware"] == "simulated"

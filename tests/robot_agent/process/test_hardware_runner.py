@@ -1,0 +1,152 @@
+"""A brain on its robot's own hardware: sights at its own rate, with a host and without."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from pytest import approx
+
+from robot_agent.hardware.dummy import Dummy
+from robot_agent.hardware.guard import HardwareGuard
+from robot_agent.hardware.settings import HardwareSettings
+from robot_agent.process.hardware_runner import HardwareRunner, OpenRunner
+from schemas.messages.command import Command, Drive
+from schemas.messages.radio import Radio
+from schemas.messages.sight import ReceivedRadio
+from schemas.messages.soccer.game import GameState
+from schemas.soccer.game import Phase, TeamPhase
+from schemas.topics import COMMAND, HARDWARE, SIGHT, STATE
+from support.in_process_bus import SharedState
+from support.messages import make_sight
+from support.stepped_clock import SteppedClock
+
+
+class ToThePost:
+    """Drives to the first body that it sees, and tells its mates where it is."""
+
+    def __init__(self):
+        self.seen = []
+
+    def act(self, sight):
+        self.seen.append(sight)
+        me, post = sight.self, sight.obstacles[0]
+        dx, dy = post.x - me.x, post.y - me.y
+        c, s = math.cos(me.heading), math.sin(me.heading)
+        drive = Drive(vx=c * dx + s * dy, vy=c * dy - s * dx)
+        return Command(answers_tick=sight.tick, drive=drive, radio=Radio(self=me))
+
+
+class Field:
+    """Robots on hardware, on one bus and one clock."""
+
+    def __init__(self, setup):
+        self.setup, self.shared, self.clock = setup, SharedState(), SteppedClock()
+        self.host = self.bus()
+
+    def bus(self):
+        return self.shared.open_bus("friendly", self.clock)
+
+    def robot(self, name, *, host=False, **dummy):
+        model = self.setup.model_of(name)
+        hardware = Dummy(model, posts=((3.0, 1.0),), **dummy)
+        guard = HardwareGuard(hardware, HardwareSettings(hardware="dummy"), model, name, self.clock, armed=True)
+        guard.start()
+        side = self.setup.sides[name]
+        mates = [one for one in self.setup.teams[side].robots if one != name]
+        more = guard, side, 0.02, self.bus(), ToThePost(), name
+        return HardwareRunner(*more) if host else OpenRunner(mates, *more)
+
+
+@pytest.fixture
+def field(setup):
+    return Field(setup)
+
+
+def play(ticks, *runners):
+    for _ in range(ticks):
+        for runner in runners:
+            sight = runner.next_sight(None)
+            if sight is not None:
+                runner.answer(sight)
+
+
+@pytest.mark.parametrize("name", ["cyan2", "magenta3"])
+def test_an_unchanged_brain_drives_the_hardware_to_what_its_own_camera_sees(field, name):
+    robot = field.robot(name, start=(-1.0, 0.5, 2.0))
+    play(250, robot)
+    assert robot.guard.sense().motion.x == approx(3.0, abs=0.1)
+    sights = robot.brain.seen
+    assert [one.tick for one in sights] == list(range(1, 251))
+    assert sights[-1].time == approx(5.0)
+    attack = 1 if name == "cyan2" else -1
+    assert (sights[0].self.x, sights[0].obstacles[0].x) == (-attack * 1.0, attack * 3.0)
+    assert sights[0].game.running and sights[0].game.phase is TeamPhase.PLAY
+    assert sights[5].outcome.answers_tick == sights[4].tick
+
+
+def test_teammates_without_a_host_hear_each_other_and_nobody_else(field):
+    robots = [field.robot(name) for name in ("cyan2", "cyan3", "magenta2")]
+    play(3, *robots)
+    heard = robots[1].brain.seen[-1].radio
+    assert set(heard) == {"cyan2"}
+    assert heard["cyan2"].self.x == robots[0].brain.seen[-1].self.x
+    assert heard["cyan2"].age < 0.02
+    robots[0].guard.stop()
+    play(10, robots[1])
+    assert robots[1].brain.seen[-1].radio["cyan2"].age > 0.15
+
+
+def test_sights_commands_and_the_health_of_the_hardware_are_published_for_recorders(field):
+    kept = [field.host.subscribe(topic) for topic in (SIGHT, COMMAND, HARDWARE)]
+    robot = field.robot("cyan2")
+    play(26, robot)
+    sight, command, health = (one.receive().message() for one in kept)
+    assert (sight.robot, command.answers_tick, health.robot) == ("cyan2", 1, "cyan2")
+    while (received := kept[2].receive()) is not None:
+        health = received.message()
+    assert (health.devices["motion"].readings, health.calls["actuate"].calls) == (14, 13), "the second report"
+
+
+def test_with_a_host_game_order_and_radio_are_its_and_the_body_is_the_robots_own(field):
+    sights, commands = field.host.publisher(SIGHT, robot="cyan2"), field.host.subscribe(COMMAND)
+    robot = field.robot("cyan2", host=True)
+    play(3, robot)
+    assert robot.brain.seen == [] and commands.receive() is None, "it waits for the host's news"
+    radio = {"cyan4": ReceivedRadio(age=0.1, role="keeper")}
+    sights.put(make_sight(700, at=(9.0, 9.0, 0.0), phase=TeamPhase.OUR_CORNER, radio=radio))
+    play(3, robot)
+    seen = robot.brain.seen
+    assert (seen[0].self.x, seen[0].game.phase, seen[0].radio) == (0.0, TeamPhase.OUR_CORNER, radio)
+    assert [one.tick for one in seen] == [700, 701, 702] and seen[-1].time == approx(14.04)
+    assert commands.receive().message().answers_tick == 700
+    assert commands.receive() is None, "a sight of the host is answered once"
+    sights.put(make_sight(703))
+    play(1, robot)
+    assert commands.receive().message().answers_tick == 703
+    assert robot.brain.seen[-1].tick == 703
+
+
+def test_when_sides_change_the_robot_attacks_the_other_way(field):
+    sights, states = field.host.publisher(SIGHT, robot="cyan2"), field.host.publisher(STATE)
+    robot = field.robot("cyan2", host=True, start=(2.0, 1.0, 0.0))
+    for attacks in (1, -1):
+        states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY, cyan_attacks=attacks))
+        sights.put(make_sight(1))
+        play(1, robot)
+        assert robot.brain.seen[-1].self.x == approx(attacks * 2.0, abs=0.1)
+
+
+def test_a_robot_whose_localisation_fails_is_not_asked_and_falls_back(field, monkeypatch):
+    robot = field.robot("cyan2")
+    play(60, robot)
+    asked, hardware = len(robot.brain.seen), robot.guard
+    good = Dummy.sense
+    monkeypatch.setattr(Dummy, "sense", lambda self, time: replace(good(self, time), time=math.nan))
+    for _ in range(60):
+        play(1, robot)
+        hardware.watch()
+    health = hardware.health()
+    assert len(robot.brain.seen) - asked <= 11
+    assert health.fell_back == 1 and "motion: a reading is not finite" in health.reason
+    monkeypatch.undo()
+    assert robot.guard.sense().motion.vx == 0.0

@@ -1,0 +1,51 @@
+"""The hardware `simulated` on a clock that is stepped: its driver, a serial line, and the board in this process."""
+
+import os
+import tty
+from contextlib import suppress
+from typing import Any
+
+from robot_agent.hardware.simulated.board import Board, BoardNumbers
+from robot_agent.hardware.simulated.driver import Simulated
+from schemas.config.robot_model import RobotModel
+from support.stepped_clock import SteppedClock
+
+
+class BoardClock(SteppedClock):
+    """While it sleeps, the board moves on, and what it sends is on the line."""
+
+    def __init__(self, board: Board, line: int) -> None:
+        super().__init__()
+        self._board, self._line = board, line
+        self.alters = lambda data: data
+        """Changes what the board sends."""
+
+    def sleep_until(self, moment: float) -> None:
+        while self.now() < moment:
+            super().sleep_until(min(moment, self.now() + 0.005))
+            with suppress(BlockingIOError):
+                self._board.receive(os.read(self._line, 65536))
+            sent = self.alters(self._board.advance(self.now()))
+            with suppress(BlockingIOError):  # as on the real line, what nobody reads is lost
+                os.write(self._line, sent)
+
+
+class SteppedBoard:
+    """The driver `hardware`, the `board`, and the `clock` of both."""
+
+    def __init__(self, model: RobotModel, camera_delay: float = 0.0, **numbers: Any) -> None:
+        self.line, self._other_end = os.openpty()
+        tty.setraw(self._other_end)
+        os.set_blocking(self.line, False)
+        self.board = Board(model.wheels, BoardNumbers(**numbers))
+        self.clock = BoardClock(self.board, self.line)
+        self.hardware = Simulated(model, port=os.ttyname(self._other_end), camera_delay=camera_delay)
+
+    def after(self, seconds: float) -> None:
+        """Let time pass."""
+        self.clock.sleep_until(self.clock.now() + seconds)
+
+    def close(self) -> None:
+        """Close the line."""
+        os.close(self.line)
+        os.close(self._other_end)
