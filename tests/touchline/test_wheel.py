@@ -53,7 +53,7 @@ def test_it_names_its_authors_and_what_it_is_for(metadata: Message) -> None:
 
 def test_the_page_of_an_index_has_no_link_into_the_repository(metadata: Message) -> None:
     page = metadata.get_payload()
-    assert isinstance(page, str) and "first week, team (`docs/team.md`)" in page
+    assert isinstance(page, str) and "first week (`docs/first_week.md`)" in page
     assert re.findall(r"\]\((?!https?:)[^)]*\)", page) == []
 
 
