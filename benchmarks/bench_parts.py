@@ -18,7 +18,7 @@ from rich.table import Table
 from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
 from schemas.messages.radio import BallBelief, Motion, Radio
-from schemas.messages.record_batch import BatchEntry, RecordBatch, payload_fields
+from schemas.messages.record_batch import BatchEntry, RecordBatch
 from schemas.wire.message import VERSION
 from schemas.wire.part import encode
 from sim_host.match.world_fields import world_fields
@@ -113,7 +113,7 @@ class PartsRig(TickRig):
         return [encode({"version": VERSION, **world}), encode(self.inputs)]
 
     def _record(self, payloads: list[bytes]) -> None:
-        self.entries += [BatchEntry("host/world", **payload_fields(payload)) for payload in payloads]
+        self.entries += [BatchEntry.of("host/world", payload) for payload in payloads]
         if self.snapshot.tick % BATCH_TICKS == 0:
             RecordBatch(
                 stream=1, number=self.snapshot.tick, tick=self.snapshot.tick, sent_ns=1, entries=self.entries

@@ -13,13 +13,7 @@ from msgspec import Raw
 
 from runtime.bus.contract import Bus, Publisher, ReceivedMessage, Stamp
 from runtime.process.large_blocks import mapped
-from schemas.messages.record_batch import (
-    BatchEntry,
-    RecordBatch,
-    RecordBatchesReply,
-    RecordBatchesRequest,
-    payload_fields,
-)
+from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES, KEPT_BYTES
 from schemas.topic import Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
@@ -36,6 +30,8 @@ _MAX_REPLY_BYTES = 512 * 1024
 """Most bytes of the batches in a reply with more than one batch: small enough to fit on a busy link soon."""
 _MAX_REPLIES_PER_TICK = 4
 """Most replies between two ticks, so that recorders with many requests do not delay the host."""
+_NO_STAMP = (None, 0, -1)
+"""In place of the stamp of a message that has none."""
 
 
 class RecordedPublishers(Protocol):
@@ -85,19 +81,12 @@ class BatchPublisher:
         if self._count >= _MAX_PAYLOADS_PER_TICK or len(payload) > _MAX_PAYLOAD_BYTES:
             return
         self._count += 1
-        numbers = {} if received.stamp is None else received.stamp._asdict()
-        entry = BatchEntry(
-            received.key,
-            arrived_ns=received.arrived_ns,
-            arrived_sim_ns=self._clock.sim_ns,
-            **payload_fields(payload),
-            **numbers,
-        )
-        self._enter(entry, len(payload))
+        stamp = received.stamp or _NO_STAMP
+        self._enter(BatchEntry.of(received.key, payload, *stamp, received.arrived_ns, self._clock.sim_ns), len(payload))
 
     def add_own(self, key: str, payload: bytes, stamp: Stamp) -> None:
         """Add a message that the host has published."""
-        self._enter(BatchEntry(key, **payload_fields(payload), **stamp._asdict()), len(payload))
+        self._enter(BatchEntry.of(key, payload, *stamp), len(payload))
 
     def end_tick(self, tick: int) -> None:
         """End a tick: later messages belong to the next one."""

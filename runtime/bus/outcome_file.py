@@ -8,7 +8,7 @@ from pathlib import Path
 
 from runtime.bus.contract import ReceivedMessage, Stamp
 from runtime.process.whole_file import written_whole
-from schemas.messages.record_batch import BatchEntry, RecordBatch, payload_fields
+from schemas.messages.record_batch import BatchEntry, RecordBatch
 from schemas.topics import EVENT, STATE
 from schemas.wire.message import BadMessageError
 
@@ -21,11 +21,7 @@ def write_outcome(path: Path, messages: Sequence[ReceivedMessage]) -> None:
     Raises:
         OSError: the file cannot be written.
     """
-    entries = [
-        BatchEntry(one.key, **payload_fields(one.payload), **one.stamp._asdict())
-        for one in messages
-        if one.stamp is not None
-    ]
+    entries = [BatchEntry.of(one.key, one.payload, *one.stamp) for one in messages if one.stamp is not None]
     with written_whole(path) as draft:
         draft.write_bytes(RecordBatch(stream=0, number=0, tick=-1, sent_ns=0, entries=entries).encode())
 

@@ -5,7 +5,7 @@ messages that robots and coaches publish once can be requested again like the ho
 """
 
 from base64 import b64decode, b64encode
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
 import msgspec
 from msgspec import Meta
@@ -16,6 +16,7 @@ from schemas.wire.part import Part
 MAX_KEY = 200
 """Most characters of a key."""
 _NULL = msgspec.Raw(b"null")
+_skim = msgspec.json.Decoder(msgspec.Raw).decode
 
 
 class BatchEntry(Part, kw_only=False, omit_defaults=True):
@@ -37,6 +38,19 @@ class BatchEntry(Part, kw_only=False, omit_defaults=True):
     """Wall time at which it reached the host, by the host's clock, ns since 1970; 0 for the host's own messages."""
     arrived_sim_ns: int = -1
     """The host's simulated time in ns when it received the message; −1 for the host's own messages."""
+
+    @classmethod
+    def of(cls, key: str, payload: bytes, *numbers: Any) -> Self:
+        """The entry of a payload, which may be any bytes; `numbers` are the fields from `sequence` on."""
+        try:
+            payload.decode()
+            message = _skim(payload)
+            is_whole = len(memoryview(message)) == len(payload)
+        except (ValueError, RecursionError):
+            is_whole = False
+        if is_whole:
+            return cls(key, message, None, *numbers)
+        return cls(key, _NULL, b64encode(payload).decode(), *numbers)
 
     @property
     def payload(self) -> bytes:
@@ -100,17 +114,3 @@ class RecordBatchesReply(Message):
 
     Each is a `RecordBatch` that stays encoded: one that cannot be read leaves the others readable.
     """
-
-
-_skim = msgspec.json.Decoder(msgspec.Raw).decode
-
-
-def payload_fields(payload: bytes) -> dict[str, Any]:
-    """The fields of a `BatchEntry` for a payload, which may be any bytes."""
-    try:
-        payload.decode()
-        message = _skim(payload)
-    except (ValueError, RecursionError):
-        return {"octets": b64encode(payload).decode()}
-    is_all = len(bytes(message)) == len(payload)
-    return {"message": message} if is_all else {"octets": b64encode(payload).decode()}

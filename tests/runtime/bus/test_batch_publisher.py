@@ -8,13 +8,7 @@ from runtime.bus import batch_publisher as module
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import NoReplyError, ReceivedMessage, Stamp
 from schemas.messages.command import Command
-from schemas.messages.record_batch import (
-    BatchEntry,
-    RecordBatch,
-    RecordBatchesReply,
-    RecordBatchesRequest,
-    payload_fields,
-)
+from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.topics import COMMAND, EVENT, RECORD_BATCH, RECORD_BATCHES, SIGHT, WORLD
 from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
@@ -245,9 +239,7 @@ def test_questions_without_end_do_not_hold_the_host(batches, seat):
 
 @given(st.binary(max_size=40) | st.text(max_size=20).map(str.encode) | st.just(b"[" * 5000 + b"]" * 5000))
 def test_any_payload_comes_out_as_it_went_in_and_leaves_the_batch_whole(payload):
-    written = RecordBatch(
-        stream=1, number=2, tick=3, sent_ns=4, entries=[BatchEntry("world", **payload_fields(payload))]
-    ).encode()
+    written = RecordBatch(stream=1, number=2, tick=3, sent_ns=4, entries=[BatchEntry.of("world", payload)]).encode()
     assert RecordBatch.decode(written).tick == 3
     (entry,) = RecordBatch.decode(written).entries
     assert entry.payload == payload
