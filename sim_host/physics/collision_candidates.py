@@ -81,9 +81,10 @@ class CollisionCandidates:
                 touching.add(place)  # another robot may press the ball against it
             if not (obstacles or abs(x) + travel > free_x or abs(y) + travel > free_y):
                 continue
+            near_by = self._fixed(x, y, travel + _MARGIN)
             if speed > MIN_IMPACT:
-                fixed += self._fixed(place, x, y, travel)
-            if yields[place] and self._fixed(place, x, y, travel + _MARGIN):
+                fixed += [(place, number) for number, gap in near_by if gap < travel]
+            if near_by and yields[place]:
                 touching.add(place)
         if not moving:
             return Candidates([], fixed, [], False)
@@ -115,14 +116,15 @@ class CollisionCandidates:
                     hits.append((min(one, other), max(one, other)))
         return sorted(hits), touching
 
-    def _fixed(self, place: int, x: float, y: float, travel: float) -> IndexPairs:
-        """Fixed bodies that a robot may reach."""
+    def _fixed(self, x: float, y: float, reach: float) -> list[tuple[int, float]]:
+        """Fixed bodies that are less than `reach` m from a place, and how far they are."""
         found = []
-        if abs(x) + travel > self._free_x or abs(y) + travel > self._free_y:
+        if abs(x) + reach > self._free_x or abs(y) + reach > self._free_y:
             for number, (at_x, at_y, half_x, half_y) in enumerate(self._boxes):
-                if math.hypot(max(abs(x - at_x) - half_x, 0.0), max(abs(y - at_y) - half_y, 0.0)) < travel:
-                    found.append((place, number))
+                dx, dy = abs(x - at_x) - half_x, abs(y - at_y) - half_y
+                if dx < reach and dy < reach and (gap := math.hypot(max(dx, 0.0), max(dy, 0.0))) < reach:
+                    found.append((number, gap))
         for number, (at_x, at_y, radius) in enumerate(self._obstacles, len(self._boxes)):
-            if math.hypot(x - at_x, y - at_y) - radius < travel:
-                found.append((place, number))
+            if (gap := math.hypot(x - at_x, y - at_y) - radius) < reach:
+                found.append((number, gap))
         return found

@@ -93,25 +93,26 @@ class ContinuousCollision:
         position, _, velocity, spin = ball
         if math.hypot(*velocity) < MIN_IMPACT:
             return
-        travel = [speed * self._step for speed in velocity]
-        room = self._radius + _MAX_MOTION
-        low = [at + min(0.0, by) - room for at, by in zip(position, travel, strict=True)]
-        high = [at + max(0.0, by) + room for at, by in zip(position, travel, strict=True)]
+        step, room = self._step, self._radius + _MAX_MOTION
+        (x, y, z), (vx, vy, vz) = position, velocity
+        low = x + min(0.0, vx * step) - room, y + min(0.0, vy * step) - room, z + min(0.0, vz * step) - room
+        high = x + max(0.0, vx * step) + room, y + max(0.0, vy * step) + room, z + max(0.0, vz * step) + room
         bodies = self._engine.bodies_near_ball(low, high)
-        left = self._step
+        if not bodies:
+            return
+        left = step
         for _ in range(_ROUNDS):
             times = [self._ball_time_to(body, velocity, left) for body in bodies]
             ahead = min((time for time in times if time is not None), default=None)
             if ahead is None:  # it passes by
-                if left < self._step:
+                if left < step:
                     self._engine.set_ball_state(position, velocity, spin)
                 return
             if ahead == 0.0:
                 return
             left -= ahead
-            spent = self._step - left
-            x, y, z = (at + speed * spent for at, speed in zip(position, velocity, strict=True))
-            self._engine.set_ball_state((x, y, z), velocity, spin)
+            spent = step - left
+            self._engine.set_ball_state((x + vx * spent, y + vy * spent, z + vz * spent), velocity, spin)
 
     def _ball_time_to(self, body: int, velocity: Vector, left: float) -> float | None:
         """s after which the ball may touch a body, 0 if it touches already, None if not in the `left` s of a step.

@@ -148,15 +148,14 @@ class Engine:
 
     def state(self, body: int) -> BodyState:
         """The state of a body between two steps."""
-        position, orientation = pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
-        velocity, spin = pybullet.getBaseVelocity(body, physicsClientId=self.client)
-        return BodyState(position, orientation, velocity, spin)
+        client = self.client
+        return BodyState(*pybullet.getBasePositionAndOrientation(body, client), *pybullet.getBaseVelocity(body, client))
 
     def set_state(self, body: int, state: BodyState) -> None:
         """Set the state of a body, without updating the states that were read."""
         self._ball_now = None
-        pybullet.resetBasePositionAndOrientation(body, state.position, state.orientation, physicsClientId=self.client)
-        pybullet.resetBaseVelocity(body, state.velocity, state.spin, physicsClientId=self.client)
+        pybullet.resetBasePositionAndOrientation(body, state.position, state.orientation, self.client)
+        pybullet.resetBaseVelocity(body, state.velocity, state.spin, self.client)
 
     def place(self, placement: Placement) -> None:
         """Place a robot, the ball or an obstacle that can be pushed, at rest or with a velocity, and read its state."""
@@ -237,7 +236,7 @@ class Engine:
 
     def robot_twist(self, place: int) -> FieldTwist:
         """The velocity of a robot between two steps."""
-        (vx, vy, _), (_, _, omega) = pybullet.getBaseVelocity(self.robots[place], physicsClientId=self.client)
+        (vx, vy, _), (_, _, omega) = pybullet.getBaseVelocity(self.robots[place], self.client)
         return vx, vy, omega
 
     def ball_now(self) -> BodyState:
@@ -250,7 +249,7 @@ class Engine:
         """Set every robot's velocity in the field frame, (vx, vy, omega), for the next step; brake what is pushed."""
         lift, client, reset = self._lift, self.client, pybullet.resetBaseVelocity
         for body, (vx, vy, omega) in zip(self.robots, velocities, strict=True):
-            reset(body, (vx, vy, lift), (0.0, 0.0, omega), physicsClientId=client)
+            reset(body, (vx, vy, lift), (0.0, 0.0, omega), client)
         for pushable in self._pushables.values():
             pushable.brake()
 
@@ -279,7 +278,7 @@ class Engine:
     def set_ball_motion(self, velocity: Vector, spin: Vector) -> None:
         """Set the ball's velocity and spin."""
         self._ball_now = None
-        pybullet.resetBaseVelocity(self.ball, velocity, spin, physicsClientId=self.client)
+        pybullet.resetBaseVelocity(self.ball, velocity, spin, self.client)
 
     def set_ball_state(self, position: Vector, velocity: Vector, spin: Vector) -> None:
         """Set the ball's position, velocity and spin."""
@@ -287,7 +286,7 @@ class Engine:
 
     def push_ball(self, force: Vector, at: Vector) -> None:
         """Apply a force in N at the ball's centre `at`, for the next step."""
-        pybullet.applyExternalForce(self.ball, -1, force, at, pybullet.WORLD_FRAME, physicsClientId=self.client)
+        pybullet.applyExternalForce(self.ball, -1, force, at, pybullet.WORLD_FRAME, self.client)
 
     def ignore_ball_contacts(self, robot: int | None) -> None:
         """Let the ball not collide with this robot, or collide with all: a held ball lies a little inside the hull."""
@@ -303,7 +302,7 @@ class Engine:
     def step(self) -> None:
         """Simulate one physics step."""
         self._ball_now = None
-        pybullet.stepSimulation(physicsClientId=self.client)
+        pybullet.stepSimulation(self.client)
 
     def ball_contacts(self, holder: int | None) -> BallContacts:
         """The ball's contacts in the last step, other than with the ground; depth in its holder does not count."""

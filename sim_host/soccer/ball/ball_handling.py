@@ -102,13 +102,13 @@ class BallHandling:
         """Move the ball with its holder, or by ground and air; the state of a free ball, None for a held one."""
         now = self._engine.ball_now()
         position, _, velocity, spin = now
-        if self.holder is not None and self._is_overrun(self.holder, position):
-            self.set_holder(None)
-        for index in self._contestants:
-            if not self._is_overrun(index, position):
-                self._carry(index, drives[index], BallState(*position, *velocity))
+        for index in self._contestants if self.holder is None else (*self._contestants, self.holder):
+            robot = self._engine.robot_now(index)
+            if not self._is_overrun(index, robot, position):
+                self._carry(index, robot, drives[index], BallState(*position, *velocity))
+            elif index == self.holder:
+                self.set_holder(None)
         if self.holder is not None:
-            self._carry(self.holder, drives[self.holder], BallState(*position, *velocity))
             if not self._is_carried(self.holder):
                 self._push(now)
             return None
@@ -171,7 +171,7 @@ class BallHandling:
         x, y, z = position
         touching = hull.reach + self._profile.ball.radius
         has_left = math.hypot(x - robot.x, y - robot.y) > touching or z > hull.height
-        if has_left or self._is_overrun(kicker, position):
+        if has_left or self._is_overrun(kicker, robot, position):
             self.set_holder(None)
 
     def _would_press(self, index: int) -> bool:
@@ -185,15 +185,14 @@ class BallHandling:
         """Whether a robot carries the ball by pose or velocity, rather than draws it by forces."""
         return self._dribbles[index].method != "force"
 
-    def _is_overrun(self, index: int, ball: Vector) -> bool:
-        """Whether the ball is inside the hull of this robot, which holds or kicked it."""
-        robot, gap = self._engine.robot_now(index), self._dribbles[index].gap
-        return math.hypot(ball[0] - robot.x, ball[1] - robot.y) < gap - _MAX_OVERRUN
+    def _is_overrun(self, index: int, robot: RobotState, ball: Vector) -> bool:
+        """Whether the ball is inside the hull of this robot, which draws it, holds it or kicked it."""
+        return math.hypot(ball[0] - robot.x, ball[1] - robot.y) < self._dribbles[index].gap - _MAX_OVERRUN
 
-    def _carry(self, index: int, drive: FieldTwist, ball: BallState) -> None:
-        """Move the ball with its holder for one step."""
+    def _carry(self, index: int, robot: RobotState, drive: FieldTwist, ball: BallState) -> None:
+        """Move the ball with this robot for one step."""
         dribble, engine = self._dribbles[index], self._engine
-        held = HeldBall(engine.robot_now(index), drive, ball, dribble, self._profile.ball.radius, self._step)
+        held = HeldBall(robot, drive, ball, dribble, self._profile.ball.radius, self._step)
         at, velocity, force = METHODS[dribble.method](held)
         if velocity is not None:
             spin = self._free.rolling_spin(velocity[0], velocity[1])
