@@ -1,6 +1,6 @@
 """The radio between teammates: messages arrive late or not at all, and a team's messages have a byte budget."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,20 +22,28 @@ from sim_host.snapshot import Roster
 
 Objects = NDArray[Any]
 """An array of `_RadioMessage` and None."""
+Shared = Callable[[Any], Any]
+"""Makes of a part of several sights what all of them have."""
+
+
+def as_it_is(part: Any) -> Any:
+    """The part itself."""
+    return part
 
 
 @dataclass(slots=True, eq=False)
 class _RadioMessage:
     left: float
     """Time of sending in ticks."""
-    received: ReceivedRadio
-    """As every receiver reads it at the tick `at`: its age counts."""
+    content: ReceivedRadio
+    received: Any = None
+    """As every receiver has it at the tick `at`: with its age."""
     at: int = -1
     """Tick."""
 
-    def read_at(self, tick: int, tick_s: float) -> ReceivedRadio:
+    def read_at(self, tick: int, tick_s: float, shared: Shared) -> Any:
         """The message with its age at this tick."""
-        self.received = replace(self.received, age=round((tick - self.left) * tick_s, DIGITS))
+        self.received = shared(replace(self.content, age=round((tick - self.left) * tick_s, DIGITS)))
         self.at = tick
         return self.received
 
@@ -162,8 +170,11 @@ class RadioAir:
             budget.spend(at, bits)
         return end, refusal
 
-    def receive(self, tick: int) -> list[dict[str, ReceivedRadio]]:
-        """Per robot, in the order of the roster: teammate → its newest message that has arrived by this tick."""
+    def receive(self, tick: int, shared: Shared = as_it_is) -> list[dict[str, Any]]:
+        """Per robot, in the order of the roster: teammate → its newest message that has arrived by this tick.
+
+        `shared` makes of each message what all receivers get, once a tick.
+        """
         under_way, arrived = self._under_way, self._arrived
         for (
             batch
@@ -176,7 +187,7 @@ class RadioAir:
         tick_s = self._tick_s
         return [
             {
-                name: message.received if message.at == tick else message.read_at(tick, tick_s)
+                name: message.received if message.at == tick else message.read_at(tick, tick_s, shared)
                 for name, sender in mates
                 if (message := of_robot[sender]) is not None
             }

@@ -4,13 +4,17 @@ Ten sights a tick are most of what a host publishes.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from msgspec import Raw
 
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.sight import Outcome, Sight
 from schemas.messages.soccer.game import GameView
 from schemas.side import Side
-from sim_host.match.radio import RadioAir
+from schemas.wire.part import encode
+from sim_host.match.radio import RadioAir, as_it_is
 from sim_host.match.world_fields import Fields
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.sensors.suite import SensorSuite
@@ -21,23 +25,29 @@ Send = Callable[[str, bytes], None]
 
 
 class TickSights(Mapping[str, bytes]):
-    """Robot → its encoded sight of one tick. A sight is encoded when it is first read."""
+    """Robot → its encoded sight of one tick. A sight that was not sent is encoded when it is first read."""
 
     def __init__(self) -> None:
         self.perceived: dict[str, Sight] = {}
-        """The same as messages. Robots and ticks share parts of them: a reader must not change these."""
-        self._encoded: dict[str, bytes] = {}
+        """The same as messages; none where they were sent. Robots and ticks share parts of them: a reader must not
+        change these."""
+        self.encoded: dict[str, bytes] = {}
 
     def __getitem__(self, robot: str) -> bytes:
-        if robot not in self._encoded:
-            self._encoded[robot] = self.perceived[robot].encode()
-        return self._encoded[robot]
+        if robot not in self.encoded:
+            self.encoded[robot] = self.perceived[robot].encode()
+        return self.encoded[robot]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.perceived)
+        return iter(self.perceived or self.encoded)
 
     def __len__(self) -> int:
-        return len(self.perceived)
+        return len(self.perceived or self.encoded)
+
+
+def _once_encoded(part: Any) -> Any:
+    """A part of many sights that are sent: it is encoded once, for all of them."""
+    return Raw(encode(part))
 
 
 class Sights:
@@ -68,11 +78,13 @@ class Sights:
         """The sights of all robots; with `send`, each is sent as soon as it is made."""
         percepts = self._perception.at(snapshot, cyan_attacks)
         sensed = self._sensors.at(snapshot)
-        received = self._radio.receive(snapshot.tick)
+        shared = as_it_is if send is None else _once_encoded
+        received = self._radio.receive(snapshot.tick, shared)
+        games = {side: shared(view) for side, view in views.items()}
         sights = TickSights()
         for index, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
             percept, command = percepts[index], commands.get(name)
-            sights.perceived[name] = Sight(
+            sight = Sight(
                 tick=snapshot.tick,
                 time=snapshot.time,
                 robot=name,
@@ -85,7 +97,7 @@ class Sights:
                 obstacles=percept.obstacles,
                 obstacles_age=percept.obstacles_age,
                 radio=received[index],
-                game=views[side],
+                game=games[side],
                 order=orders.get(side),
                 outcome=Outcome(
                     answers_tick=command.answers_tick if command is not None else None,
@@ -93,7 +105,10 @@ class Sights:
                 ),
                 sensors=dict(sensed[index]),
             )
-            if send is not None:
-                send(name, sights[name])
+            if send is None:
+                sights.perceived[name] = sight
+            else:
+                sights.encoded[name] = encoded = sight.encode()
+                send(name, encoded)
         self._perception.develop()
         return sights

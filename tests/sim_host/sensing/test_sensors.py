@@ -14,6 +14,7 @@ from schemas.config.quantity import Choice, Quantity
 from schemas.config.sections import RobotBody
 from schemas.config.sensors.table import KINDS, Reading, Sensor, SensorKind
 from schemas.messages.command import Command, Drive
+from schemas.messages.radio import Radio
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
@@ -292,13 +293,19 @@ def test_readings_and_numbers_survive_the_wire(play) -> None:
     assert Sight.decode(payload).encode() == payload, "programs that read lines get this"
 
 
-def test_a_sight_is_the_same_whenever_it_is_read(play) -> None:
+def test_a_sight_is_the_same_whether_it_is_sent_or_read_later(play) -> None:
     one, other = (play(sensor("front", "range", **FRONT) + sensor("north", "compass")) for _ in range(2))
     sent: list[tuple[str, bytes]] = []
-    for _ in range(8):
-        one.step({}, send=lambda *sight: sent.append(sight))
-    ticks = [other.step({}).sights for _ in range(8)]
+    ticks = []
+    for tick in range(12):
+        said = {
+            name: Command(answers_tick=tick, radio=Radio(role=name, extra={"tick": tick})) for name in one.roster.names
+        }
+        one.step(said, send=lambda *sight: sent.append(sight))
+        ticks.append(other.step(said).sights)
+    assert list(one.now.sights.items()) == sent[-len(one.roster.names) :]
     perceived = [pair for sights in ticks for pair in sights.perceived.items()]
+    assert perceived[-1][1].radio
     assert [(robot, Sight.decode(sight)) for robot, sight in sent] == perceived
     assert [pair for sights in ticks for pair in sights.items()] == sent
 
