@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from robot_agent.sdk.contract import Briefing
-from robot_agent.sdk.world_model import STALE, WorldBelief, WorldModel
+from robot_agent.sdk.world_model import STALE, WorldBelief, WorldModel, places_of
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.frames import Point
 from schemas.messages.sight import Sight
@@ -18,6 +18,8 @@ HOLDS = -1.0
 """s until a robot that holds the ball could be at it: less than for any other."""
 MOST_OPPONENTS = 6
 """Opponents in a radio message: two entries each, of sixteen."""
+_PLACES = tuple((f"x{number}", f"y{number}") for number in range(MOST_OPPONENTS))
+"""Names of their entries."""
 
 
 class Words(NamedTuple):
@@ -66,15 +68,15 @@ class SharedEstimate(WorldModel):
         theirs = self._briefing.setup.teams[self._briefing.side.opponent].robots
         same, most = self._parameters.same_robot, len(theirs)
         known = list(belief.opponents)
-        ours = [belief.me[:2], *[mate.body[:2] for mate in belief.mates.values()]]
+        taken = [*known, belief.me[:2], *places_of(belief.mates).values()]
         for received in sorted(sight.radio.values(), key=lambda received: received.age):
-            if received.age > self._parameters.told_age:
-                continue
+            if len(known) >= most or received.age > self._parameters.told_age:
+                break
             for place in reported(received.extra):
-                if not self._is_ground(place):
-                    continue
-                if len(known) < most and all(math.dist(place, other) > same for other in (*known, *ours)):
+                is_new = len(known) < most and all(math.dist(place, other) > same for other in taken)
+                if is_new and self._is_ground(place):
                     known.append(place)
+                    taken.append(place)
         return known
 
     def _is_ground(self, place: Point) -> bool:
@@ -87,8 +89,8 @@ def report(opponents: list[Point], me: Point, arrival: float) -> dict[str, float
     """The words of one robot: its arrival at the ball, and the opponents nearest to it, in centimetres."""
     words = {"arrival": round(arrival, 2)} if math.isfinite(arrival) else {}
     nearest = sorted(opponents, key=lambda place: math.dist(place, me))[:MOST_OPPONENTS]
-    for index, (x, y) in enumerate(nearest):
-        words[f"x{index}"], words[f"y{index}"] = round(x, 2), round(y, 2)
+    for (name_x, name_y), (x, y) in zip(_PLACES, nearest, strict=False):
+        words[name_x], words[name_y] = round(x, 2), round(y, 2)
     return words
 
 
@@ -101,9 +103,9 @@ def arrival_in(words: dict[str, float | int | bool | str]) -> float:
 def reported(words: dict[str, float | int | bool | str]) -> list[Point]:
     """The opponents in a teammate's words."""
     places = []
-    for index in range(MOST_OPPONENTS):
-        x, y = words.get(f"x{index}"), words.get(f"y{index}")
-        if not isinstance(x, float | int) or not isinstance(y, float | int):
+    for name_x, name_y in _PLACES:
+        x, y = words.get(name_x), words.get(name_y)
+        if not isinstance(x, (float, int)) or not isinstance(y, (float, int)):
             break
         places.append((float(x), float(y)))
     return places

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import cache
 
 from robot_agent.soccer.skills.keep_off import inside
 from robot_agent.teams.reference.parameters import Parameters
@@ -11,7 +12,8 @@ from robot_agent.teams.set_piece import before_own_goal
 from schemas.config.sections import Pitch
 from schemas.frames import Point
 
-_DIRECTIONS = tuple(math.radians(angle) for angle in (-150, -110, -75, -40, 0, 40, 75, 110, 150))
+_ANGLES = tuple(math.radians(angle) for angle in (-150, -110, -75, -40, 0, 40, 75, 110, 150))
+_DIRECTIONS = tuple((math.cos(angle), math.sin(angle)) for angle in _ANGLES)
 """Where supporters may stand around the ball, from the direction of the attack."""
 
 
@@ -46,10 +48,10 @@ def places(
     if not attacks and ball[0] < parameters.marks_before:
         found += [Place(Role.MARKER, place) for place in _marks(ball, opponents, pitch, front, parameters)]
     found = found[: len(robots)]
-    while len(found) < len(robots):
-        taken = [place.at for place in found]
-        found.append(Place(Role.SUPPORTER, _support(ball, taken, opponents, robots, pitch, front, parameters)))
-    return found
+    if len(found) == len(robots):
+        return found
+    supports = _supports(ball, [place.at for place in found], opponents, robots, pitch, front, parameters)
+    return found + [Place(Role.SUPPORTER, place) for place in supports]
 
 
 def front_of(pitch: Pitch, inset: float) -> float:
@@ -86,7 +88,7 @@ def _marks(ball: Point, opponents: Sequence[Point], pitch: Pitch, front: float, 
     return marks[:2]
 
 
-def _support(
+def _supports(
     ball: Point,
     taken: Sequence[Point],
     opponents: Sequence[Point],
@@ -94,20 +96,28 @@ def _support(
     pitch: Pitch,
     front: float,
     parameters: Parameters,
-) -> Point:
-    """The best place for a pass: free lane, room, near their goal, apart from the others, and near a robot already."""
-    best, most, most_ahead = ball, -math.inf, parameters.support_most_ahead
+) -> list[Point]:
+    """The best places for a pass: free lane, room, near their goal, apart from the others, and near a robot already."""
+    apart, most_ahead, free_lane = parameters.support_apart, parameters.support_most_ahead, parameters.support_lane
+    lane = cache(lambda place: free_lane * chance(ball, place, opponents, parameters))
+    open_places = []
     for place in _candidates(ball, robots, pitch, front, parameters):
-        if any(math.dist(place, other) < parameters.support_apart for other in taken):
-            continue
-        way = min(math.dist(place, robot) for robot in robots)
-        value = parameters.support_lane * chance(ball, place, opponents, parameters)
-        value += parameters.support_worth * worth(place, opponents, pitch, parameters)
-        value += parameters.support_ahead * max(-most_ahead, min(most_ahead, place[0] - ball[0]))
-        value -= parameters.support_sticks * min(way, 6.0)
-        if value > most:
-            best, most = place, value
-    return best
+        if all(math.dist(place, other) >= apart for other in taken):
+            way = min([math.dist(place, robot) for robot in robots])
+            there = parameters.support_worth * worth(place, opponents, pitch, parameters)
+            ahead = parameters.support_ahead * max(-most_ahead, min(most_ahead, place[0] - ball[0]))
+            open_places.append((place, there, ahead, parameters.support_sticks * min(way, 6.0)))
+    chosen: list[Point] = []
+    while len(taken) + len(chosen) < len(robots):
+        best, most = ball, -math.inf
+        for place, there, ahead, sticks in open_places:
+            if free_lane + there + ahead - sticks > most:  # otherwise it is no better with any lane
+                value = lane(place) + there + ahead - sticks
+                if value > most:
+                    best, most = place, value
+        chosen.append(best)
+        open_places = [one for one in open_places if math.dist(one[0], best) >= apart]
+    return chosen
 
 
 def _candidates(
@@ -115,10 +125,8 @@ def _candidates(
 ) -> Iterator[Point]:
     """Two rings around the ball, and where robots are that could stay."""
     for radius in (parameters.support_near, parameters.support_far):
-        for angle in _DIRECTIONS:
-            x, y = inside(
-                ball[0] + radius * math.cos(angle), ball[1] + radius * math.sin(angle), pitch, parameters.support_inset
-            )
+        for dx, dy in _DIRECTIONS:
+            x, y = inside(ball[0] + radius * dx, ball[1] + radius * dy, pitch, parameters.support_inset)
             if -front <= x <= front and math.dist((x, y), ball) > 0.8 * parameters.support_near:
                 yield x, y
     for x, y in robots:

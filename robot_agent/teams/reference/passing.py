@@ -23,25 +23,32 @@ class Pass(NamedTuple):
 
 def chance(start: Point, end: Point, opponents: Sequence[Point], parameters: Parameters) -> float:
     """How surely a ball gets from one point to the other before any opponent is at it, 0 to 1."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
+    x0, y0 = start
+    dx, dy = end[0] - x0, end[1] - y0
     length = max(math.hypot(dx, dy), 1e-6)
     ux, uy = dx / length, dy / length
-    least = parameters.lane_sure
+    least, reach = parameters.lane_sure, parameters.intercept_reach
     for x, y in opponents:
-        along = (x - start[0]) * ux + (y - start[1]) * uy
+        dx, dy = x - x0, y - y0
+        along = dx * ux + dy * uy
         if along < -0.3 or along > length + 2.0:
             continue
-        part = max(0.0, min(length, along))
-        away = math.hypot(x - start[0] - part * ux, y - start[1] - part * uy)
-        moves = max(0.0, part / parameters.pass_mean_speed - parameters.intercept_reaction) * parameters.intercept_speed
-        least = min(least, away - parameters.intercept_reach - moves)
-    return max(0.0, least / parameters.lane_sure)
+        part = 0.0 if along < 0.0 else length if along > length else along
+        room = math.hypot(dx - part * ux, dy - part * uy) - reach
+        time = part / parameters.pass_mean_speed - parameters.intercept_reaction
+        if time > 0.0:
+            room -= time * parameters.intercept_speed
+        if room <= 0.0:
+            return 0.0
+        if room < least:
+            least = room
+    return least / parameters.lane_sure
 
 
 def worth(place: Point, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters) -> float:
     """The ball's worth in our hold at a place, 0 to 1: near their goal, central, with room around."""
     to_goal = math.hypot(pitch.goal_line - place[0], place[1])
-    room = min((math.dist(place, opponent) for opponent in opponents), default=parameters.worth_room)
+    room = min([math.dist(place, opponent) for opponent in opponents], default=parameters.worth_room)
     return math.exp(-to_goal / parameters.worth_range) + parameters.worth_free * min(room, parameters.worth_room)
 
 
