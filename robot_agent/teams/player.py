@@ -107,7 +107,7 @@ class Player(ABC):
         if self._game is not None and sight.game.episode != self._game.episode:
             self.restart()
         if self._last is not None and self._may_go_on(sight, self._last):
-            self._last = _repeated(self._last, sight.tick)
+            self._last = self._last.replace(answers_tick=sight.tick, radio=None, debug=None)
         else:
             self._last = self._decide(sight)
             self._game = sight.game
@@ -299,14 +299,3 @@ class Player(ABC):
 def _away(game: GameView) -> list[str]:
     """Own robots that are off the field."""
     return [name for name, record in game.robots.items() if record.off_field is not None]
-
-
-def _repeated(last: Command, tick: int) -> Command:
-    """The last command as the answer to one more sight, without kick and radio message."""
-    return Command(
-        answers_tick=tick,
-        drive=last.drive,
-        dribble=last.dribble,
-        acknowledges_order=last.acknowledges_order,
-        refuses_order=last.refuses_order,
-    )
