@@ -36,7 +36,7 @@ def toward(now: Drive, demand: Drive, model: RobotModel, dt: float) -> Drive:
     dx, dy = demand.vx - now.vx, demand.vy - now.vy
     slows = math.hypot(demand.vx, demand.vy) < math.hypot(now.vx, now.vy)
     most = (drive.deceleration if slows else drive.acceleration) * dt
-    share = most / max(most, math.hypot(dx, dy))
+    share = 1.0 if math.hypot(dx, dy) <= most else most / math.hypot(dx, dy)
     most_turn = drive.turn_acceleration * dt
     turn = max(-most_turn, min(most_turn, demand.omega - now.omega))
     return Drive(vx=now.vx + share * dx, vy=now.vy + share * dy, omega=now.omega + turn)

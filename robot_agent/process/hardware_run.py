@@ -31,8 +31,9 @@ from schemas.messages.setup import Setup
 SHIPPED = {
     "dummy": "robot_agent.hardware.dummy:Dummy",
     "simulated": "robot_agent.hardware.simulated.driver:Simulated",
+    "replayed": "touchline.hardware.replayed:Replayed",
 }
-"""Names that stand for hardware that ships; the command knows `replayed`, too, which reads recordings."""
+"""Names that stand for hardware that ships."""
 
 
 def check_body(settings: AgentSettings) -> None:
@@ -64,7 +65,7 @@ def guarded_hardware(settings: AgentSettings, setup: Setup, clock: Clock) -> Ite
     spec = SHIPPED.get(chosen.hardware, chosen.hardware)
     said = f'hardware is "{chosen.hardware}"'
     if ":" not in spec:
-        raise TouchlineError(f"{said}; name a class, module:Class, a file *.toml, or {', '.join(SHIPPED)}, replayed")
+        raise TouchlineError(f"{said}; name a class, module:Class, a file *.toml, or {', '.join(SHIPPED)}")
     build, name = load_object(said, spec, settings.brain_folder, settings.launch_folder)
     try:
         hardware: Hardware = build(model, **chosen.options)

@@ -187,10 +187,10 @@ class Board:
     def _measure(self) -> bytes:
         """What the sensors send at this time."""
         n, sent = self.numbers, b""
-        if self.time * n.camera_rate >= self._taken:
+        if self.time * n.camera_rate >= self._taken - 1e-6:
             self._taken += 1
             self._pictures.append((self.time + n.picture_delay, self._seen()))
-        if self.time * n.motion_rate >= self._motions:
+        if self.time * n.motion_rate >= self._motions - 1e-6:
             self._motions += 1
             fx, fy = rotate(*self.twist[:2], self.heading)
             x, y = self._noisy(n.position_noise, self.x, self.y)

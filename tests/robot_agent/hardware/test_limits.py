@@ -68,3 +68,4 @@ def test_a_demand_loses_speed_by_the_deceleration_and_turns_by_its_own_limit():
     after = toward(now, Drive(), one, 0.1)
     assert math.hypot(after.vx, after.vy) == approx(2.0 - 0.1 * one.drive.deceleration)
     assert after.omega == approx(3.0 - 0.1 * one.drive.turn_acceleration)
+    assert toward(now, Drive(), one, 0.0) == now and toward(now, now, one, 0.0) == now
