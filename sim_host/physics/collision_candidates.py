@@ -86,15 +86,13 @@ class CollisionCandidates:
                 fixed += [(place, number) for number, gap in near_by if gap < travel]
             if near_by and yields[place]:
                 touching.add(place)
-        if not moving:
-            return Candidates([], fixed, [], False)
         hits, meeting = self._robots(moving)
         touching |= meeting
         return Candidates(hits, fixed, sorted(touching), bool(meeting))
 
     def _robots(self, moving: list[_Moving]) -> tuple[IndexPairs, set[int]]:
         """Pairs of robots that may hit each other, and the robots that yield among those that may touch."""
-        widest, yields = max([travel for *_, travel, _ in moving]) + _MARGIN, self._yields
+        widest, yields = max([travel for *_, travel, _ in moving], default=0.0) + _MARGIN, self._yields
         hits: IndexPairs = []
         touching: set[int] = set()
         moving.sort()

@@ -164,7 +164,7 @@ def test_the_setup_tells_everything_a_robot_must_know(simulation: Simulation) ->
     again = type(setup).decode(setup.encode())
     assert again.pitch == simulation.profile.field and again.drive == simulation.profile.drive
     assert again.teams[Side.CYAN].robots == ["cyan1", "cyan2", "cyan3", "cyan4", "cyan5"]
-    assert set(again.engine) == {"engine", "libm", "referee"}
+    assert set(again.engine) == {"engine", "libm", "numpy", "referee"}
 
 
 def test_a_match_with_types_and_obstacles_is_set_up_and_played_as_in_its_file() -> None:
