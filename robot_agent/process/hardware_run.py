@@ -23,7 +23,6 @@ from runtime.bus.zenoh.bus import ZenohBus
 from runtime.process.clock import Clock
 from runtime.process.process_log import Level, log_line
 from schemas.config.match_config import load_match
-from schemas.config.settings import DEFAULT_MATCH
 from schemas.errors import TouchlineError
 from schemas.messages.hardware import HardwareState
 from schemas.messages.setup import Setup
@@ -111,7 +110,7 @@ def open_free_network(settings: AgentSettings, clock: Clock, patience: float) ->
             f"--listen {listen} is open to other machines; add --insecure on a network of your own, or listen on "
             "tcp/127.0.0.1:7447"
         )
-    return open_network(settings.match or DEFAULT_MATCH, clock, connect, listen, patience=patience)
+    return open_network(settings.match or setup_without_host(settings).match, clock, connect, listen, patience=patience)
 
 
 def setup_without_host(settings: AgentSettings) -> Setup:

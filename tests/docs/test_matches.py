@@ -18,7 +18,8 @@ from touchline.play.play_match import play_match
 HERE = Path(__file__).parents[2]
 CUP = HERE / "matches" / "cup.toml"
 STUDY = HERE / "examples" / "coverage" / "study.toml"
-FILES = sorted({*HERE.glob("matches/*.toml"), *HERE.glob("examples/**/*.toml")} - {CUP, STUDY})
+HARDWARE = HERE / "examples" / "two_bodies" / "robot.toml"
+FILES = sorted({*HERE.glob("matches/*.toml"), *HERE.glob("examples/**/*.toml")} - {CUP, STUDY, HARDWARE})
 
 
 @pytest.fixture(autouse=True)

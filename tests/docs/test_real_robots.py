@@ -16,10 +16,15 @@ import pytest
 
 from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings, hardware_settings
+from robot_agent.sdk.contract import Briefing
 from runtime.bus.endpoint import with_free_port
+from schemas.config.match_config import load_match
 from schemas.messages.command import Command, Drive
 from support.messages import make_setup
+from support.stepped_board import track_on_board
 from support.stepped_clock import SteppedClock
+from touchline.hardware.robot_track import RobotTrack, path_distance
+from touchline.play.play_match import InProcessMatch
 
 Fenced = Callable[[str, str], list[str]]
 
@@ -76,6 +81,23 @@ def test_all_keys_of_a_hardware_file_are_listed_with_their_defaults(page: str) -
     }
 
 
+def test_one_brain_drives_nearly_the_same_path_in_a_match_and_on_simulated_hardware(root: Path, page: str) -> None:
+    """The figure of the page, whose recordings are those of real processes."""
+    config = load_match(root / "examples" / "two_bodies" / "rounds.toml")
+    match = InProcessMatch(config, brain_folder=root / "examples" / "two_bodies")
+    simulated = RobotTrack("cyan1", [], [])
+    brain = type(match.brains["cyan1"])(Briefing.of("cyan1", match.simulation.setup()))
+    while not match.simulation.over:
+        simulated.sights.append(match.simulation.now.sights.perceived["cyan1"])
+        match.step()
+    setup = match.simulation.setup()
+    match.close()
+    mean, most = path_distance(simulated, track_on_board(brain, "cyan1", setup, 20.0))
+    stated = re.search(r"([\d.]+) m apart on average, ([\d.]+) m at most", page)
+    assert stated is not None
+    assert mean < 1.5 * float(stated[1]) < 0.1 and most < 1.5 * float(stated[2]) < 0.4
+
+
 @contextmanager
 def running(command: list[str], folder: Path) -> Iterator[subprocess.Popen[str]]:
     """A process of the page, which is interrupted at the end."""
@@ -118,3 +140,7 @@ def _run(command: list[str], folder: Path) -> str:
 
 def test_its_hardware_file_is_valid_toml(page: str, fenced: Fenced) -> None:
     assert tomllib.loads(fenced(page, "toml")[0])["hardware"] == "simulated"
+
+
+def test_the_hardware_file_of_the_example_is_valid(root: Path) -> None:
+    assert hardware_settings(str(root / "examples" / "two_bodies" / "robot.toml")).hardware == "simulated"

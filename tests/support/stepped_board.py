@@ -5,10 +5,18 @@ import tty
 from contextlib import suppress
 from typing import Any
 
+from robot_agent.hardware.guard import HardwareGuard
+from robot_agent.hardware.settings import HardwareSettings
 from robot_agent.hardware.simulated.board import Board, BoardNumbers
 from robot_agent.hardware.simulated.driver import Simulated
+from robot_agent.process.hardware_runner import OpenRunner
+from robot_agent.sdk.contract import Brain
 from schemas.config.robot_model import RobotModel
+from schemas.messages.setup import Setup
+from schemas.topics import COMMAND
+from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
+from touchline.hardware.robot_track import RobotTrack
 
 
 class BoardClock(SteppedClock):
@@ -28,6 +36,28 @@ class BoardClock(SteppedClock):
             sent = self.alters(self._board.advance(self.now()))
             with suppress(BlockingIOError):  # as on the real line, what nobody reads is lost
                 os.write(self._line, sent)
+
+
+def track_on_board(brain: Brain, robot: str, setup: Setup, seconds: float, **numbers: Any) -> RobotTrack:
+    """What a robot perceives and commands in so many s on simulated hardware with these true numbers."""
+    model, side = setup.model_of(robot), setup.sides[robot]
+    stepped = SteppedBoard(model, **numbers)
+    bus = SharedState().open_bus("friendly", stepped.clock)
+    commands = bus.subscribe(COMMAND)
+    settings = HardwareSettings(hardware="simulated")
+    guard = HardwareGuard(stepped.hardware, settings, model, robot, stepped.clock, armed=True)
+    guard.start()
+    runner, track = OpenRunner([], guard, side, setup.time.tick, bus, brain, robot), RobotTrack(robot, [], [])
+    while stepped.clock.now() < seconds:
+        sight = runner.next_sight(None)
+        if sight is not None:
+            runner.answer(sight)
+            answer = commands.receive()
+            track.sights.append(sight)
+            track.commands.append(answer.message() if answer is not None else None)
+    guard.stop()
+    stepped.close()
+    return track
 
 
 class SteppedBoard:

@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from recordings.container.parted_file import open_parts
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.frames import Pose
@@ -51,3 +53,11 @@ def read_track(path: Path, robot: str) -> RobotTrack:
 def pose_of(sight: Sight) -> Pose:
     """Where the robot believed itself, in its team frame."""
     return Pose(sight.self.x, sight.self.y, sight.self.heading)
+
+
+def path_distance(one: RobotTrack, other: RobotTrack) -> tuple[float, float]:
+    """The mean and the largest distance in m of the places of one path from the nearest of another, both ways."""
+    paths = [np.array([complex(sight.self.x, sight.self.y) for sight in track.sights]) for track in (one, other)]
+    away = np.abs(paths[0][:, None] - paths[1])
+    nearest = np.concatenate((away.min(axis=0), away.min(axis=1)))
+    return float(nearest.mean()), float(nearest.max())

@@ -20,15 +20,14 @@ from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
-from schemas.topics import COMMAND
 from support.in_process_bus import SharedState
 from support.messages import make_setup
-from support.stepped_board import SteppedBoard
+from support.stepped_board import track_on_board
 from support.stepped_clock import SteppedClock
 from touchline.commands.cli.command_line import app
 from touchline.hardware.identify import identify, profile_text
 from touchline.hardware.replayed import Replayed
-from touchline.hardware.robot_track import RobotTrack, read_track
+from touchline.hardware.robot_track import read_track
 
 ROOT = Path(__file__).parents[3]
 POSTS = ((2.0, 3.0), (-3.0, 1.0), (0.0, -4.0))
@@ -36,6 +35,7 @@ SETUP = make_setup()
 MODEL = SETUP.model_of("cyan2")
 LIMITS = {"max_speed": 4.0, "max_turn_rate": 9.0, "acceleration": 20.0, "deceleration": 20.0, "turn_acceleration": 60.0}
 LOOSE = replace(MODEL, drive=replace(MODEL.drive, **LIMITS))
+LOOSE_SETUP = SETUP.replace(drive=LOOSE.drive, models={"standard": LOOSE})
 
 
 def shaker():
@@ -43,28 +43,11 @@ def shaker():
     page = (ROOT / "docs" / "real_robots.md").read_text("utf-8")
     names = {}
     exec(next(text for text in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "Shaker" in text), names)
-    return names["Shaker"](Briefing.of("cyan2", SETUP.replace(drive=LOOSE.drive, models={"standard": LOOSE})))
+    return names["Shaker"](Briefing.of("cyan2", LOOSE_SETUP))
 
 
 def driven(brain, seconds, **numbers):
-    """The track of a brain on stepped simulated hardware."""
-    stepped = SteppedBoard(LOOSE, **numbers)
-    bus = SharedState().open_bus("friendly", stepped.clock)
-    commands = bus.subscribe(COMMAND)
-    guard = HardwareGuard(
-        stepped.hardware, HardwareSettings(hardware="simulated"), LOOSE, "cyan2", stepped.clock, armed=True
-    )
-    guard.start()
-    runner, track = OpenRunner([], guard, SETUP.sides["cyan2"], 0.02, bus, brain, "cyan2"), RobotTrack("cyan2", [], [])
-    while stepped.clock.now() < seconds:
-        sight = runner.next_sight(None)
-        if sight is not None:
-            runner.answer(sight)
-            track.sights.append(sight)
-            track.commands.append(commands.receive().message())
-    guard.stop()
-    stepped.close()
-    return track
+    return track_on_board(brain, "cyan2", LOOSE_SETUP, seconds, **numbers)
 
 
 @pytest.mark.parametrize(
