@@ -4,9 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from msgspec.structs import replace
-from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
 from schemas.messages.percept import DIGITS
@@ -15,13 +13,11 @@ from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
 from schemas.wire.part import encode
 from sim_host.match.radio_medium import Budget, SharedChannel
-from sim_host.match.radio_timing import NEVER, RadioTiming, Ticks, arrival_ticks, last_arrival
+from sim_host.match.radio_timing import NEVER, RadioTiming, arrival_ticks
 from sim_host.match.radio_use import RadioUse
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
 
-Objects = NDArray[Any]
-"""An array of `_RadioMessage` and None."""
 Shared = Callable[[Any], Any]
 """Makes of a part of several sights what all of them have."""
 
@@ -46,20 +42,6 @@ class _RadioMessage:
         self.received = shared(replace(self.content, age=round((tick - self.left) * tick_s, DIGITS)))
         self.at = tick
         return self.received
-
-
-@dataclass(slots=True)
-class _Batch:
-    """The messages of one tick that are under way."""
-
-    messages: Objects
-    """Per sender: its message, or None."""
-    arrives: Ticks
-    """Receiver × sender: the tick of arrival, or `NEVER`."""
-    first: int
-    """A tick before which no message arrives."""
-    last: int
-    """A tick after which no message arrives."""
 
 
 class RadioAir:
@@ -90,11 +72,10 @@ class RadioAir:
             for own, side in enumerate(roster.sides)
         ]
         """Per robot: name and index of each teammate."""
-        self._under_way: list[_Batch] = []
-        count = len(roster.names)
-        self._held: Objects = np.full((count, count), None)
-        """Receiver × sender: the newest message that has arrived, or None."""
-        self._arrived = np.zeros((count, count), dtype=bool)
+        self._under_way: dict[int, list[tuple[int, int, _RadioMessage]]] = {}
+        """Tick of arrival → receivers, senders and messages."""
+        self._held: list[list[_RadioMessage | None]] = [[None] * len(names) for _ in names]
+        """Per receiver and sender: the newest message that has arrived."""
 
     def change(self, air: RadioChannel) -> None:
         """Use other delays, losses and limits from now on; messages under way arrive as planned."""
@@ -112,16 +93,15 @@ class RadioAir:
         }
         successor._budgets, successor._shared = self._budgets, self._shared
         self.use.follow(self._budgets)
-        if not kept:
-            return successor
-        old, new = list(kept), list(kept.values())
-        successor._held[np.ix_(new, new)] = self._held[np.ix_(old, old)]
-        for batch in self._under_way:
-            messages: Objects = np.empty(len(roster.names), dtype=object)
-            arrives = np.full((len(roster.names),) * 2, NEVER)
-            messages[new] = batch.messages[old]
-            arrives[np.ix_(new, new)] = batch.arrives[np.ix_(old, old)]
-            successor._under_way.append(_Batch(messages, arrives, batch.first, batch.last))
+        for old, new in kept.items():
+            for sender, place in kept.items():
+                successor._held[new][place] = self._held[old][sender]
+        for tick, arriving in self._under_way.items():
+            successor._under_way[tick] = [
+                (kept[receiver], kept[sender], message)
+                for receiver, sender, message in arriving
+                if receiver in kept and sender in kept
+            ]
         return successor
 
     def send(self, tick: int, contents: Mapping[str, Radio]) -> dict[str, str]:
@@ -134,8 +114,6 @@ class RadioAir:
             return {}
         drawn = self._timing.at(tick)
         outgoing = sorted([(tick - 1 + drawn.leaves[self._index[name]], self._index[name]) for name in contents])
-        messages: Objects = np.empty(len(self._index), dtype=object)
-        ends: dict[int, float] = {}
         refusals = {}
         for left, index in outgoing:
             name = self._roster.names[index]
@@ -147,15 +125,12 @@ class RadioAir:
                 self.use.refused[name] += 1
                 continue
             self.use.bits[name] += bits
-            messages[index] = _RadioMessage(left, ReceivedRadio.of(content))
-            ends[index] = end
-        if self._air.model == "shared":
-            senders, arrives = list(ends), np.full(drawn.arrives.shape, NEVER)
-            arrives[:, senders] = arrival_ticks(np.array([*ends.values()]) + drawn.flights[:, senders])
-            self._under_way.append(_Batch(messages, arrives, tick, int(last_arrival(arrives))))
-        else:
-            arrives = np.where([index in ends for index in range(len(self._index))], drawn.arrives, NEVER)
-            self._under_way.append(_Batch(messages, arrives, drawn.first, drawn.last))
+            message = _RadioMessage(left, ReceivedRadio.of(content))
+            is_shared = self._air.model == "shared"
+            arrives = arrival_ticks(end + drawn.flights[:, index]) if is_shared else drawn.arrives[:, index]
+            for receiver, arrival in enumerate(arrives.tolist()):
+                if arrival != NEVER:
+                    self._under_way.setdefault(arrival, []).append((receiver, index, message))
         return refusals
 
     def _transmit(self, left: float, bits: int, side: Side) -> tuple[float, str | None]:
@@ -175,15 +150,11 @@ class RadioAir:
 
         `shared` makes of each message what all receivers get, once a tick.
         """
-        under_way, arrived = self._under_way, self._arrived
-        for (
-            batch
-        ) in under_way:  # in the order of sending: newer messages replace older ones, also those that come later
-            if batch.first <= tick:
-                np.less_equal(batch.arrives, tick, out=arrived)
-                np.copyto(self._held, batch.messages, where=arrived)
-        while under_way and under_way[0].last <= tick:
-            under_way.pop(0)
+        for arrival in [arrival for arrival in self._under_way if arrival <= tick]:
+            for receiver, sender, arrived in self._under_way.pop(arrival):
+                known = self._held[receiver][sender]
+                if known is None or known.left < arrived.left:  # a newer one may have come earlier
+                    self._held[receiver][sender] = arrived
         tick_s = self._tick_s
         return [
             {
@@ -191,5 +162,5 @@ class RadioAir:
                 for name, sender in mates
                 if (message := of_robot[sender]) is not None
             }
-            for mates, of_robot in zip(self._mates, self._held.tolist(), strict=True)
+            for mates, of_robot in zip(self._mates, self._held, strict=True)
         ]

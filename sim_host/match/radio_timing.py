@@ -32,21 +32,11 @@ class Flights(NamedTuple):
     """Ticks from leaving to arrival, receiver × sender; infinite where the message is lost or not for this receiver."""
     arrives: Ticks
     """The first tick whose sights have the message, receiver × sender, if no channel delays it; or `NEVER`."""
-    first: int
-    """The first of these ticks."""
-    last: int
-    """The last of these ticks; -1 if no message arrives."""
 
 
 def arrival_ticks(times: Floats) -> Ticks:
     """The first tick at or after each time; `NEVER` for an infinite one."""
     return np.minimum(np.ceil(times), float(NEVER)).astype(np.int64)
-
-
-def last_arrival(arrives: Ticks) -> Ticks:
-    """The last tick of arrival in each matrix, receiver × sender; -1 if no message arrives."""
-    last: Ticks = np.where(arrives == NEVER, -1, arrives).max(axis=(-2, -1))
-    return last
 
 
 class RadioTiming:
@@ -77,8 +67,7 @@ class RadioTiming:
             arrives = arrival_ticks(number + flights)
         else:
             arrives = arrival_ticks(number - 1 + leaves[:, None, :] + flights)
-        first, last = arrives.min(axis=(1, 2)).tolist(), last_arrival(arrives).tolist()
-        return list(map(Flights, leaves.tolist(), flights, arrives, first, last))
+        return list(map(Flights, leaves.tolist(), flights, arrives))
 
     def _leaves(self, ticks: range) -> Floats:
         """Ticks until the messages leave, (ticks, senders): a tick in whole ticks, else at any time within the tick."""
