@@ -1,6 +1,7 @@
 """What a robot of a shipped team decides in one tick."""
 
 from collections.abc import Callable
+from types import NoneType
 from typing import Any, NamedTuple
 
 from robot_agent.loading.user_code import ReturnedError
@@ -21,13 +22,13 @@ class Action(NamedTuple):
 
 
 _TEXT = "text of at most 80 characters"
-_PARTS = {
+_PARTS: dict[str, tuple[type | tuple[type, ...], str]] = {
     "role": (str, _TEXT),
     "intention": (str, _TEXT),
     "drive": (Drive, "a Drive"),
-    "kick": (Kick | None, "a Kick or None"),
-    "pass_to": (str | None, "a robot's name or None"),
-    "debug": (Debug | None, "drawing.debug() or None"),
+    "kick": ((Kick, NoneType), "a Kick or None"),
+    "pass_to": ((str, NoneType), "a robot's name or None"),
+    "debug": ((Debug, NoneType), "drawing.debug() or None"),
 }
 """Field of an action → its type, and that type in words."""
 

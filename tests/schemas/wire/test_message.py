@@ -193,6 +193,19 @@ def test_a_part_that_is_not_checked_alone_is_checked_in_its_message() -> None:
         CoachOrder(sequence=1, point_a=Point(x=math.nan, y=0.0))
 
 
+def test_a_part_that_was_checked_is_taken_as_it_is_and_lists_are_copied() -> None:
+    drive, extra = Drive(vx=1.0), {"plan": 1.0}
+    radio = Radio(extra=extra)
+    extra["plan"] = math.nan
+    command = Command(answers_tick=1, drive=drive, radio=radio)
+    assert command.drive is drive and command.radio is radio and radio.extra == {"plan": 1.0}
+
+
+def test_what_was_changed_without_a_check_is_refused_where_it_enters() -> None:
+    command = Command(answers_tick=1, drive=Drive().replace(vx=21.0))
+    assert "drive.vx is 21.0; m/s from -20 to 20" in refused(Command.decode, command.encode())
+
+
 def test_numbers_of_other_libraries_and_words_of_enumerations_are_taken_for_what_they_are() -> None:
     drive = Drive(vx=np.float64(1.5), vy=np.float32(0.5), omega=2)
     assert drive == Drive(vx=1.5, vy=0.5, omega=2.0) and type(drive.vx) is type(drive.omega) is float
