@@ -57,9 +57,14 @@ class HardwareGuard:
         self._sent, self._sent_at = _AT_REST, self.time
         self._demanded_at: float | None = None
         """When a brain last demanded something; None before that, and while the robot has fallen back."""
-        self._fell_back = self._clamped = 0
+        self._fell_back = self._clamped = self._filtered = 0
         self._reason = ""
         self._reported: set[str] = set()
+
+    @property
+    def clearance(self) -> float | None:
+        """m that the filter keeps; None without one."""
+        return self._settings.clearance
 
     @property
     def watchdog(self) -> float:
@@ -97,8 +102,10 @@ class HardwareGuard:
             self._report(fault)
         return readings
 
-    def actuate(self, command: Command) -> None:
+    def actuate(self, command: Command, wanted: Drive | None = None) -> None:
         """Carry out a command within the limits of the model; without effect while inactive.
+
+        `wanted` is the demand before the filter for clearance, where there is one.
 
         Raises:
             HardwareError: the hardware fails.
@@ -108,6 +115,9 @@ class HardwareGuard:
             return
         with self._lock:
             self.refused = []
+            if wanted is not None and wanted is not command.drive:
+                self._filtered += 1
+                self.refused = ["drive: changed to keep the clearance"]
             self._demanded_at, self._reason = self.time, ""
             drive = within_limits(command.drive, self._model)
             kick = kick_within_limits(command.kick, self._model) if command.kick is not None else None
@@ -157,6 +167,7 @@ class HardwareGuard:
             fallback=self._settings.fallback,
             fell_back=self._fell_back,
             clamped=self._clamped,
+            filtered=self._filtered,
             reason=self._reason[:MAX_FAULT],
             devices=self._checks.health(self.time),
             calls={name: call.health() for name, call in self._calls.items()},

@@ -26,6 +26,8 @@ class HardwareSettings(Settings):
     """m by which a pose may differ from where the robot can have driven; farther ones are refused."""
     relocation: Annotated[float, Field(gt=0, le=60)] = 1.0
     """s for which poses elsewhere must agree with each other to be believed: the robot was carried."""
+    clearance: Annotated[float | None, Field(ge=0, le=5)] = None
+    """m to keep from bodies and the boundary: demands are changed as little as that takes. By default no filter."""
     options: dict[str, Any] = Field(default_factory=dict)
     """What the class receives besides the model of the robot, such as the port of a serial line."""
 

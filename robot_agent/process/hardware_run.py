@@ -15,7 +15,7 @@ from robot_agent.loading.user_code import sentence_of
 from robot_agent.process.hardware_runner import OpenRunner
 from robot_agent.process.settings import FIRST_SIGHT_FAILED, AgentSettings, BodyOptions
 from robot_agent.process.timing import IDLE_S
-from robot_agent.sdk.contract import Brain, Briefing
+from robot_agent.sdk.contract import Brain
 from runtime.bus.contract import Bus
 from runtime.bus.endpoint import is_loopback
 from runtime.bus.zenoh.any_keys import open_network
@@ -135,10 +135,9 @@ def serve_open(
         TouchlineError: brain or hardware cannot be built.
         HardwareError: the hardware fails.
     """
-    briefing = Briefing.of(settings.robot, setup)
     brain = build(setup)
     with guarded_hardware(settings, setup, bus.clock) as guard:
-        runner = OpenRunner(briefing.teammates, guard, briefing.side, setup.time.tick, bus, brain, settings.robot)
+        runner = OpenRunner(guard, setup, bus, brain, settings.robot)
         while True:
             sight = runner.next_sight(None)
             if sight is None:

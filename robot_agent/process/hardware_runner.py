@@ -1,19 +1,19 @@
 """Runs a brain on a robot's own hardware, at the robot's own rate: readings in, a sight, a demand out."""
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
+from robot_agent.hardware.clearance import keep_clear
 from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.own_percepts import OwnPercepts
 from robot_agent.process.brain_runner import BrainRunner
 from robot_agent.process.timing import IDLE_S
-from robot_agent.sdk.contract import Brain
+from robot_agent.sdk.contract import Brain, Briefing
 from runtime.bus.contract import Bus
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Outcome, ReceivedRadio, Sight
 from schemas.messages.soccer.game import GameView
-from schemas.side import Side
 from schemas.soccer.game import TeamPhase
 from schemas.topics import COMMAND, HARDWARE, SIGHT, STATE
 from schemas.wire.message import valid
@@ -36,11 +36,11 @@ class News(NamedTuple):
 class HardwareRunner(BrainRunner):
     """A robot on hardware in the match of a host, which gives it game, order and radio in its sights."""
 
-    def __init__(self, guard: HardwareGuard, side: Side, period: float, bus: Bus, brain: Brain, robot: str) -> None:
-        """`period` is the time between two sights of the robot in s."""
+    def __init__(self, guard: HardwareGuard, setup: Setup, bus: Bus, brain: Brain, robot: str) -> None:
         super().__init__(bus, brain, robot)
         self.guard = guard
-        self._robot, self._side, self._period = robot, side, period
+        self._robot, self._side, self._period = robot, setup.sides[robot], setup.time.tick
+        self._setup = setup.for_robot(robot)
         self._percepts = OwnPercepts()
         self._due = guard.time
         self._health_due = 0.0
@@ -95,7 +95,10 @@ class HardwareRunner(BrainRunner):
     def _think(self, sight: Sight) -> bytes:
         """Decide, and let the hardware do it; the host's sight is answered."""
         command = Command.decode(super()._think(sight))
-        self.guard.actuate(command)
+        clearance, drive = self.guard.clearance, command.drive
+        if clearance is not None:
+            drive = keep_clear(drive, sight, self._setup, clearance)
+        self.guard.actuate(command.replace(drive=drive), command.drive)
         self._demanded = sight.tick
         return command.replace(answers_tick=self._news.tick if self._news is not None else sight.tick).encode()
 
@@ -135,20 +138,11 @@ class HardwareRunner(BrainRunner):
 class OpenRunner(HardwareRunner):
     """A robot on hardware without a host: the game is free, and teammates hear each other's commands."""
 
-    def __init__(
-        self,
-        mates: Sequence[str],
-        guard: HardwareGuard,
-        side: Side,
-        period: float,
-        bus: Bus,
-        brain: Brain,
-        robot: str,
-    ) -> None:
-        super().__init__(guard, side, period, bus, brain, robot)
-        self._attack = side.attack(1)
+    def __init__(self, guard: HardwareGuard, setup: Setup, bus: Bus, brain: Brain, robot: str) -> None:
+        super().__init__(guard, setup, bus, brain, robot)
+        self._attack = self._side.attack(1)
         self._own_sights = bus.publisher(SIGHT, robot=robot)
-        self._mates = [bus.subscribe(COMMAND, newest=True, robot=mate) for mate in mates]
+        self._mates = [bus.subscribe(COMMAND, newest=True, robot=mate) for mate in Briefing.of(robot, setup).teammates]
         self._heard: dict[str, tuple[float, ReceivedRadio]] = {}
         """Teammate → its newest radio message, and when it arrived."""
 

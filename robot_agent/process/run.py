@@ -70,8 +70,7 @@ def run(settings: AgentSettings) -> int:
 
         def on_hardware(bus: Bus, brain: Brain, robot: str) -> Runner:
             guard = hardware.enter_context(guarded_hardware(settings, setups[robot], clock))
-            side, period = setups[robot].sides[robot], setups[robot].time.tick
-            return HardwareRunner(guard, side, period, bus, brain, robot)
+            return HardwareRunner(guard, setups[robot], bus, brain, robot)
 
         make_runner = on_hardware if settings.body.hardware else make_runner
         membership = Membership(bus, robot, settings.launch_token, settings.match, settings.side)

@@ -76,6 +76,8 @@ class HardwareHealth(Message):
     """Times at which demands ended and the fallback began."""
     clamped: int = 0
     """Demands beyond the limits of the profile, which were shortened."""
+    filtered: int = 0
+    """Demands that the filter for clearance has changed."""
     reason: Annotated[str, Meta(max_length=MAX_FAULT)] = ""
     """Why there are no demands, or what has failed; empty while all is well."""
     devices: dict[str, DeviceHealth] = {}

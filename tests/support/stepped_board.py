@@ -40,14 +40,14 @@ class BoardClock(SteppedClock):
 
 def track_on_board(brain: Brain, robot: str, setup: Setup, seconds: float, **numbers: Any) -> RobotTrack:
     """What a robot perceives and commands in so many s on simulated hardware with these true numbers."""
-    model, side = setup.model_of(robot), setup.sides[robot]
+    model = setup.model_of(robot)
     stepped = SteppedBoard(model, **numbers)
     bus = SharedState().open_bus("friendly", stepped.clock)
     commands = bus.subscribe(COMMAND)
     settings = HardwareSettings(hardware="simulated")
     guard = HardwareGuard(stepped.hardware, settings, model, robot, stepped.clock, armed=True)
     guard.start()
-    runner, track = OpenRunner([], guard, side, setup.time.tick, bus, brain, robot), RobotTrack(robot, [], [])
+    runner, track = OpenRunner(guard, setup, bus, brain, robot), RobotTrack(robot, [], [])
     while stepped.clock.now() < seconds:
         sight = runner.next_sight(None)
         if sight is not None:

@@ -39,7 +39,7 @@ def test_each_brain_drives_the_simulated_hardware_to_the_ball_and_moves_it(brain
     started = start_robot("" if stdio else brain, stdio, Briefing.of("cyan2", setup))
     guard.start()
     bus = SharedState().open_bus("friendly", stepped.clock)
-    runner = OpenRunner([], guard, setup.sides["cyan2"], setup.time.tick, bus, started, "cyan2")
+    runner = OpenRunner(guard, setup, bus, started, "cyan2")
     way = 0.0
     try:
         while stepped.clock.now() < 12.0:

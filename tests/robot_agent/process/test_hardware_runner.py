@@ -46,15 +46,14 @@ class Field:
     def bus(self):
         return self.shared.open_bus("friendly", self.clock)
 
-    def robot(self, name, *, host=False, **dummy):
+    def robot(self, name, *, host=False, clearance=None, **dummy):
         model = self.setup.model_of(name)
         hardware = Dummy(model, posts=((3.0, 1.0),), **dummy)
-        guard = HardwareGuard(hardware, HardwareSettings(hardware="dummy"), model, name, self.clock, armed=True)
+        guard = HardwareGuard(
+            hardware, HardwareSettings(hardware="dummy", clearance=clearance), model, name, self.clock, armed=True
+        )
         guard.start()
-        side = self.setup.sides[name]
-        mates = [one for one in self.setup.teams[side].robots if one != name]
-        more = guard, side, 0.02, self.bus(), ToThePost(), name
-        return HardwareRunner(*more) if host else OpenRunner(mates, *more)
+        return (HardwareRunner if host else OpenRunner)(guard, self.setup, self.bus(), ToThePost(), name)
 
 
 @pytest.fixture
@@ -124,6 +123,15 @@ def test_with_a_host_game_order_and_radio_are_its_and_the_body_is_the_robots_own
     play(1, robot)
     assert commands.receive().message().answers_tick == 703
     assert robot.brain.seen[-1].tick == 703
+
+
+def test_with_a_clearance_the_robot_stops_before_what_it_drives_to_and_says_so(field):
+    robot = field.robot("cyan2", clearance=0.3)
+    play(400, robot)
+    motion, reach = robot.guard.sense().motion, field.setup.model_of("cyan2").body.reach
+    assert math.dist((motion.x, motion.y), (3.0, 1.0)) == approx(2 * reach + 0.3, abs=0.05)
+    assert robot.guard.health().filtered > 100
+    assert robot.brain.seen[-1].outcome.refused == ["drive: changed to keep the clearance"]
 
 
 def test_when_sides_change_the_robot_attacks_the_other_way(field):

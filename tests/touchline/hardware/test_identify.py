@@ -144,7 +144,7 @@ def test_a_recording_as_hardware_shows_a_brain_the_sights_of_the_recording(recor
     guard = HardwareGuard(hardware, HardwareSettings(hardware="replayed"), MODEL, "cyan2", clock, armed=True)
     guard.start()
     bus = SharedState().open_bus("friendly", clock)
-    runner = OpenRunner([], guard, SETUP.sides["cyan2"], 0.02, bus, Watching(), "cyan2")
+    runner = OpenRunner(guard, SETUP, bus, Watching(), "cyan2")
     with pytest.raises(HardwareError, match=r"the recording has ended after 12\.00 s"):
         while True:
             sight = runner.next_sight(None)

@@ -6,6 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from robot_agent.hardware.clearance import keep_clear
 from robot_agent.process.timing import HANG_S
 from runtime.process.clock import Clock
 from schemas.config.shipped_teams import SHIPPED_TEAMS
@@ -13,6 +14,7 @@ from schemas.messages.command import Command, KickMode
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.wire.part import encode
+from sim_host.match.simulation import TickResult
 from touchline.play.play_match import play_match
 from touchline.team.check.subject import CheckedRobot, Subject
 
@@ -50,8 +52,16 @@ class Played:
     """The decisions took much longer than their ticks, and the match was ended early."""
 
 
-def play_checked(subject: Subject, seconds: float, clock: Clock) -> Played:
+def play_checked(
+    subject: Subject,
+    seconds: float,
+    clock: Clock,
+    watch: Callable[[TickResult], None] | None = None,
+    clearance: float | None = None,
+) -> Played:
     """Play a match of `seconds` of simulated time against the team `simple`; it ends early if a robot is too slow.
+
+    `watch` sees each tick; `clearance` is that of the filter of hardware in m, None without it.
 
     Raises:
         BreachError: the checked team breaks the contract.
@@ -63,23 +73,29 @@ def play_checked(subject: Subject, seconds: float, clock: Clock) -> Played:
     try:
         for robot in subject.robots:
             robots[robot] = subject.start(robot, setup)
-        brains: dict[str, Any] = {name: _Measured(one, setup, played, clock.now) for name, one in robots.items()}
-        with suppress(_TooSlowError):
-            play_match(config.model_copy(update={"teams": teams}), brains, until=seconds, brain_folder=subject.folder)
+        brains: dict[str, Any] = {
+            name: _Measured(one, setup, played, clock.now, clearance) for name, one in robots.items()
+        }
+        with suppress(EndedEarlyError):
+            config = config.model_copy(update={"teams": teams})
+            play_match(config, brains, watch, until=seconds, brain_folder=subject.folder)
     finally:
         for one in robots.values():
             one.close()
     return played
 
 
-class _TooSlowError(Exception):
-    """The decisions take longer than their ticks: a whole match would take minutes, and show nothing else."""
+class EndedEarlyError(Exception):
+    """A match that shows nothing else: decisions take so much longer than their ticks that it would take minutes."""
 
 
 class _Measured:
     """A brain around another robot's."""
 
-    def __init__(self, robot: CheckedRobot, setup: Setup, played: Played, now: Callable[[], float]) -> None:
+    def __init__(
+        self, robot: CheckedRobot, setup: Setup, played: Played, now: Callable[[], float], clearance: float | None
+    ) -> None:
+        self._clearance = clearance
         self._robot, self._played, self._now = robot, played, now
         self._limits = setup.for_robot(robot.robot)
 
@@ -97,8 +113,10 @@ class _Measured:
             played.excess_s += took - self._limits.time.tick
         if played.excess_s > HANG_S:
             played.is_slow = True
-            raise _TooSlowError
-        return command
+            raise EndedEarlyError
+        if self._clearance is None:
+            return command
+        return command.replace(drive=keep_clear(command.drive, sight, self._limits, self._clearance))
 
 
 def excesses(command: Command, setup: Setup) -> list[str]:

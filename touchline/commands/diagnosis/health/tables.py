@@ -86,7 +86,7 @@ def _hardware_table(ledger: Ledger) -> Table:
 
 def _remarks(ledger: Ledger) -> Iterator[str]:
     for name, robot in ledger.hardware.items():
-        counts = f"{robot.clamped} demands shortened, fell back {robot.fell_back} times"
+        counts = f"{robot.clamped} demands shortened, {robot.filtered} filtered, fell back {robot.fell_back} times"
         yield f"{name}: {counts}" + (f"; {robot.fallback}: {robot.reason}" if robot.reason else "")
     for row in ledger.robots:
         if row.fault:

@@ -46,7 +46,7 @@ def test_without_a_host_the_reports_of_robots_on_hardware_are_shown(buses, capsy
     shown.print(ledger_view(ledger))
     printed = capsys.readouterr().out
     assert "no host" in printed and "active, armed" in printed and "sense()" in printed
-    assert "cyan2: 1 demands shortened, fell back 0 times" in printed
+    assert "cyan2: 1 demands shortened, 0 filtered, fell back 0 times" in printed
 
 
 def test_with_neither_a_host_nor_robots_on_hardware_the_host_is_missed(buses):

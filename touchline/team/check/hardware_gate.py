@@ -1,0 +1,131 @@
+"""The gate before hardware: a team plays seeded scenes alone, and is rejected where it would harm robots.
+
+As in the Robotarium, bodies that touch and robots that leave the floor are errors; demands beyond a limit, which the
+guard of hardware shortens, are counted.
+"""
+
+import math
+import random
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import combinations
+from statistics import quantiles
+from typing import Any, NamedTuple
+
+from runtime.process.clock import Clock
+from schemas.config.match_config import MatchConfig
+from schemas.config.obstacle import ObstacleConfig
+from schemas.config.profile import Profile
+from schemas.config.robot_model import models_of
+from schemas.config.scene import Scene, SceneBall, SceneRobot
+from schemas.errors import TouchlineError
+from sim_host.match.simulation import TickResult
+from touchline.team.check.play import EndedEarlyError, play_checked
+from touchline.team.check.subject import SIDE, BreachError, Subject
+
+_TOUCH = 0.005
+"""m between two hulls, or a hull and the boundary, from which on they touch."""
+_ROOM = 0.5
+"""m between the hulls of robots at the start of a scene."""
+_TRIES = 1000
+"""Places that are tried for one robot."""
+
+
+class SceneResult(NamedTuple):
+    """What became of a scene."""
+
+    seed: int
+    rejected: str
+    """Why the team may not run, with the tick; empty where it may."""
+    clearance: float
+    """Smallest distance in m between two hulls, or a hull and the boundary."""
+    clamped: int
+    """Demands beyond a limit of the profile."""
+    slowest_ms: float
+    """99th percentile of the wall time of decisions, in ms."""
+
+
+def pass_gate(subject: Subject, seed: int, seconds: float, clock: Clock, clearance: float | None = None) -> SceneResult:
+    """Play the scene of a seed, with the filter for a clearance in m or without.
+
+    Raises:
+        TouchlineError: the floor has no room for the robots.
+    """
+    profile = subject.config.load_profile()
+    scene = random_scene(subject.config, profile, seed)
+    config = subject.config.model_copy(update={"scene": scene, "seed": seed})
+    watch = _Watch(config, profile, scene.obstacles)
+    try:
+        played = play_checked(replace(subject, config=config), seconds, clock, watch.see, clearance)
+    except BreachError as error:
+        return SceneResult(seed, str(error), watch.clearance, 0, 0.0)
+    rejected = watch.fault
+    took = [1e3 * one.seconds for one in played.decisions if one.tick > 0]
+    slowest, tick = quantiles(took, n=100)[98] if len(took) > 1 else 0.0, 1e3 * profile.time.tick
+    if not rejected and (played.is_slow or slowest > tick):
+        worst = max(played.decisions, key=lambda one: one.seconds)
+        rejected = (
+            f"tick {worst.tick}: {worst.robot} takes {1e3 * worst.seconds:.0f} ms to decide; one decision in a hundred "
+            f"takes {slowest:.0f} ms or more, and a tick lasts {tick:.0f} ms"
+        )
+    return SceneResult(seed, rejected, watch.clearance, len(played.excesses), slowest)
+
+
+def random_scene(config: MatchConfig, profile: Profile, seed: int) -> Scene:
+    """The robots of the team at random places, apart from each other, with the obstacles of the match.
+
+    Raises:
+        TouchlineError: the floor has no room for the robots.
+    """
+    dice, pitch, models = random.Random(seed), profile.field, models_of(config, profile)
+    given = config.scene
+    obstacles = [*(given.obstacles if given is not None else config.obstacles)]
+    taken = [(one.place[0], one.place[1], one.reach) for one in obstacles]
+    robots = []
+    for number, name in enumerate(config.robots(SIDE)):
+        reach = models[name].body.reach
+        for _ in range(_TRIES):
+            x, y = (dice.uniform(-0.45, 0.45) * side for side in (pitch.length, pitch.width))
+            if all(math.hypot(x - bx, y - by) > reach + radius + _ROOM for bx, by, radius in taken):
+                break
+        else:
+            raise TouchlineError(f"the floor has no room for {name}; name a match file with fewer robots or obstacles")
+        taken.append((x, y, reach))
+        keeper = number == 0 and len(config.robots(SIDE)) > 1
+        heading = dice.uniform(-math.pi, math.pi)
+        robots.append(SceneRobot(name=name, side=SIDE, x=x, y=y, heading=heading, keeper=keeper))
+    ball = SceneBall(x=dice.uniform(-0.4, 0.4) * pitch.length, y=dice.uniform(-0.4, 0.4) * pitch.width)
+    return Scene(description=f"Robots at random, seed {seed}.", robots=robots, ball=ball, obstacles=obstacles)
+
+
+class _Watch:
+    """Looks at the bodies of each tick."""
+
+    def __init__(self, config: MatchConfig, profile: Profile, obstacles: list[ObstacleConfig]) -> None:
+        self._reach = {name: model.body.reach for name, model in models_of(config, profile).items()}
+        self._obstacles = [(one.name, one.place[0], one.place[1], one.reach) for one in obstacles]
+        self._half = profile.field.length / 2 + profile.field.border, profile.field.width / 2 + profile.field.border
+        self.clearance = math.inf
+        self.fault = ""
+        """The first fault, with its tick."""
+
+    def see(self, result: TickResult) -> None:
+        """Look at one tick.
+
+        Raises:
+            EndedEarlyError: bodies touch, or a robot is at the boundary.
+        """
+        robots: Mapping[str, Any] = result.world["robots"]
+        bodies = [(name, one["x"], one["y"], self._reach[name]) for name, one in robots.items()]
+        pairs = [*combinations(bodies, 2), *((robot, other) for robot in bodies for other in self._obstacles)]
+        for (name, x, y, reach), (other, ox, oy, radius) in pairs:
+            self._note(result.tick, math.hypot(x - ox, y - oy) - reach - radius, f"{name} touches {other}")
+        for name, x, y, reach in bodies:
+            gap = min(half - abs(place) for half, place in zip(self._half, (x, y), strict=True)) - reach
+            self._note(result.tick, gap, f"{name} touches the boundary")
+
+    def _note(self, tick: int, gap: float, fault: str) -> None:
+        self.clearance = min(self.clearance, gap)
+        if gap < _TOUCH:
+            self.fault = f"tick {tick}: {fault}"
+            raise EndedEarlyError
