@@ -9,6 +9,10 @@ import math
 from dataclasses import dataclass
 
 TAU = 2.0 * math.pi
+MAP = "map"
+"""Name of the field frame, for viewers and ROS."""
+BALL = "ball"
+"""Name of the ball's frame, in its centre, whose axes are those of the field frame."""
 Point = tuple[float, float]
 """x and y of a point on the ground, in m."""
 
@@ -28,6 +32,16 @@ def rotate(x: float, y: float, angle: float) -> tuple[float, float]:
 def to_body(x: float, y: float, heading: float) -> tuple[float, float]:
     """A vector of the field or team frame in the body frame of a robot with that heading."""
     return rotate(x, y, -heading)
+
+
+def base(robot: str) -> str:
+    """Name of a robot's frame, in the centre of its body, with x in the kicking direction."""
+    return f"{robot}/base_link"
+
+
+def pushed(obstacle: str) -> str:
+    """Name of the frame of an obstacle that can be pushed, on the ground below its centre."""
+    return f"obstacle/{obstacle}"
 
 
 @dataclass(frozen=True, slots=True)

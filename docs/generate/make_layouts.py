@@ -10,7 +10,7 @@ from typing import Any
 import foxglove.layouts as fl
 
 from recordings.viz.drawing import BALL, DRAWINGS, EVENTS, FIELD, GAME, ROBOTS
-from recordings.viz.transforms import MAP
+from schemas.frames import MAP
 from schemas.topics import STATE
 
 FOLDER = Path(__file__).parents[1] / "layouts"

@@ -10,7 +10,7 @@ from google.protobuf.duration_pb2 import Duration
 from recordings.viz.colours import Colour, colour_of
 from recordings.viz.field import LINE_Z
 from recordings.viz.primitives import cylinder, entity, line, text
-from recordings.viz.transforms import MAP
+from schemas.frames import MAP
 from schemas.messages.debug import COLOURS, SHOWN_S, Debug, RobotDebug
 
 _Z = 2 * LINE_Z

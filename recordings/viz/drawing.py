@@ -17,10 +17,11 @@ from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.scans import scans
 from recordings.viz.soccer import log_entry, scoreboard
-from recordings.viz.transforms import MAP, Transforms, pushed
+from recordings.viz.transforms import Transforms
 from runtime.bus.contract import ReceivedMessage
 from schemas.config.profile import STANDARD
 from schemas.config.sensors.table import Sensor
+from schemas.frames import MAP, pushed
 from schemas.messages.applied import Applied
 from schemas.messages.debug import RobotDebug
 from schemas.messages.setup import Setup

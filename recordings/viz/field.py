@@ -11,10 +11,10 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
 from recordings.viz.colours import BOUNDARY, GOAL, INK, LINE, MOVABLE, NET, OBSTACLE, PITCH, SURROUND
 from recordings.viz.primitives import Triple, cube, cylinder, entity, line, text
-from recordings.viz.transforms import MAP
 from schemas.config.free import Zone
 from schemas.config.obstacle import Shape
 from schemas.config.sections import Pitch
+from schemas.frames import MAP
 from schemas.messages.world import ObstacleTruth
 
 LINE_Z = 0.012

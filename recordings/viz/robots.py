@@ -9,10 +9,11 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
 from recordings.viz.colours import BALL, INK, MARK, ROBOT, UNKNOWN_ROBOT, UNKNOWN_ROBOT_MARK, Colour
 from recordings.viz.primitives import arrow, cube, cylinder, entity, sphere, text
-from recordings.viz.transforms import BALL as BALL_FRAME
-from recordings.viz.transforms import BALL_SHADOW, base
+from recordings.viz.transforms import BALL_SHADOW
 from schemas.config.profile import STANDARD
 from schemas.config.sections import RobotBody
+from schemas.frames import BALL as BALL_FRAME
+from schemas.frames import base
 from schemas.messages.setup import Setup
 from schemas.side import Side
 

@@ -8,9 +8,9 @@ from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
 from recordings.viz.drawn_world import DrawnWorld
 from recordings.viz.foxglove import set_time
 from recordings.viz.primitives import pose
-from recordings.viz.transforms import base
 from schemas.config.sensors.range import RangeReading
 from schemas.config.sensors.table import Sensor
+from schemas.frames import base
 from schemas.wire.part import convert
 
 SCANS = "/viz/range"

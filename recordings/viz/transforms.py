@@ -9,10 +9,8 @@ from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
 from recordings.viz.drawn_world import DrawnWorld
 from recordings.viz.foxglove import set_time
+from schemas.frames import BALL, MAP, base, pushed
 
-MAP = "map"
-"""The field frame."""
-BALL = "ball"
 BALL_SHADOW = "ball/ground"
 """The frame on the ground below the ball."""
 _PER_M = 2.0**14
@@ -20,16 +18,6 @@ _TO_WHOLE = 1.5 * 2.0**52
 """Adding and subtracting it rounds numbers below 2^51 like `round`: a double of this size has no fraction."""
 STEP_M = 1 / _PER_M
 """Step of positions, 0.06 mm, and of rotations: numbers with few digits compress well."""
-
-
-def base(robot: str) -> str:
-    """Name of a robot's frame, in the centre of its body, with x in the kicking direction."""
-    return f"{robot}/base_link"
-
-
-def pushed(obstacle: str) -> str:
-    """Name of the frame of an obstacle that can be pushed, on the ground below its centre."""
-    return f"obstacle/{obstacle}"
 
 
 class Transforms:

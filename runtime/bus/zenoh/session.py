@@ -7,6 +7,7 @@ import json
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import zenoh
 
@@ -112,11 +113,15 @@ def _listen_on(listen: str, has_tls: bool, more: Mapping[str, object]) -> tuple[
 
 
 def open_connection(
-    find: Callable[[], tuple[str, Credentials | None]], clock: Clock, patience: float
+    find: Callable[[], tuple[str, Credentials | None]],
+    clock: Clock,
+    patience: float,
+    more: Mapping[str, object] = MappingProxyType({}),
 ) -> tuple[zenoh.Session, str, Credentials | None]:
     """A client's session, with attempts for `patience` s of wall time, its host's endpoint and its credentials.
 
-    `find` returns endpoint and credentials before each attempt: a host may start, and announce them, meanwhile.
+    `find` returns endpoint and credentials before each attempt: a host may start, and announce them, meanwhile. `more`
+    are further settings of the session.
 
     Raises:
         BusError: no host admits this client.
@@ -133,6 +138,7 @@ def open_connection(
             "connect/timeout_ms": round(lasts * 1000),
             "transport/unicast/open_timeout": round(1000 * max(lasts, HANDSHAKE_S)),
             **client_settings(credentials),
+            **more,
         }
         try:
             return _open(_config("client", settings), _CLIENT_THREADS), connect, credentials

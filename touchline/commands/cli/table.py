@@ -12,7 +12,7 @@ PANELS = {
     "Play": ("match",),
     "Build a team": ("new", "check", "drill", "series", "tournament", "experiment", "identify"),
     "Watch": ("watch", "health", "replay"),
-    "Processes on several machines": ("host", "agent", "team", "record", "credentials"),
+    "Processes on several machines": ("host", "agent", "team", "ros2", "record", "credentials"),
     "Recordings": ("info", "stats", "verify", "diff", "filter", "recover", "export", "import"),
     "Protocol": ("topics",),
     "Operate a running match": ("coach", "referee", "scene", "parameters"),

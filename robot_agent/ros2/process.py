@@ -1,0 +1,93 @@
+"""The process of a ROS 2 graph: a session with the match, one with the nodes, and a thread for each robot."""
+
+import signal
+from collections.abc import Sequence
+
+from robot_agent.process.claim import Membership
+from robot_agent.process.runner import ask_setup, serve
+from robot_agent.process.team_process import MakeRunner, serve_team
+from robot_agent.ros2.clock_keeper import ClockKeeper
+from robot_agent.ros2.robot import RosRobot, RosRunner
+from robot_agent.ros2.settings import Ros2Settings
+from robot_agent.ros2.shown_match import show_match
+from robot_agent.sdk.contract import Briefing
+from runtime.access.accounts import Account
+from runtime.bus.contract import Bus
+from runtime.bus.zenoh.bus import ZenohBus, open_client
+from runtime.bus.zenoh.waiting_client import open_when_there
+from runtime.process.clock import WallClock
+from runtime.process.process_log import configure_log, log_line
+from runtime.process.timing import RECONNECT_S
+from runtime.ros2.graph import Graph, open_graph
+from schemas.messages.setup import Setup
+
+NODE = "touchline"
+"""Name of the node."""
+
+
+def run(settings: Ros2Settings) -> int:
+    """Run until the match is over, or until SIGINT or SIGTERM; the exit status of the process.
+
+    Raises:
+        TouchlineError: no host or no router answers, the host refuses a robot, or a package is not installed.
+    """
+    configure_log("ros2", settings.log_format)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    clock = WallClock()
+    plays = settings.side is not None or bool(settings.robot)
+
+    def connect(patience: float) -> ZenohBus:
+        account = Account.VIEWER if not plays else Account.of_team(settings.side) if settings.side else None
+        return open_client(settings.match, clock, settings.connect, patience, settings.credentials, account)
+
+    try:
+        client = open_when_there(connect, clock, settings.patience, log_line)
+        assert client is not None  # a wait that nothing stops
+        where = settings.domain, settings.listen, settings.router, settings.patience
+        with client as bus, open_graph(NODE, clock, *where) as graph:
+            _say_where(graph, settings)
+            setup = ask_setup(bus, settings.patience)
+            robots = _robots(settings, setup)
+            if not robots:
+                return show_match(bus, graph, setup, settings.patience)
+            return serve_robots(bus, graph, robots, settings.every, settings.patience)
+    except KeyboardInterrupt:
+        return 0
+
+
+def serve_robots(bus: Bus, graph: Graph, robots: Sequence[str], every: int, patience: float) -> int:
+    """Let nodes drive these robots until one of them ends; its status. Each robot joins once a node drives it.
+
+    Raises:
+        TouchlineError: as `serve`.
+    """
+    keeper = ClockKeeper(graph, bus)
+    served = {name: RosRobot(graph, name, keeper, every) for name in robots}
+    keeper.follow([one.messages for one in served.values()])
+
+    def serve_robot(name: str, _: MakeRunner) -> int:
+        robot = served[name]
+        while not robot.is_driven.wait(RECONNECT_S):
+            log_line(f"{name}: no node publishes /{name}/cmd_vel yet; waiting for one")
+        membership = Membership(bus, name, None, bus.match)
+        return serve(bus, robot.begin, name, patience, membership, RosRunner)  # type: ignore[arg-type]
+
+    return serve_team(robots, serve_robot)
+
+
+def _robots(settings: Ros2Settings, setup: Setup) -> list[str]:
+    """The robots that nodes drive.
+
+    Raises:
+        TouchlineError: the match has no such robot.
+    """
+    for name in settings.robot:
+        Briefing.of(name, setup)
+    of_side = setup.teams[settings.side].robots if settings.side is not None else []
+    return list(dict.fromkeys([*of_side, *settings.robot]))
+
+
+def _say_where(graph: Graph, settings: Ros2Settings) -> None:
+    override = f"""ZENOH_CONFIG_OVERRIDE='connect/endpoints=["{graph.endpoint}"]'"""
+    how = "" if settings.router is not None else f": RMW_IMPLEMENTATION=rmw_zenoh_cpp {override}"
+    log_line(f"ROS 2 nodes of domain {settings.domain} reach this graph at {graph.endpoint}{how}")

@@ -1,0 +1,156 @@
+"""`touchline ros2` with nodes of two libraries that this project did not write, each in a process of its own."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from recordings.reading.recording import open_recording
+from runtime.process.clock import WallClock
+from schemas.config.match_config import load_match
+from schemas.topics import COMMAND
+from support.recorded_match import record_match
+
+pytest.importorskip("xxhash")
+pytest.importorskip("zenoh_ros2_sdk")
+pytest.importorskip("pyzeros")
+
+pytestmark = [pytest.mark.processes, pytest.mark.slow]
+
+LIMIT_S = 200.0
+TEAM = Path(__file__).parents[2] / "support" / "ros_team.py"
+SIMPLE = {"size": 2, "brain": "robot_agent.teams.simple:Simple"}
+ROBOTS = [f"cyan{number}" for number in range(1, 6)]
+MATCH = """
+name = "{name}"
+seed = 5
+pace = "{pace}"
+duration = 2.0
+rules = "friendly"
+
+[teams.cyan]
+remote = true
+
+[teams.magenta]
+brain = "simple"
+robots = ["magenta1", "magenta2"]
+"""
+
+
+@contextmanager
+def started(words: list[str], folder: Path, name: str) -> Iterator[Path]:
+    """A process, ended afterwards; its output is in the file."""
+    log = folder / f"{name}.log"
+    with log.open("w") as file:
+        process = subprocess.Popen(words, cwd=folder, stdout=file, stderr=subprocess.STDOUT)
+        try:
+            yield log
+        finally:
+            process.terminate()
+            process.wait(LIMIT_S)
+
+
+def touchline(*words: str) -> list[str]:
+    return [sys.executable, "-m", "touchline", *words]
+
+
+def said_in(log: Path, pattern: str) -> str:
+    """What a process has said, once it has."""
+    deadline = time.monotonic() + LIMIT_S
+    while (found := re.search(pattern, log.read_text())) is None:
+        assert time.monotonic() < deadline, log.read_text()
+        time.sleep(0.05)
+    return found[1]
+
+
+def graph_at(log: Path) -> str:
+    """The endpoint that `touchline ros2` has said."""
+    return said_in(log, r"reach this graph at (tcp/[\d.]+:\d+)")
+
+
+def play(folder: Path, name: str, pace: str, library: str, *options: str) -> tuple[Path, str]:
+    """The recording of a match whose cyan robots nodes drive, and what the bridge has said."""
+    (folder / "match.toml").write_text(MATCH.format(name=name, pace=pace))
+    with ExitStack() as stack:
+        log = folder / "match.log"
+        with log.open("w") as file:
+            match = subprocess.Popen(
+                touchline("match", "match.toml", "--listen", "tcp/127.0.0.1:0"),
+                cwd=folder,
+                stdout=file,
+                stderr=subprocess.STDOUT,
+            )
+        stack.callback(match.wait)
+        stack.callback(match.terminate)
+        said_in(log, "(waiting for cyan)")
+        words = touchline("ros2", "--match", name, "--side", "cyan", "--listen", "tcp/127.0.0.1:0", "--patience", "60")
+        said = stack.enter_context(started(words, folder, "ros2"))
+        nodes = [sys.executable, "-W", "ignore", str(TEAM), *options, library, graph_at(said), *ROBOTS]
+        team = stack.enter_context(started(nodes, folder, "team"))
+        status = match.wait(LIMIT_S)
+        assert status == 0, log.read_text() + said.read_text() + team.read_text()
+    (recording,) = folder.glob("runs/*/match.mcap")
+    return recording, said.read_text()
+
+
+def answered(recording: Path) -> dict[str, list[Any]]:
+    """Robot → its commands."""
+    opened = open_recording(recording)
+    return {robot: [one for _, one in opened.decoded(COMMAND.fill(robot=robot))] for robot in ROBOTS}
+
+
+@pytest.mark.parametrize(("library", "options"), [("sdk", ()), ("pyzeros", ()), ("sdk", ("--twist",))])
+def test_a_team_of_nodes_of_one_foreign_process_plays_in_lockstep_and_its_recording_verifies(
+    tmp_path: Path, library: str, options: tuple[str, ...]
+) -> None:
+    if library == "pyzeros" and shutil.which("cc") is None:
+        pytest.skip("pyzeros compiles its types")
+    recording, said = play(tmp_path, f"lock_{library}{len(options)}", "lockstep", library, *options)
+    for commands in answered(recording).values():
+        ticks = [one.answers_tick for one in commands]
+        assert ticks == list(range(len(ticks)))
+        assert len(ticks) > 90
+        driven = [one for one in commands if (one.drive.vx, one.drive.omega) == (1.0, 0.5)]
+        assert len(driven) >= 0.99 * len(commands)
+    assert "unanswered" not in said
+    verified = subprocess.run(touchline("verify", str(recording)), capture_output=True, text=True, check=False)
+    assert verified.returncode == 0, verified.stdout
+    assert "identical" in verified.stdout
+
+
+def test_in_real_time_the_nodes_drive_at_their_own_pace(tmp_path: Path) -> None:
+    recording, _ = play(tmp_path, "real_sdk", "realtime", "sdk")
+    for commands in answered(recording).values():
+        driven = [one for one in commands if (one.drive.vx, one.drive.omega) == (1.0, 0.5)]
+        assert len(driven) > 50
+
+
+def test_a_match_and_a_replay_are_graphs_that_others_list(tmp_path: Path) -> None:
+    played = tmp_path / "played.mcap"
+    record_match(played, load_match(None, {"seed": 5, "teams.cyan": SIMPLE, "teams.magenta": SIMPLE}), until=2.0)
+    with ExitStack() as stack:
+        words = touchline("replay", str(played), "--name", "shown", "--listen", "tcp/127.0.0.1:0", "--loop")
+        said_in(stack.enter_context(started(words, tmp_path, "replay")), r'(match "shown" on)')
+        words = touchline("ros2", "--match", "shown", "--listen", "tcp/127.0.0.1:0", "--patience", "60")
+        at = graph_at(stack.enter_context(started(words, tmp_path, "ros2")))
+        clock = WallClock()
+        deadline = clock.now() + LIMIT_S
+        found: dict[str, Any] = {"topics": {}}
+        while "/cyan1/odom" not in found["topics"] and clock.now() < deadline:
+            words = [sys.executable, "-W", "ignore", str(TEAM), "list", at]
+            listed = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=True)
+            found = json.loads(listed.stdout)
+    assert found["topics"]["/clock"] == ["rosgraph_msgs/msg/Clock"]
+    assert found["topics"]["/tf"] == ["tf2_msgs/msg/TFMessage"]
+    assert found["topics"]["/cyan1/odom"] == ["nav_msgs/msg/Odometry"]
+    assert found["topics"]["/game/state"] == ["std_msgs/msg/String"]
+    (clock_publisher,) = found["clock"]
+    assert (clock_publisher["node_name"], clock_publisher["qos"]) == ("touchline", "2::,1:,:,:,,")
