@@ -1,6 +1,6 @@
-"""Draws the paths of one brain on two bodies: `python docs/generate/draw_two_bodies.py sim.mcap run.mcap ROBOT`.
+"""Draws the paths of one brain on two bodies: `python docs/generate/draw_two_bodies.py sim.mcap run.mcap ROBOT [FILE]`.
 
-Both recordings have the robot's sights. The picture is `docs/images/two_bodies.png`; the distance is printed.
+Both recordings have the robot's sights. The picture is FILE, or `docs/images/two_bodies.png`; the distance is printed.
 """
 
 import sys
@@ -30,5 +30,5 @@ def draw(simulated: Path, hardware: Path, robot: str) -> tuple[Figure, str]:
 
 if __name__ == "__main__":
     picture, distance = draw(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3])
-    picture.savefig(IMAGE)
+    picture.savefig(sys.argv[4] if len(sys.argv) > 4 else IMAGE)
     print(distance)

@@ -179,7 +179,9 @@ class HardwareGuard:
             self._fell_back += 1
             self._reason = self._reason or f"no demand for {self._settings.watchdog:g} s"
             self._report(f"{self._reason}: {self._settings.fallback.value}")
-        drive = None if self._settings.fallback is Fallback.COAST else self._ramped(_AT_REST)
+        drive = self._ramped(_AT_REST) if self._settings.fallback is Fallback.BRAKE else None
+        if drive is None:
+            self._sent = _AT_REST  # the next demand begins there
         self._call("actuate", lambda: self._hardware.actuate(drive, None, False))
 
     def _ramped(self, demand: Drive) -> Drive:

@@ -36,14 +36,9 @@ class OwnPercepts:
         """The newest readings."""
 
     @property
-    def motion(self) -> tuple[float, Motion] | None:
-        """The newest pose and twist in the field frame, and when it was measured; None before the first."""
-        return self._motions[-1] if self._motions else None
-
-    @property
-    def bodies(self) -> list[tuple[float, float, float]]:
-        """The obstacles of the newest picture, the nearest first: x, y, radius in the field frame, in m."""
-        return self._obstacles
+    def posed(self) -> float | None:
+        """When the newest pose was measured, in s; None before the first."""
+        return self._motions[-1][0] if self._motions else None
 
     def update(self, readings: SensorReadings) -> None:
         """Take over readings that were accepted."""
@@ -57,10 +52,8 @@ class OwnPercepts:
         if readings.picture is not None and self._motions:
             self._take(readings.picture)
 
-    def percept(self, now: float, attack: int) -> Percept | None:
-        """What the robot perceives at a time in s, in the frame of a team that attacks ±x; None without a pose."""
-        if not self._motions:
-            return None
+    def percept(self, now: float, attack: int) -> Percept:
+        """What the robot perceives at a time in s, in the frame of a team that attacks ±x; after the first pose."""
         motion = self._motions[-1][1]
         pose = Pose(motion.x, motion.y, motion.heading).team(attack)
         own = [pose.x, pose.y, wrap(pose.heading), attack * motion.vx, attack * motion.vy, motion.omega]

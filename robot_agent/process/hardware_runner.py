@@ -18,6 +18,9 @@ from schemas.soccer.game import TeamPhase
 from schemas.topics import COMMAND, HARDWARE, SIGHT, STATE
 from schemas.wire.message import valid
 
+_OLD_NEWS = 1.0
+"""s after which the news of a host are too old to drive by."""
+
 
 class News(NamedTuple):
     """What a robot knows of its match that its own sensors do not tell."""
@@ -27,8 +30,6 @@ class News(NamedTuple):
     time: float
     """Time of the match in s."""
     game: GameView
-    attack: int
-    """Sign of the x direction that the robot's team attacks."""
     radio: dict[str, ReceivedRadio] = {}
     order: CoachOrder | None = None
 
@@ -52,8 +53,9 @@ class HardwareRunner(BrainRunner):
         self._news: News | None = None
         self._news_at = 0.0
         self._health = bus.publisher(HARDWARE, robot=robot)
-        self._states = bus.subscribe(STATE, newest=True)
-        self._attack = 1
+        self._states = bus.subscribe(STATE, history=True)
+        self._attack: int | None = None
+        """Sign of the x direction that the robot's team attacks; None before it is known."""
 
     def next_sight(self, timeout: float | None) -> Sight | None:  # noqa: ARG002 - it waits for its own rate
         """The sight that is due next, from the robot's own sensors; None before a pose and news of the match.
@@ -67,10 +69,10 @@ class HardwareRunner(BrainRunner):
         self._percepts.update(readings)
         self._publish_health(now)
         self._hear(now)
-        percept = self._percepts.percept(now, self._news.attack) if self._news is not None else None
-        if percept is None or self._news is None or not self._knows_its_place(now):
-            return None  # the brain is not asked, and the guard falls back
         news, newest = self._news, self._percepts.newest
+        if news is None or self._attack is None or not self._is_up_to_date(now):
+            return None  # the brain is not asked, and the guard falls back
+        percept = self._percepts.percept(now, self._attack)
         time = news.time + now - self._news_at
         self._tick = max(self._tick + 1, round(time / self._period))
         return Sight(
@@ -108,10 +110,10 @@ class HardwareRunner(BrainRunner):
         self._due = max(self._due + self._period, now)
         clock.sleep_until(clock.now() + self._due - now)
 
-    def _knows_its_place(self, now: float) -> bool:
-        """Whether the newest pose is fresh."""
-        motion = self._percepts.motion
-        return motion is not None and now - motion[0] <= self.guard.watchdog
+    def _is_up_to_date(self, now: float) -> bool:
+        """Whether the robot knows where it is, and how the match stands: one that is off the field gets no sights."""
+        posed = self._percepts.posed
+        return posed is not None and now - posed <= self.guard.watchdog and now - self._news_at <= _OLD_NEWS
 
     def _send(self) -> None:
         """Send the answer to a sight of the host once, however often the robot has thought meanwhile."""
@@ -131,7 +133,7 @@ class HardwareRunner(BrainRunner):
             if state is not None:
                 self._attack = self._side.attack(state.cyan_attacks)
         while (sight := super().next_sight(0.0)) is not None:
-            self._news = News(sight.tick, sight.time, sight.game, self._attack, sight.radio, sight.order)
+            self._news = News(sight.tick, sight.time, sight.game, sight.radio, sight.order)
             self._news_at = now
 
 
@@ -166,4 +168,4 @@ class OpenRunner(HardwareRunner):
                 self._heard[received.chunks["robot"]] = now, ReceivedRadio.of(command.radio)
         radio = {name: one.replace(age=round(now - then, 4)) for name, (then, one) in self._heard.items()}
         game = GameView(phase=TeamPhase.PLAY, running=True, clock=round(now, 4), our_score=0, their_score=0)
-        self._news, self._news_at = News(self._tick, now, game, self._attack, radio), now
+        self._news, self._news_at = News(self._tick, now, game, radio), now

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -130,6 +131,36 @@ def test_its_commands_drive_record_and_show_simulated_hardware(page: str, fenced
         assert recorder.returncode == 0
     assert robot.returncode == 0
     assert re.search(r"robot/cyan2/command +json +object +\d{2,}", _run(info, tmp_path)), _run(info, tmp_path)
+
+
+@pytest.mark.processes
+@pytest.mark.long
+def test_its_example_of_two_bodies_is_played_driven_recorded_and_drawn_as_typed(
+    page: str, fenced: Fenced, root: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(root / "examples", tmp_path / "examples")
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    typed = fenced(page, "sh")[1].replace('"', "").replace("tcp/127.0.0.1:7447", endpoint).splitlines()
+    match, agent, record = (line.split()[1:] for line in typed if line.startswith("touchline"))
+    folder = tmp_path / typed[1].removeprefix("cd ")
+    _run(match, tmp_path)
+    with (
+        running([*agent, "--listen", endpoint, "--patience", "60"], folder),
+        running(record, folder),
+    ):
+        deadline = time.monotonic() + 60.0
+        while not (folder / "run.mcap").exists() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        time.sleep(14.0)
+    drawn = [
+        sys.executable,
+        root / "docs" / "generate" / "draw_two_bodies.py",
+        tmp_path / "sim.mcap",
+        folder / "run.mcap",
+    ]
+    done = subprocess.run([*drawn, "cyan1", tmp_path / "two.png"], capture_output=True, text=True, check=True)
+    assert re.fullmatch(r"0\.0\d+ m apart on average, 0\.\d+ m at most\n", done.stdout)
+    assert (tmp_path / "two.png").exists()
 
 
 def _run(command: list[str], folder: Path) -> str:

@@ -17,7 +17,7 @@ pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 CODE = """
 import signal, time
 from robot_agent.hardware.dummy import Dummy
-from touchline import Command, Drive
+from touchline import Command, Drive, Radio
 
 class Circling:
     def __init__(self, briefing):
@@ -33,6 +33,14 @@ class Blocking(Circling):
             print("blocks", flush=True)
             time.sleep(3600.0)
         return super().act(sight)
+
+class Talking(Circling):
+    def act(self, sight):
+        for mate, heard in sight.radio.items():
+            if self.asked >= 0:
+                print(f"{sight.robot} hears {mate} at {heard.self.x:g}", flush=True)
+                self.asked = -1000000
+        return Command(answers_tick=sight.tick, radio=Radio(self=sight.self))
 
 class Noted(Dummy):
     def actuate(self, drive, kick, dribble):
@@ -116,6 +124,22 @@ def test_a_brain_that_blocks_lets_the_robot_fall_back(alone):
     robot = alone("blocking", brain="code:Blocking")
     wait_for(lambda: "at rest" in robot.out, f"rest; {robot.out} {robot.err}")
     assert "blocks" in robot.out and "cyan1: no demand for 0.2 s: brake" in robot.err
+
+
+def test_teammates_without_a_host_hear_each_other_over_the_network(start, place):
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    ways = {"cyan1": {"body": {"match_file": "match.toml", "listen": endpoint}}}
+    ways["cyan2"] = {"body": {"match_file": "match.toml"}, "connect": endpoint, "patience": 60}
+    robots = {
+        name: start("robot_agent", folder=place, name=name, settings=settings(name, "code:Talking", **way))
+        for name, way in ways.items()
+    }
+    for name, mate in (("cyan1", "cyan2"), ("cyan2", "cyan1")):
+        wait_for(lambda name=name: " hears " in robots[name].out, f"{name} to hear; {robots[name].err}")
+        assert robots[name].out == f"{name} hears {mate} at 0\n"
+    for robot in robots.values():
+        robot.popen.send_signal(signal.SIGTERM)
+        assert robot.status() == 0
 
 
 @pytest.mark.parametrize("hardware", ["Hanging", "Stubborn"])

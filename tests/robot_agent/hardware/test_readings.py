@@ -126,4 +126,4 @@ def test_readings_of_the_sensors_grow_older():
     seen = OwnPercepts()
     seen.update(SensorReadings(0.5, sensors={"north": CompassReading(age=0.1, heading=0.3)}))
     assert seen.readings(0.9)["north"].age == approx(0.5)
-    assert seen.percept(0.9, 1) is None, "it does not know where it is"
+    assert seen.posed is None, "it does not know where it is"

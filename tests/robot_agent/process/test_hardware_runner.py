@@ -110,7 +110,10 @@ def test_with_a_host_game_order_and_radio_are_its_and_the_body_is_the_robots_own
     sights, commands = field.host.publisher(SIGHT, robot="cyan2"), field.host.subscribe(COMMAND)
     robot = field.robot("cyan2", host=True)
     play(3, robot)
-    assert robot.brain.seen == [] and commands.receive() is None, "it waits for the host's news"
+    sights.put(make_sight(699))
+    play(3, robot)
+    assert robot.brain.seen == [] and commands.receive() is None, "it does not know yet which way it attacks"
+    field.host.publisher(STATE).put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
     radio = {"cyan4": ReceivedRadio(age=0.1, role="keeper")}
     sights.put(make_sight(700, at=(9.0, 9.0, 0.0), phase=TeamPhase.OUR_CORNER, radio=radio))
     play(3, robot)
@@ -123,6 +126,17 @@ def test_with_a_host_game_order_and_radio_are_its_and_the_body_is_the_robots_own
     play(1, robot)
     assert commands.receive().message().answers_tick == 703
     assert robot.brain.seen[-1].tick == 703
+
+
+def test_a_robot_that_gets_no_sights_of_its_host_any_more_is_not_asked(field):
+    """It is off the field, or the host is gone."""
+    robot = field.robot("cyan2", host=True)
+    field.host.publisher(STATE).put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
+    field.host.publisher(SIGHT, robot="cyan2").put(make_sight(5))
+    play(100, robot)
+    assert 49 <= len(robot.brain.seen) <= 51
+    robot.guard.watch()
+    assert robot.guard.health().fell_back == 1
 
 
 def test_with_a_clearance_the_robot_stops_before_what_it_drives_to_and_says_so(field):
