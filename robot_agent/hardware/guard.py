@@ -3,7 +3,8 @@
 import math
 import re
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TypeVar
 
 from robot_agent.hardware.contract import Hardware, SensorReadings
@@ -96,8 +97,7 @@ class HardwareGuard:
         Raises:
             HardwareError: the hardware fails.
         """
-        read = self._call("sense", lambda: self._hardware.sense(self.time))
-        readings, faults = self._checks.accept(read, self.time)
+        readings, faults = self._call("sense", self._sense)
         for fault in faults:
             self._report(fault)
         return readings
@@ -113,7 +113,7 @@ class HardwareGuard:
         if self.state is not HardwareState.ACTIVE:
             self.refused = [f"kick: the hardware is {self.state.value}"] if command.kick is not None else []
             return
-        with self._lock:
+        with self._held("actuate"):
             self.refused = []
             if wanted is not None and wanted is not command.drive:
                 self._filtered += 1
@@ -184,6 +184,28 @@ class HardwareGuard:
             self._sent = _AT_REST  # the next demand begins there
         self._call("actuate", lambda: self._hardware.actuate(drive, None, False))
 
+    def _sense(self) -> tuple[SensorReadings, list[str]]:
+        read = self._hardware.sense(self.time)
+        if not isinstance(read, SensorReadings):
+            raise TypeError(f"it returned {read!r:.80}; return SensorReadings")
+        return self._checks.accept(read, self.time)
+
+    @contextmanager
+    def _held(self, name: str) -> Iterator[None]:
+        """Exclude the other thread, unless a call of that one does not return.
+
+        Raises:
+            HardwareError: it does not.
+        """
+        if not self._lock.acquire(timeout=self._settings.watchdog):
+            called = self._in_call
+            self._fail(f"{called[0] if called else name} has not returned for {self._settings.watchdog:g} s")
+            raise HardwareError(self._reason)
+        try:
+            yield
+        finally:
+            self._lock.release()
+
     def _ramped(self, demand: Drive) -> Drive:
         """The demand within the accelerations of the model since the last one."""
         now = self.time
@@ -197,7 +219,7 @@ class HardwareGuard:
         Raises:
             HardwareError: it raised, or the hardware has failed before.
         """
-        with self._lock:
+        with self._held(name):
             if self.state is HardwareState.ERROR and name not in ("deactivate", "close"):
                 raise HardwareError(self._reason)
             began = self._clock.now()

@@ -1,12 +1,15 @@
+import threading
 from itertools import pairwise
 
 import pytest
 from pytest import approx
 
+from robot_agent.hardware.contract import SensorReadings
 from robot_agent.hardware.dummy import Dummy
 from robot_agent.hardware.guard import HardwareError
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.hardware import Fallback, HardwareState
+from schemas.messages.radio import Motion
 from support.messages import make_setup
 
 AHEAD = Command(answers_tick=1, drive=Drive(vx=1.0))
@@ -104,6 +107,41 @@ def test_hardware_that_raises_is_named_and_not_used_any_more(bench, method, caps
     one.guard.stop()
     assert one.hardware.calls[-2:] == ["deactivate", "close"]
     assert capsys.readouterr().err.count("the cable is out") == 1
+
+
+@pytest.mark.parametrize(
+    ("read", "said"),
+    [(None, "it returned None; return SensorReadings"), (SensorReadings("now", Motion(x=0, y=0, heading=0)), "")],
+)
+def test_hardware_that_returns_no_readings_is_an_error_that_says_so(bench, monkeypatch, read, said):
+    one = bench()
+    one.guard.start()
+    monkeypatch.setattr(one.hardware, "sense", lambda time: read)
+    with pytest.raises(HardwareError, match=rf"^sense raised TypeError: {said}"):
+        one.guard.sense()
+
+
+class Stuck(Dummy):
+    """Does not return from the demand of the fallback."""
+
+    def __init__(self, model):
+        super().__init__(model)
+        self.free = threading.Event()
+
+    def actuate(self, drive, kick, dribble):
+        self.free.wait(20.0)
+
+
+def test_a_fallback_that_does_not_return_ends_the_waiting_of_the_thread_that_senses(bench):
+    one = bench(dummy=Stuck(make_setup().model_of("cyan2")), watchdog=0.05)
+    one.guard.start()
+    watch = threading.Thread(target=one.guard.watch)
+    watch.start()
+    with pytest.raises(HardwareError, match=r"actuate has not returned for 0\.05 s"):
+        while True:
+            one.guard.sense()
+    one.hardware.free.set()
+    watch.join()
 
 
 class Slow(Dummy):
