@@ -15,6 +15,7 @@ from message_examples import examples
 from schemas.messages.applied import Applied, AppliedInput, OperatorChange
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.debug import Debug
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.radio import BallBelief, Motion, Radio
@@ -193,16 +194,20 @@ def test_a_part_that_is_not_checked_alone_is_checked_in_its_message() -> None:
         CoachOrder(sequence=1, point_a=Point(x=math.nan, y=0.0))
 
 
-def test_a_part_that_was_checked_is_taken_as_it_is_and_lists_are_copied() -> None:
-    drive, extra = Drive(vx=1.0), {"plan": 1.0}
-    radio = Radio(extra=extra)
-    extra["plan"] = math.nan
-    command = Command(answers_tick=1, drive=drive, radio=radio)
-    assert command.drive is drive and command.radio is radio and radio.extra == {"plan": 1.0}
+def test_texts_of_other_libraries_and_of_enumerations_become_plain_ones() -> None:
+    class Text(str):
+        __slots__ = ()
+
+    for text in (np.str_("lob"), KickMode.LOB):
+        command = Command(answers_tick=1, refuses_order=text, debug=Debug(values={"plan": text}))
+        assert type(command.refuses_order) is str
+        assert Command.decode(command.encode()).debug.values == {"plan": "lob"}
+    with pytest.raises(FaultError):
+        Command(answers_tick=1, refuses_order=Text("lob"))
 
 
 def test_what_was_changed_without_a_check_is_refused_where_it_enters() -> None:
-    command = Command(answers_tick=1, drive=Drive().replace(vx=21.0))
+    command = Command(answers_tick=1).replace(drive=Drive().replace(vx=21.0))
     assert "drive.vx is 21.0; m/s from -20 to 20" in refused(Command.decode, command.encode())
 
 
