@@ -12,13 +12,18 @@ from robot_agent.ros2.settings import Ros2Settings
 from robot_agent.ros2.shown_match import show_match
 from robot_agent.sdk.contract import Briefing
 from runtime.access.accounts import Account
+from runtime.access.credentials import read_host_credentials
+from runtime.access.protection import Protection
 from runtime.bus.contract import Bus
+from runtime.bus.endpoint import is_loopback
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.bus.zenoh.waiting_client import open_when_there
 from runtime.process.clock import WallClock
 from runtime.process.process_log import configure_log, log_line
 from runtime.process.timing import RECONNECT_S
 from runtime.ros2.graph import Graph, open_graph
+from runtime.ros2.graph_access import graph_access
+from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 
 NODE = "touchline"
@@ -43,14 +48,15 @@ def run(settings: Ros2Settings) -> int:
     try:
         client = open_when_there(connect, clock, settings.patience, log_line)
         assert client is not None  # a wait that nothing stops
-        where = settings.domain, settings.listen, settings.router, settings.patience
-        with client as bus, open_graph(NODE, clock, *where) as graph:
-            _say_where(graph, settings)
+        with client as bus:
             setup = ask_setup(bus, settings.patience)
             robots = _robots(settings, setup)
-            if not robots:
-                return show_match(bus, graph, setup, settings.patience)
-            return serve_robots(bus, graph, robots, settings.every, settings.patience)
+            where = settings.domain, settings.listen, settings.router, settings.patience
+            with open_graph(NODE, clock, *where, _protection(settings, setup)) as graph:
+                _say_where(graph, settings)
+                if not robots:
+                    return show_match(bus, graph, setup, settings.patience)
+                return serve_robots(bus, graph, robots, settings.every, settings.patience)
     except KeyboardInterrupt:
         return 0
 
@@ -85,6 +91,23 @@ def _robots(settings: Ros2Settings, setup: Setup) -> list[str]:
         Briefing.of(name, setup)
     of_side = setup.teams[settings.side].robots if settings.side is not None else []
     return list(dict.fromkeys([*of_side, *settings.robot]))
+
+
+def _protection(settings: Ros2Settings, setup: Setup) -> Protection | None:
+    """Who may join the graph; None for every node.
+
+    Raises:
+        TouchlineError: other machines could join without an account, or the file of accounts cannot be read.
+    """
+    if settings.accounts is not None:
+        robots = {side: team.robots for side, team in setup.teams.items()}
+        return Protection(read_host_credentials(settings.accounts), graph_access(settings.domain, robots))
+    if settings.router is None and not is_loopback(settings.listen):
+        raise TouchlineError(
+            f"--listen {settings.listen} is open to other machines; add --accounts credentials/host.json of `touchline "
+            "credentials new`, or let the nodes join on a router of yours, with --router"
+        )
+    return None
 
 
 def _say_where(graph: Graph, settings: Ros2Settings) -> None:

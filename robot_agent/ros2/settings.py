@@ -1,5 +1,6 @@
 """What the process of a ROS 2 graph is started with."""
 
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
@@ -24,6 +25,8 @@ class Ros2Settings(ClientSettings, LogSettings):
     """Endpoint to which the nodes connect; port 0 takes a free one."""
     router: Endpoint | None = None
     """Join the graph of this router of rmw_zenoh, tcp/127.0.0.1:7447, in place of --listen."""
+    accounts: Path | None = None
+    """With --listen: host.json of `touchline credentials new`; only nodes with its accounts join, for own robots."""
     every: Annotated[int, Field(ge=1, le=1000)] = 1
     """Lockstep: the nodes answer every so many ticks; between them their last command stands."""
     patience: Annotated[float, Field(ge=0)] = 10.0

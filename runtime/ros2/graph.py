@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import zenoh
 from zenoh import ext
 
+from runtime.access.protection import Protection
 from runtime.bus.contract import BusError
 from runtime.bus.zenoh.session import first_line, open_connection, open_router
 from runtime.process.clock import Clock
@@ -31,9 +32,17 @@ class Arrived(NamedTuple):
 
 
 def open_graph(
-    node: str, clock: Clock, domain: int, listen: str | None, router: str | None, patience: float
+    node: str,
+    clock: Clock,
+    domain: int,
+    listen: str | None,
+    router: str | None,
+    patience: float,
+    protection: Protection | None = None,
 ) -> "Graph":
     """A node in a graph: through the ROS router at `router`, or as the router that listens at `listen`.
+
+    With `protection` that router admits its accounts only.
 
     Raises:
         BusError: nothing answers at `router` for `patience` s of wall time, or `listen` cannot be listened on.
@@ -42,7 +51,7 @@ def open_graph(
         raise BusError(f"--domain is {domain}; ROS 2 has the domains 0 to {_MOST_DOMAINS}")
     if router is None:
         # As rmw_zenoh's own router: nodes learn of each other from it, and connect with each other.
-        session, endpoint = open_router(listen, limits={"scouting/gossip/enabled": True})
+        session, endpoint = open_router(listen, protection, {"scouting/gossip/enabled": True})
     else:
         session, endpoint, _ = open_connection(lambda: (router, None), clock, patience, {"timestamping/enabled": True})
     return Graph(session, endpoint, clock, NodeName(domain, str(session.zid()), 0, node))
