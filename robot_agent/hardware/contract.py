@@ -55,6 +55,8 @@ class SensorReadings:
     """The robot moves much slower than demanded; False where nothing measures it."""
     sensors: Mapping[str, Reading] = field(default_factory=dict)
     """Sensor of the profile → a new reading, whose `age` is that at `time`."""
+    unreadable: int = 0
+    """Messages of devices since the last call that could not be read, as by a wrong checksum."""
 
 
 class Hardware(Protocol):

@@ -20,7 +20,7 @@ _FUTURE = 1e-3
 """s by which a reading may be ahead: clocks are read one after the other."""
 _RATE_WINDOW = 1.0
 """s over which a rate is counted."""
-MOTION, CAMERA = "motion", "camera"
+MOTION, CAMERA, LINE = "motion", "camera", "line"
 
 
 class _Device:
@@ -69,6 +69,9 @@ class ReadingChecks:
             motion = None
         if picture is not None and self._refuses(CAMERA, _picture_fault(picture, now), picture.time, faults):
             picture = None
+        if readings.unreadable:
+            self._devices.setdefault(LINE, _Device()).refused += readings.unreadable
+            faults.append(f"{LINE}: messages of devices cannot be read, {readings.unreadable} since the last call")
         sensors = {}
         for name, reading in readings.sensors.items():
             taken = time - reading.age

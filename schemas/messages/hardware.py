@@ -81,6 +81,6 @@ class HardwareHealth(Message):
     reason: Annotated[str, Meta(max_length=MAX_FAULT)] = ""
     """Why there are no demands, or what has failed; empty while all is well."""
     devices: dict[str, DeviceHealth] = {}
-    """`motion`, `camera`, or a sensor of the profile → what was read."""
+    """`motion`, `camera`, a sensor of the profile, or `line` for what could not be read → what was read."""
     calls: dict[str, CallHealth] = {}
     """`configure`, `activate`, `sense`, `actuate`, `deactivate` → what the calls took."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from robot_agent.process.stdio.command_line import check_command_line
-from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
 from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
@@ -91,15 +90,15 @@ def check(
 
 def _gate(subject: "Subject", scenes: int, seconds: float, clearance: float | None, *, json: bool) -> int:
     """Play the scenes of the seeds from 1; the exit status."""
-    from touchline.team.check.hardware_gate import pass_gate
+    from touchline.team.check.hardware_gate import pass_scenes
 
     results = []
-    for seed in range(1, scenes + 1):
-        result = pass_gate(subject, seed, seconds, WallClock(), clearance)
+    for result in pass_scenes(subject, scenes, seconds, clearance):
         results.append(result)
         if not json:
+            said = f"rejected: {result.rejected}" if result.rejected else "run"
             figures = f"clearance {result.clearance:.2f} m, {result.clamped} demands shortened"
-            typer.echo(f"scene {seed:<4} {'rejected: ' + result.rejected if result.rejected else 'run'}; {figures}")
+            typer.echo(f"scene {result.seed:<4} {said}; {figures}")
     rejected = sum(bool(result.rejected) for result in results)
     if json:
         typer.echo(json_text({"run": not rejected, "scenes": [result._asdict() for result in results]}, indent=2))

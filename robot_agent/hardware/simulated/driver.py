@@ -47,11 +47,6 @@ class Simulated:
         """The process of the board that was started; None without one."""
         return self._board.pid if self._board is not None else None
 
-    @property
-    def wrong_frames(self) -> int:
-        """Frames from the board whose checksum was wrong."""
-        return self._reader.wrong
-
     def configure(self) -> None:
         """Open the line; start the board where no port is given.
 
@@ -69,7 +64,7 @@ class Simulated:
 
     def sense(self, time: float) -> SensorReadings:
         """What has arrived: the newest pose and the newest picture."""
-        motion, picture, at = None, None, time
+        motion, picture, at, wrong = None, None, time, self._reader.wrong
         for kind, content in self._reader.feed(self._read()):
             if kind == Kind.MOTION:
                 read = frames.read_motion(content)
@@ -79,7 +74,8 @@ class Simulated:
                 seen = frames.read_picture(content)
                 ball = BodyBall(*seen.ball) if seen.ball is not None else None
                 picture = Picture(time - seen.age - self._delay, ball, tuple(Obstacle(*body) for body in seen.bodies))
-        return SensorReadings(at, motion, picture, self.holding, self.charged)
+        wrong = self._reader.wrong - wrong
+        return SensorReadings(at, motion, picture, self.holding, self.charged, unreadable=wrong)
 
     def actuate(self, drive: Drive | None, kick: Kick | None, dribble: bool) -> None:
         """Send rim speeds, and a kick."""

@@ -136,8 +136,10 @@ def test_frames_that_the_line_has_changed_are_left_out_and_counted(stepped):
     one = stepped()
     one.clock.alters = lambda data: data.replace(b"\xa5\x5a\x10", b"\xa5\x5a\x11")
     one.after(0.2)
-    readings = one.hardware.sense(one.clock.now())
-    assert readings.motion is None and one.hardware.wrong_frames > 10
+    guard = guard_of(one.hardware, one.clock)
+    assert guard.sense().motion is None
+    assert guard.health().devices["line"].refused > 10
+    assert "line: messages of devices cannot be read" in guard.health().reason
 
 
 def guard_of(hardware, clock):

@@ -49,7 +49,7 @@ def run_fresh(subject: Subject, seconds: float, hang_s: float = HANG_S) -> Itera
             try:
                 future.result()
             except DiedProcessError as error:
-                yield CheckResult(CHECKS[count].name, kept=False, sentence=_sentence(error, hang_s))
+                yield CheckResult(CHECKS[count].name, kept=False, sentence=died_sentence(error, hang_s))
                 yield from (CheckResult(check.name, kept=None) for check in CHECKS[count + 1 :])
     finally:
         processes.shutdown(cancel_futures=True)
@@ -62,7 +62,7 @@ def _run(subject: Subject, seconds: float, hang_s: float, written: Path, note: P
             lines.write(msgspec.json.encode(result) + b"\n")
 
 
-def _sentence(error: DiedProcessError, hang_s: float) -> str:
+def died_sentence(error: DiedProcessError, hang_s: float) -> str:
     """What ended the process, and in which line of the brain."""
     what = error.note.acting or "the check"
     if not error.note.stack:

@@ -6,13 +6,16 @@ guard of hardware shortens, are counted.
 
 import math
 import random
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import closing
 from dataclasses import replace
 from itertools import combinations
+from pathlib import Path
 from statistics import quantiles
 from typing import Any, NamedTuple
 
-from runtime.process.clock import Clock
+from robot_agent.process.timing import HANG_S
+from runtime.process.clock import Clock, WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.config.obstacle import ObstacleConfig
 from schemas.config.profile import Profile
@@ -20,6 +23,9 @@ from schemas.config.robot_model import models_of
 from schemas.config.scene import Scene, SceneBall, SceneRobot
 from schemas.errors import TouchlineError
 from sim_host.match.simulation import TickResult
+from touchline.matches.engine.fresh_process import DiedProcessError, FreshProcesses
+from touchline.matches.engine.hang_watch import HangWatch
+from touchline.team.check.fresh_checks import died_sentence
 from touchline.team.check.play import EndedEarlyError, play_checked
 from touchline.team.check.subject import SIDE, BreachError, Subject
 
@@ -43,6 +49,34 @@ class SceneResult(NamedTuple):
     """Demands beyond a limit of the profile."""
     slowest_ms: float
     """99th percentile of the wall time of decisions, in ms."""
+
+
+def pass_scenes(
+    subject: Subject, scenes: int, seconds: float, clearance: float | None = None, hang_s: float = HANG_S
+) -> Iterator[SceneResult]:
+    """Play the scenes of the seeds from 1, a brain in a fresh process for each; arguments as of `pass_gate`.
+
+    A brain that does not return for `hang_s` of wall time, or ends its process, is rejected.
+    """
+    if not subject.brain:
+        yield from (pass_gate(subject, seed, seconds, WallClock(), clearance) for seed in range(1, scenes + 1))
+        return
+    processes = FreshProcesses(1)  # one at a time: its decisions are timed
+    try:
+        for seed in range(1, scenes + 1):
+            try:
+                yield processes.submit(_pass_watched, subject, seed, seconds, clearance, hang_s).result()
+            except DiedProcessError as error:
+                yield SceneResult(seed, died_sentence(error, hang_s), 0.0, 0, 0.0)
+    finally:
+        processes.shutdown(cancel_futures=True)
+
+
+def _pass_watched(
+    subject: Subject, seed: int, seconds: float, clearance: float | None, hang_s: float, note: Path
+) -> SceneResult:
+    with closing(HangWatch(note, hang_s)) as watch:
+        return pass_gate(replace(subject, watch=watch), seed, seconds, WallClock(), clearance)
 
 
 def pass_gate(subject: Subject, seed: int, seconds: float, clock: Clock, clearance: float | None = None) -> SceneResult:

@@ -14,7 +14,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.side import Side
 from touchline.commands.cli.command_line import app
-from touchline.team.check.hardware_gate import pass_gate, random_scene
+from touchline.team.check.hardware_gate import pass_gate, pass_scenes, random_scene
 from touchline.team.check.subject import Subject
 
 
@@ -42,6 +42,13 @@ class Slow(Resting):
     def act(self, sight):
         if self.briefing.number == 1 and sight.tick % 10 == 1:
             time.sleep(0.05)
+        return super().act(sight)
+
+
+class Hanging(Resting):
+    def act(self, sight):
+        while sight.tick > 10:
+            pass
         return super().act(sight)
 
 
@@ -103,6 +110,14 @@ def test_scenes_differ_by_seed_alone_and_have_room_between_robots():
     crowded = load_match(None, {"obstacles": posts})
     with pytest.raises(TouchlineError, match=r"no room for cyan1; name a match file with fewer robots or obstacles"):
         random_scene(crowded, crowded.load_profile(), 1)
+
+
+def test_a_brain_that_does_not_return_is_rejected_and_the_next_scene_is_played():
+    subject = Subject(load_match(None, {"teams.cyan.remote": True}), f"{__name__}:Hanging")
+    results = list(pass_scenes(subject, 2, 1.0, hang_s=1.0))
+    assert [one.seed for one in results] == [1, 2]
+    why = r"cyan1: act at tick 11 has not returned after 1 s \(\S+test_hardware_gate.py, line \d+\)"
+    assert all(re.fullmatch(why, one.rejected) for one in results), results
 
 
 def test_the_command_says_run_or_rejected_by_its_status():
