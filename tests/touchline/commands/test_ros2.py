@@ -1,13 +1,10 @@
 """`touchline ros2` with nodes of two libraries that this project did not write, each in a process of its own."""
 
 import json
-import re
 import shutil
 import subprocess
 import sys
-import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +15,7 @@ from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
 from schemas.topics import COMMAND
 from support.recorded_match import record_match
+from support.ros_match import LIMIT_S, TEAM, graph_at, said_in, started, touchline
 
 pytest.importorskip("xxhash")
 pytest.importorskip("zenoh_ros2_sdk")
@@ -25,8 +23,6 @@ pytest.importorskip("pyzeros")
 
 pytestmark = [pytest.mark.processes, pytest.mark.slow]
 
-LIMIT_S = 200.0
-TEAM = Path(__file__).parents[2] / "support" / "ros_team.py"
 SIMPLE = {"size": 2, "brain": "robot_agent.teams.simple:Simple"}
 ROBOTS = [f"cyan{number}" for number in range(1, 6)]
 MATCH = """
@@ -43,37 +39,6 @@ remote = true
 brain = "simple"
 robots = ["magenta1", "magenta2"]
 """
-
-
-@contextmanager
-def started(words: list[str], folder: Path, name: str) -> Iterator[Path]:
-    """A process, ended afterwards; its output is in the file."""
-    log = folder / f"{name}.log"
-    with log.open("w") as file:
-        process = subprocess.Popen(words, cwd=folder, stdout=file, stderr=subprocess.STDOUT)
-        try:
-            yield log
-        finally:
-            process.terminate()
-            process.wait(LIMIT_S)
-
-
-def touchline(*words: str) -> list[str]:
-    return [sys.executable, "-m", "touchline", *words]
-
-
-def said_in(log: Path, pattern: str) -> str:
-    """What a process has said, once it has."""
-    deadline = time.monotonic() + LIMIT_S
-    while (found := re.search(pattern, log.read_text())) is None:
-        assert time.monotonic() < deadline, log.read_text()
-        time.sleep(0.05)
-    return found[1]
-
-
-def graph_at(log: Path) -> str:
-    """The endpoint that `touchline ros2` has said."""
-    return said_in(log, r"reach this graph at (tcp/[\d.]+:\d+)")
 
 
 def play(folder: Path, name: str, pace: str, library: str, *options: str) -> tuple[Path, str]:

@@ -1,0 +1,94 @@
+"""The commands of docs/ros2.md run, and its table is the graph that others list."""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+from schemas.config.match_config import load_match
+from support.recorded_match import record_match
+from support.ros_match import LIMIT_S, TEAM, graph_at, said_in, started, touchline
+
+pytest.importorskip("xxhash")
+pytest.importorskip("zenoh_ros2_sdk")
+
+pytestmark = [pytest.mark.processes, pytest.mark.slow]
+
+PAGE = (Path(__file__).parents[2] / "docs" / "ros2.md").read_text("utf-8")
+FREE = ("--listen", "tcp/127.0.0.1:0")
+ROBOTS = [f"cyan{number}" for number in range(1, 6)]
+
+
+def commands_below(heading: str) -> list[list[str]]:
+    """The words of the commands in the shell block below a heading."""
+    section = PAGE.partition(f"\n## {heading}\n")[2]
+    block = re.search(r"```sh\n(.*?)```", section, re.DOTALL)
+    assert block is not None
+    return [shlex.split(line, comments=True)[1:] for line in block[1].splitlines()]
+
+
+def listed(at: str) -> dict[str, dict[str, list[str]]]:
+    """The graph, as the SDK lists it."""
+    words = [sys.executable, "-W", "ignore", str(TEAM), "list", at]
+    found: dict[str, dict[str, list[str]]] = json.loads(
+        subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=True).stdout
+    )
+    return found
+
+
+def test_the_commands_for_nodes_play_a_match_and_the_table_is_their_graph(tmp_path: Path) -> None:
+    match, ros2 = commands_below("Nodes that drive robots")
+    with ExitStack() as stack:
+        words = touchline(*match, "--duration", "2", "--name", "page", "--rules", "friendly", "--no-record", *FREE)
+        log = stack.enter_context(started(words, tmp_path, "match"))
+        said_in(log, "(waiting for cyan)")
+        at = graph_at(stack.enter_context(started(touchline(*ros2, "--match", "page", *FREE), tmp_path, "ros2")))
+        graph = listed(at)
+        stack.enter_context(started([sys.executable, "-W", "ignore", str(TEAM), "sdk", at, *ROBOTS], tmp_path, "team"))
+        said_in(log, "(full time)")
+    rows = re.findall(r"^\| `/(\S+)`(?: \*\*(in|service)\*\*)? \| (.*?) \|", PAGE, re.MULTILINE)
+    assert len(rows) == 12
+    for name, way, types in rows:
+        package = ""
+        of = graph["services" if way == "service" else "topics"]
+        for written in re.findall(r"`([\w/]+)`", types):
+            package, _, short = written.rpartition("/") if "/" in written else (package, "", written)
+            kind = "srv" if way == "service" else "msg"
+            if name != "<robot>/scan":  # the robots of this match have no range finder
+                assert f"{package}/{kind}/{short}" in of[f"/{name.replace('<robot>', 'cyan1')}"], name
+    told = {topic for topic in graph["topics"] if not topic.startswith(tuple(f"/{robot}/" for robot in ROBOTS[1:]))}
+    assert {topic.replace("/cyan1/", "/<robot>/") for topic in told} == {
+        f"/{name}" for name, way, _ in rows if way != "service" and name != "<robot>/scan"
+    }
+
+
+def test_the_commands_for_a_recording_show_it(tmp_path: Path) -> None:
+    replay, ros2 = commands_below("A match or a recording as a graph")
+    team = {"size": 1, "brain": "robot_agent.teams.simple:Simple"}
+    config = load_match(None, {"name": "page_replay", "teams.cyan": team, "teams.magenta": team})
+    record_match(tmp_path / "RECORDING.mcap", config, until=1.0)
+    with ExitStack() as stack:
+        log = stack.enter_context(started(touchline(*replay, *FREE), tmp_path, "replay"))
+        said_in(log, r"(match \"page_replay\" on)")
+        words = touchline(*ros2, "--match", "page_replay", *FREE)
+        at = graph_at(stack.enter_context(started(words, tmp_path, "ros2")))
+        found: dict[str, dict[str, list[str]]] = {"topics": {}}
+        while "/tf" not in found["topics"]:
+            found = listed(at)
+    assert found["topics"]["/cyan1/odom"] == ["nav_msgs/msg/Odometry"]
+
+
+def test_the_commands_for_accounts_open_a_graph_for_them(tmp_path: Path) -> None:
+    make, ros2 = commands_below("Who may join")
+    subprocess.run(touchline(*make), cwd=tmp_path, check=True, capture_output=True, timeout=LIMIT_S)
+    ros2[ros2.index("--listen") + 1] = FREE[1]
+    with ExitStack() as stack:
+        words = touchline("match", "--remote", "cyan", "--name", "page_accounts", "--no-record", *FREE)
+        said_in(stack.enter_context(started(words, tmp_path, "match")), "(waiting for cyan)")
+        said = stack.enter_context(started(touchline(*ros2, "--match", "page_accounts"), tmp_path, "ros2"))
+        assert graph_at(said)
