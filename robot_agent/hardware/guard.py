@@ -24,6 +24,8 @@ _LONGEST_STEP = 0.05
 _TIMED = ("sense", "actuate")
 """The calls that have a deadline: devices may take a while to open and to close."""
 _NUMBER = re.compile(r"-?[\d.]+|nan|inf")
+_LOOKS = 5
+"""Looks at a call that takes too long until it counts as one that does not return: the whole process may have slept."""
 T = TypeVar("T")
 
 
@@ -53,6 +55,8 @@ class HardwareGuard:
         self._checks = ReadingChecks(model.drive, settings.jump, settings.relocation)
         self._lock = threading.RLock()
         self._calls: dict[str, _Call] = {}
+        self._overdue_looks = 0
+        """Looks of the other thread, one after the other, at a call that takes too long."""
         self._in_call: tuple[str, float] | None = None
         """The call that has not returned, and when it began."""
         self._sent, self._sent_at = _AT_REST, self.time
@@ -131,7 +135,9 @@ class HardwareGuard:
         Returns False if a call has not returned for so long: then only the end of the process stops the robot.
         """
         called = self._in_call
-        if called is not None and self._clock.now() - called[1] > self._settings.watchdog:
+        is_overdue = called is not None and self._clock.now() - called[1] > self._settings.watchdog
+        self._overdue_looks = self._overdue_looks + 1 if is_overdue else 0
+        if called is not None and self._overdue_looks >= _LOOKS:
             self._fail(f"{called[0]} has not returned for {self._settings.watchdog:g} s")
             return False
         if self.state is not HardwareState.ACTIVE or not self._lock.acquire(blocking=False):

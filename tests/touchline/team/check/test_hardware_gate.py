@@ -114,9 +114,9 @@ def test_scenes_differ_by_seed_alone_and_have_room_between_robots():
 
 def test_a_brain_that_does_not_return_is_rejected_and_the_next_scene_is_played():
     subject = Subject(load_match(None, {"teams.cyan.remote": True}), f"{__name__}:Hanging")
-    results = list(pass_scenes(subject, 2, 1.0, hang_s=1.0))
+    results = list(pass_scenes(subject, 2, 1.0, hang_s=4.0))
     assert [one.seed for one in results] == [1, 2]
-    why = r"cyan1: act at tick 11 has not returned after 1 s \(\S+test_hardware_gate.py, line \d+\)"
+    why = r"cyan1: act at tick 11 has not returned after 4 s \(\S+test_hardware_gate.py, line \d+\)"
     assert all(re.fullmatch(why, one.rejected) for one in results), results
 
 
