@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from robot_agent.hardware.contract import Hardware, SensorReadings
 from robot_agent.hardware.limits import kick_within_limits, toward, within_limits
-from robot_agent.hardware.reading_checks import ReadingChecks
+from robot_agent.hardware.reading_checks import MOTION, ReadingChecks
 from robot_agent.hardware.settings import HardwareSettings
 from runtime.process.clock import Clock
 from runtime.process.process_log import Level, log_line
@@ -104,6 +104,8 @@ class HardwareGuard:
         readings, faults = self._call("sense", self._sense)
         for fault in faults:
             self._report(fault)
+            if fault.startswith(MOTION) and not self._reason:
+                self._reason = fault  # without poses there are no demands
         return readings
 
     def actuate(self, command: Command, wanted: Drive | None = None) -> None:
@@ -253,8 +255,6 @@ class HardwareGuard:
     def _report(self, text: str, level: Level = Level.WARNING) -> None:
         """Log a fault once; all of them are counted. Faults of one kind differ in their numbers."""
         kind = _NUMBER.sub("", text)
-        if not self._reason:
-            self._reason = text
         if kind not in self._reported:
             self._reported.add(kind)
             log_line(f"{self._robot}: {text}", level)

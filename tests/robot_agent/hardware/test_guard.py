@@ -172,6 +172,7 @@ def test_calls_that_take_longer_than_the_deadline_are_counted_and_named_once(slo
     sense = slow.bench.guard.health().calls["sense"]
     assert (sense.calls, sense.late, sense.mean_ms, sense.worst_ms) == (3, 2, 30.0, 50.0)
     assert capsys.readouterr().err == "cyan2: sense takes longer than its deadline of 20 ms\n"
+    assert slow.bench.guard.health().reason == "", "it is no reason to fall back"
 
 
 def test_a_call_that_does_not_return_is_an_error_that_the_watching_thread_reports(slow):

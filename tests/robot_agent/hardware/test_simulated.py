@@ -132,14 +132,14 @@ def test_pictures_come_late_by_a_delay_that_the_driver_is_told(stepped):
     delayed.close()
 
 
-def test_frames_that_the_line_has_changed_are_left_out_and_counted(stepped):
+def test_frames_that_the_line_has_changed_are_left_out_and_counted(stepped, capsys):
     one = stepped()
     one.clock.alters = lambda data: data.replace(b"\xa5\x5a\x10", b"\xa5\x5a\x11")
     one.after(0.2)
     guard = guard_of(one.hardware, one.clock)
     assert guard.sense().motion is None
     assert guard.health().devices["line"].refused > 10
-    assert "line: messages of devices cannot be read" in guard.health().reason
+    assert "cyan2: line: messages of devices cannot be read" in capsys.readouterr().err
 
 
 def guard_of(hardware, clock):
