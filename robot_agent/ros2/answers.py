@@ -94,6 +94,8 @@ class Answers:
             self._contested_until = now + _CONTEST_NS
             self._note(Fault.CONTESTED, f"{who} drives it, and another node does; it brakes until one of them is left")
         self._driver, self._driven_at = driver, now
+        if stamp_ns < 0:
+            return self.refuse(f"{who} stamps a command with a time before the start of the match")
         tick = (stamp_ns + _ROUNDING_NS) // self._tick_ns if stamp_ns else sight.tick
         if stamp_ns > now + _ROUNDING_NS:
             ahead = (stamp_ns - now) * 1e-9
@@ -102,7 +104,7 @@ class Answers:
         if now <= self._contested_until:
             return self._brake()
         if tick <= self._answered:
-            self._note(Fault.EXCESS, f"{who} sends more than one command in a tick; the first one counts")
+            self._note(Fault.EXCESS, f"{who} sends a command for tick {tick}, which has one; the first one counts")
             return None
         if self._is_lockstep and tick < sight.tick:
             self._note(Fault.LATE, f"{who} answers tick {tick}, and the match is at {sight.tick}")

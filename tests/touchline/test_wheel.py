@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-DATA = {".toml", ".html", ".css", ".js", ".svg", ".md", ".ini"}
+DATA = {".toml", ".html", ".css", ".js", ".svg", ".md", ".ini", ".msg", ".srv"}
 """Suffixes of files that packages read."""
 
 pytestmark = pytest.mark.slow

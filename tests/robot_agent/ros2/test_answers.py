@@ -85,6 +85,13 @@ def test_numbers_that_are_no_velocity_are_named_and_brake(vx: float):
     assert sentence.startswith("/team: ")
 
 
+def test_a_stamp_before_the_match_is_named_and_brakes():
+    bench = Bench()
+    bench.see(7)
+    assert bench.send(-1).drive == Drive()
+    assert bench.reports == [(Fault.INVALID, "/team stamps a command with a time before the start of the match")]
+
+
 def test_two_nodes_on_one_robot_are_named_and_it_brakes_until_one_is_left():
     bench = Bench()
     bench.see(1)

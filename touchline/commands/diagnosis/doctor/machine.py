@@ -17,7 +17,7 @@ from touchline.commands.diagnosis.doctor.finding import Finding, Status
 _EXTRAS: Mapping[str, tuple[tuple[str, ...], str]] = {
     "coach": (("starlette", "uvicorn", "websockets"), "the page of --web"),
     "viz": (("foxglove",), "live viewers"),
-    "ros2": (("rosbags",), "export to ROS 2"),
+    "ros2": (("rosbags", "xxhash"), "nodes and bags of ROS 2"),
     "tls": (("trustme",), "making certificates"),
 }
 """Extra → its packages as they are imported, and what needs them."""

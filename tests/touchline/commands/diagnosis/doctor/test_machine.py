@@ -12,7 +12,7 @@ from touchline.commands.diagnosis.doctor.machine import MachineFacts, examine_ma
 
 GOOD = MachineFacts(
     python="3.11.2",
-    packages=frozenset({"pybullet", "starlette", "uvicorn", "websockets", "foxglove", "rosbags", "trustme"}),
+    packages=frozenset({"pybullet", "starlette", "uvicorn", "websockets", "foxglove", "rosbags", "xxhash", "trustme"}),
     cores=4,
     folder=Path("/matches/runs"),
     free_bytes=50_000_000_000,
