@@ -110,7 +110,10 @@ def open_free_network(settings: AgentSettings, clock: Clock, patience: float) ->
             f"--listen {listen} is open to other machines; add --insecure on a network of your own, or listen on "
             "tcp/127.0.0.1:7447"
         )
-    return open_network(settings.match or setup_without_host(settings).match, clock, connect, listen, patience=patience)
+    match = settings.match or setup_without_host(settings).match
+    bus = open_network(match, clock, connect, listen, patience=patience)
+    log_line(f"{settings.robot}: match {match} without a host, at {bus.endpoint}")
+    return bus
 
 
 def setup_without_host(settings: AgentSettings) -> Setup:

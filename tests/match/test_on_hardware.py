@@ -167,4 +167,5 @@ def test_hardware_that_raises_is_named_once_and_ends_the_process(alone):
 def test_hardware_that_is_not_there_is_one_line(alone, hardware, said):
     robot = alone(f"wrong_{hardware.replace(':', '_')}", hardware=hardware)
     assert robot.status() == 2
-    assert said in robot.err and robot.err.count("\n") == 1
+    where, fault = robot.err.splitlines()
+    assert where.startswith("cyan1: match friendly without a host, at tcp/127.0.0.1:") and said in fault
