@@ -63,8 +63,9 @@ class SightMessages:
 
     def publish(self, sight: Sight, faults: Mapping[str, int]) -> None:
         """Publish what somebody reads; `faults` are the counts of what was wrong with commands."""
-        build = self._build
-        now_ns = round(sight.time * 1e9)
+        if not self._transforms.is_read and not any(writer.is_read for writer in self.writers.values()):
+            return
+        build, now_ns = self._build, round(sight.time * 1e9)
         header = build.header(build.stamp(now_ns), self._odometry_frame)
         if self._transforms.is_read:
             own = sight.self
