@@ -80,7 +80,7 @@ def test_a_team_of_nodes_of_one_foreign_process_plays_in_lockstep_and_its_record
         pytest.skip("pyzeros compiles its types")
     recording, said = play(tmp_path, f"lock_{library}{len(options)}", "lockstep", library, *options)
     for commands in answered(recording).values():
-        ticks = [one.answers_tick for one in commands]
+        ticks = list(dict.fromkeys(one.answers_tick for one in commands))  # a sight that comes again is answered again
         assert ticks == list(range(len(ticks)))
         assert len(ticks) > 90
         driven = [one for one in commands if (one.drive.vx, one.drive.omega) == (1.0, 0.5)]
