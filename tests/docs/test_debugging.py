@@ -25,7 +25,8 @@ SECTION = PAGE.partition("## Draw and plot")[2].partition("\n## ")[0]
 def brains(fenced: Callable[[str, str], list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """What the code of the page defines, beside a new team."""
     monkeypatch.delitem(sys.modules, "my_team", raising=False)
-    monkeypatch.setattr(sys, "path", [path for path in sys.path if not (Path(path) / "my_team.py").exists()])
+    others = [path for path in sys.path if not any(Path(path).glob("my_team*"))]  # of brains that were loaded before
+    monkeypatch.setattr(sys, "path", others)
     monkeypatch.syspath_prepend(make_team("my_team", tmp_path))
     names: dict[str, Any] = {}
     for piece in fenced(PAGE, "python"):

@@ -91,6 +91,7 @@ def test_a_team_of_nodes_of_one_foreign_process_plays_in_lockstep_and_its_record
     assert "identical" in verified.stdout
 
 
+@pytest.mark.long
 def test_in_real_time_the_nodes_drive_at_their_own_pace(tmp_path: Path) -> None:
     recording, _ = play(tmp_path, "real_sdk", "realtime", "sdk")
     for commands in answered(recording).values():
