@@ -48,12 +48,12 @@ def core_wait() -> Iterator[CoreWait]:
 
 
 def core_wait_of(pid: int) -> float:
-    """The wall time in s that the running threads of a process have waited for a core, added up; 0 if unknown."""
-    total = 0.0
+    """The wall time in s that one of the threads of a process has waited for a core, the longest; 0 if unknown."""
+    longest = 0.0
     for schedstat in Path(f"/proc/{pid}/task").glob("*/schedstat"):
         with suppress(OSError):  # the thread has ended
-            total += _waited_s(schedstat.read_bytes()) or 0.0
-    return total
+            longest = max(longest, _waited_s(schedstat.read_bytes()) or 0.0)
+    return longest
 
 
 def _waited_s(schedstat: bytes) -> float | None:

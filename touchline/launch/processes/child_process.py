@@ -81,7 +81,7 @@ class ChildProcess:
             self._signal_group(number)
 
     def core_wait(self) -> float:
-        """Wall time in s in which its threads were ready and had no core so far, as far as the kernel tells."""
+        """Wall time in s in which it was ready and had no core so far: that of the thread that waited longest."""
         self._core_wait = max(self._core_wait, core_wait_of(self.pid))  # a thread that ends takes its time with it
         return self._core_wait
 
