@@ -78,7 +78,7 @@ def test_the_commands_for_a_recording_show_it(tmp_path: Path) -> None:
         words = touchline(*ros2, "--match", "page_replay", *FREE)
         at = graph_at(stack.enter_context(started(words, tmp_path, "ros2")))
         found: dict[str, dict[str, list[str]]] = {"topics": {}}
-        while "/tf" not in found["topics"]:
+        while "/cyan1/odom" not in found["topics"]:
             found = listed(at)
     assert found["topics"]["/cyan1/odom"] == ["nav_msgs/msg/Odometry"]
 

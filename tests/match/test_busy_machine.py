@@ -12,10 +12,10 @@ import pytest
 from recordings.reading.recording import open_recording
 from support.brisk import BRISK
 
-pytestmark = [pytest.mark.processes, pytest.mark.long, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.processes, pytest.mark.long, pytest.mark.alone, pytest.mark.timeout(300)]
 
 LOAD = 20
-"""Processes that compute all the time, on one core with all of the match; other tests have the other cores."""
+"""Processes that compute all the time, on one core with all of the match."""
 PATIENCE_S = 280.0
 MATCH = f"""
 name = "busy"
