@@ -24,16 +24,20 @@ for line in sys.stdin:
 class StdioMatch(IsolatedMatch):
     """A match whose cyan is a program of lines with this body of its loop."""
 
-    def __init__(self, folder: Path, body: str, *, top: str = "", patience: float = 60.0) -> None:
+    def __init__(
+        self, folder: Path, body: str, *, top: str = "", duration: float = 4.0, patience: float = 60.0
+    ) -> None:
         super().__init__(folder, "    pass", top=top)
         (folder / "robot.py").write_text(PROGRAM.format(body="\n".join(f"    {line}" for line in body.splitlines())))
         file = folder / "match.toml"
         text = file.read_text().replace('brain = "cyan_team:Brain"', f'stdio = ["{sys.executable}", "robot.py"]')
+        text = text.replace("duration = 4.0", f"duration = {duration}")
         file.write_text(text.replace("answer = 60.0", f"answer = {patience}"))
 
 
 def test_a_robot_whose_program_crashes_is_started_again_and_the_crash_is_named(tmp_path: Path) -> None:
-    played = StdioMatch(tmp_path, "if tick == 60:\n    os.kill(os.getpid(), signal.SIGSEGV)").play()
+    crash = "if tick == 60:\n    os.kill(os.getpid(), signal.SIGSEGV)"
+    played = StdioMatch(tmp_path, crash, duration=40.0).play()  # it goes on while the launcher looks at its processes
     assert played.status == 1
     assert re.search(r"does not depend on its seed alone: sights without an answer: cyan1 \d+\n", played.printed)
     assert "cyan1 ended with status 1; started again (1 of 3)" in played.printed
