@@ -50,9 +50,10 @@ def core_wait() -> Iterator[CoreWait]:
 def core_wait_of(pid: int) -> float:
     """The wall time in s that one of the threads of a process has waited for a core, the longest; 0 if unknown."""
     longest = 0.0
-    for schedstat in Path(f"/proc/{pid}/task").glob("*/schedstat"):
-        with suppress(OSError):  # the thread has ended
-            longest = max(longest, _waited_s(schedstat.read_bytes()) or 0.0)
+    with suppress(OSError):  # the process has ended
+        for task in Path(f"/proc/{pid}/task").iterdir():
+            with suppress(OSError):  # the thread has ended
+                longest = max(longest, _waited_s((task / "schedstat").read_bytes()) or 0.0)
     return longest
 
 
