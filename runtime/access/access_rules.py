@@ -5,14 +5,15 @@ include the key of the message, so that a subscription or a publication with wil
 extent.
 """
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from runtime.access.accounts import ACCOUNTS
+from runtime.access.accounts import ACCOUNTS, Account
 from runtime.access.rights import Rights, Robots
 from schemas.tokens import PresenceKind
 from schemas.topics import ALIVE, key_prefix
 
-_CACHE = "/@adv/**"
+CACHE = "/@adv/**"
 """Below the key of a recovered topic: its publisher's cache, heartbeats and liveliness token. Wildcards do not match
 chunks that begin with @."""
 
@@ -20,6 +21,11 @@ chunks that begin with @."""
 def access_rules(match: str, robots: Robots) -> dict[str, Any]:
     """The `access_control` section of a host's Zenoh configuration."""
     rules = {account: _rules_of(match, Rights(account, robots)) for account in ACCOUNTS}
+    return access_section(rules)
+
+
+def access_section(rules: Mapping[Account, Sequence[dict[str, Any]]]) -> dict[str, Any]:
+    """An `access_control` section that allows each account what its rules say, and nothing else."""
     return {
         "enabled": True,
         "default_permission": "deny",
@@ -43,7 +49,7 @@ def with_any_keys(section: dict[str, Any]) -> dict[str, Any]:
 
 
 def _rules_of(match: str, rights: Rights) -> list[dict[str, Any]]:
-    caches = [key + _CACHE for key in rights.recovers]
+    caches = [key + CACHE for key in rights.recovers]
     all_tokens = ALIVE.fill()
     rows = (
         ("publishes", "ingress", ("put",), rights.publishes),

@@ -7,39 +7,27 @@ each other there. Clock and transforms are read by all accounts. Everything else
 from collections.abc import Mapping
 from typing import Any
 
-from runtime.access.access_rules import rule
+from runtime.access.access_rules import CACHE, access_section, rule
 from runtime.access.accounts import ACCOUNTS, Account
 from runtime.access.rights import Robots
 from runtime.ros2.graph_names import TOKENS, Kind
 
 _FOR_ALL = ("clock", "tf", "tf_static")
 """Topics that everybody reads; only the bridge publishes them."""
-_CACHE = "/@adv/**"
-"""Below the key of a latched topic: its cache. Wildcards do not match chunks that begin with @."""
 _KEYS = "declare_subscriber", "declare_queryable"
 _SENT = "put", "query", "reply"
 
 
 def graph_access(domain: int, robots: Robots) -> Mapping[str, Any]:
     """The `access_control` of the router of a graph; `robots` has those of each side."""
-    rules = {account: _rules_of(account, domain, robots) for account in ACCOUNTS}
-    return {
-        "enabled": True,
-        "default_permission": "deny",
-        "rules": [one for of_account in rules.values() for one in of_account],
-        "subjects": [{"id": account.value, "usernames": [account.value]} for account in ACCOUNTS],
-        "policies": [
-            {"rules": [one["id"] for one in of_account], "subjects": [account.value]}
-            for account, of_account in rules.items()
-        ],
-    }
+    return access_section({account: _rules_of(account, domain, robots) for account in ACCOUNTS})
 
 
 def _rules_of(account: Account, domain: int, robots: Robots) -> list[dict[str, Any]]:
     own = robots[account.side] if account in (Account.CYAN, Account.MAGENTA) and account.side is not None else ()
     keys = [f"{domain}/{robot}/**" for robot in own]
     read = [f"{domain}/{topic}/*/*" for topic in _FOR_ALL]
-    read += [key + _CACHE for key in read]
+    read += [key + CACHE for key in read]
     tokens = f"{TOKENS}/{domain}/*/*/*"
     declared = [f"{tokens}/{Kind.NODE}/**"]
     declared += [f"{tokens}/*/*/*/*/%{robot}%$*/**" for robot in own]

@@ -27,9 +27,9 @@ from schemas.config.sections import (
     Safety,
     Sensing,
     TimeSteps,
-    Wheels,
 )
 from schemas.config.sensors.sections import Sensors, check_mounted, read_sensors
+from schemas.config.wheels import Wheels
 from schemas.errors import TouchlineError, did_you_mean
 
 SHIPPED = ("msl", "ideal", "omni", "omni3", "differential", "msl-2016", "paper")

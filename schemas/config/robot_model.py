@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
-from schemas.config.sections import CameraView, Dribble, DriveLimits, Kicker, RobotBody, Wheels
+from schemas.config.sections import CameraView, Dribble, DriveLimits, Kicker, RobotBody
+from schemas.config.wheels import Wheels
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
 

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.robot_model import RobotModel
-from schemas.config.sections import TimeSteps, Wheels
+from schemas.config.sections import TimeSteps
+from schemas.config.wheels import Wheels
 from schemas.messages.command import Drive
 from sim_host.actuation.drive_model import Bodies, DriveModel, Plan
 from sim_host.actuation.ramp import Flags

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from schemas.config.robot_model import RobotModel
-from schemas.config.sections import Wheels
+from schemas.config.wheels import Wheels
 from sim_host.physics.gravity import GRAVITY
 
 Floats = NDArray[np.float64]

@@ -19,7 +19,7 @@ from typing import Any
 
 from robot_agent.hardware.simulated import frames
 from robot_agent.hardware.simulated.frames import FrameReader, Kind, Motion, Seen
-from schemas.config.sections import Wheels
+from schemas.config.wheels import Wheels
 from schemas.frames import rotate, to_body, wrap
 
 _STEP = 0.001
