@@ -82,7 +82,7 @@ def run(settings: AgentSettings) -> int:
         assert client is not None  # a wait that nothing stops
         with client as bus, ExitStack() as hardware:
             if settings.mates:
-                return serve_team((settings.robot, *settings.mates), serve_robot)
+                return serve_team((settings.robot, *settings.mates), serve_robot, bus.close, clock)
             return serve_robot(settings.robot, ProgramRunner if settings.stdio else BrainRunner)
     except HardwareError as error:
         log_line(f"{settings.robot}: {error}", Level.ERROR)

@@ -136,7 +136,8 @@ def serve(
     `reload` builds the brain in place of `build`, and again when its code has changed between two episodes; None keeps
     the brain.
 
-    The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
+    The status is 0 if the host has gone or the bus is closed, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did
+    so at once.
 
     A host that has left and is back plays another match: the brain is built again before its first sight of it.
 
@@ -154,7 +155,7 @@ def serve(
     gc.collect()
     gc.freeze()
     is_new_match = False
-    while True:
+    while not bus.closed:
         sight = runner.next_sight(IDLE_S)
         is_new_match = host.update() or is_new_match
         if sight is not None and not is_new_match:
@@ -177,3 +178,4 @@ def serve(
             return 0
         else:
             is_new_match = True
+    return 0

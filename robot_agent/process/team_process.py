@@ -1,7 +1,8 @@
 """All robots of a team in one process: a thread each, on one session of the bus, whose brains think in turns.
 
 A match needs a session for each process, and most of its CPU time goes to them: five robots in one process cost a third
-of five processes. A brain that raises ends the process, and with it its teammates.
+of five processes. A brain that raises ends the process, and with it its teammates. The threads end before the process:
+one that returned from Zenoh into an interpreter that shuts down would abort it.
 """
 
 import sys
@@ -15,9 +16,10 @@ from typing import NamedTuple
 from robot_agent.loading.brain_error import RobotError
 from robot_agent.process.brain_runner import report_hang
 from robot_agent.process.runner import Runner
-from robot_agent.process.timing import HANG_S
+from robot_agent.process.timing import HANG_S, PROGRAM_ENDS_S
 from robot_agent.sdk.contract import Brain
 from runtime.bus.contract import Bus
+from runtime.process.clock import Clock
 from runtime.process.process_log import Level, log_line
 from schemas.messages.sight import Sight
 
@@ -74,8 +76,12 @@ class TurnRunner(Runner):
                 raise
 
 
-def serve_team(robots: Sequence[str], serve_robot: Callable[[str, MakeRunner], int]) -> int:
+def serve_team(
+    robots: Sequence[str], serve_robot: Callable[[str, MakeRunner], int], stop: Callable[[], None], clock: Clock
+) -> int:
     """Run each robot by `serve_robot(robot, its runner)` in a thread, until one of them ends; returns its status.
+
+    `stop` then ends the others, for which this waits up to `PROGRAM_ENDS_S`: a brain that hangs is left behind.
 
     Raises:
         TouchlineError: what `serve_robot` raises.
@@ -88,14 +94,25 @@ def serve_team(robots: Sequence[str], serve_robot: Callable[[str, MakeRunner], i
         except BaseException as error:  # for the thread that waits
             ended.put(error)
 
-    for robot in robots:
-        threading.Thread(target=run, args=(robot,), name=robot, daemon=True).start()
+    threads = [threading.Thread(target=run, args=(robot,), name=robot, daemon=True) for robot in robots]
+    try:
+        for thread in threads:
+            thread.start()
+        end = _first_end(ended, turns)
+    finally:
+        stop()
+        deadline = clock.now() + PROGRAM_ENDS_S
+        for thread in filter(threading.Thread.is_alive, threads):
+            thread.join(max(0.0, deadline - clock.now()))
+    if isinstance(end, BaseException):
+        raise end
+    return end
+
+
+def _first_end(ended: "SimpleQueue[int | BaseException]", turns: Turns) -> int | BaseException:
+    """Wait for the first robot that ends; a brain that hangs meanwhile is reported."""
     while True:
         try:
-            end = ended.get(timeout=HANG_S)
+            return ended.get(timeout=HANG_S)
         except Empty:
             turns.look()
-            continue
-        if isinstance(end, BaseException):
-            raise end
-        return end

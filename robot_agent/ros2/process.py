@@ -78,7 +78,12 @@ def serve_robots(bus: Bus, graph: Graph, robots: Sequence[str], every: int, pati
         membership = Membership(bus, name, None, bus.match)
         return serve(bus, robot.begin, name, patience, membership, RosRunner)  # type: ignore[arg-type]
 
-    return serve_team(robots, serve_robot)
+    def stop() -> None:
+        bus.close()
+        for robot in served.values():
+            robot.is_driven.set()  # ends its wait
+
+    return serve_team(robots, serve_robot, stop, bus.clock)
 
 
 def _robots(settings: Ros2Settings, setup: Setup) -> list[str]:

@@ -234,6 +234,11 @@ class Bus(ABC):
     """What was refused before any reader received it."""
     _closed: bool = field(default=False, init=False)
 
+    @property
+    def closed(self) -> bool:
+        """Whether this connection was closed here; its subscriptions then return None without waiting."""
+        return self._closed
+
     @abstractmethod
     def publisher(self, topic: Topic, **chunks: str) -> Publisher:
         """A publisher for one key; every chunk must be given."""

@@ -169,6 +169,18 @@ def test_a_brain_that_raises_ends_the_process_with_its_traceback(
     assert "in _think" not in report  # the traceback begins with the brain's own code
 
 
+def test_a_robot_whose_bus_is_closed_ends_with_status_0_and_waits_for_no_host(stage, capsys, monkeypatch):
+    _, robot = stage
+
+    def closes() -> bool:
+        robot.close()  # as the thread of a teammate does
+        return False
+
+    monkeypatch.setattr(robot, "connected", closes)
+    assert serve(robot, lambda setup: Counting(), "cyan2", 60.0) == 0
+    assert capsys.readouterr().err == ""
+
+
 def failure_of(seats, act, sight):
     """The report of a brain with this function as `act`."""
     brain = type("Some", (), {"act": act})()
