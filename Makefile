@@ -45,7 +45,7 @@ bench-against: $(READY) ## compare the CPU time of matches with another revision
 bench-network: $(READY) ## measure match quality over delay, loss and cuts, for example: make bench-network ARGS="--seconds 60"
 	@.venv/bin/python benchmarks/bench_network.py $(ARGS)
 
-bench-play: $(READY) ## play the ladder of the shipped teams and the reference team in self-play, for example: make bench-play ARGS="--matches 4 --duration 120"
+bench-play: $(READY) ## play the ladder of the shipped teams, the reference team against sparring teams and itself, for example: make bench-play ARGS="--matches 4 --duration 120"
 	@.venv/bin/python benchmarks/bench_play.py $(ARGS)
 
 bench-scheduling: $(READY) ## measure plans of many matches, for example: make bench-scheduling ARGS="many --matches 1000 --seconds 30"

@@ -1,4 +1,4 @@
-"""How the shipped teams play: the ladder, and the reference team in self-play, with a poor radio and without one.
+"""How the shipped teams play: the ladder, and the reference team against the sparring teams, itself, and a poor radio.
 
     python benchmarks/bench_play.py --matches 40 --duration 600
     python benchmarks/bench_play.py --pairings reference-simple self-play --matches 4 --duration 120
@@ -12,6 +12,7 @@ import argparse
 import itertools
 import sys
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from schemas.config.match_config import load_match
@@ -24,6 +25,9 @@ from touchline.matches.series.table import figure_rows, longest_line
 
 LADDER = ("reference", "simple", "nubot", "random")
 """From the strongest team to the weakest."""
+SPARRING = {"early": "early:Early", "press": "press:Press", "deep": "deep:Deep"}
+"""Teams of other styles, against which `reference` is tuned, too: brains in `examples/sparring`."""
+SPARRING_FOLDER = Path(__file__).parents[1] / "examples" / "sparring"
 WITHOUT_RADIO = "robot_agent.teams.reference:WithoutRadio"
 POOR_RADIO = {"loss": 0.2, "delay": 0.1}
 """Share of messages lost; s of delay."""
@@ -45,6 +49,7 @@ class Pairing:
 
 
 PAIRINGS = {f"{first}-{second}": Pairing(first, second) for first, second in itertools.combinations(LADDER, 2)} | {
+    **{f"reference-{name}": Pairing("reference", brain) for name, brain in SPARRING.items()},
     "self-play": Pairing("reference", "reference"),
     "poor-radio": Pairing("reference", "simple", {"radio": POOR_RADIO}),
     "without-radio": Pairing("reference", WITHOUT_RADIO),
@@ -58,7 +63,7 @@ def plan_of(pairing: Pairing, options: argparse.Namespace) -> SeriesPlan:
     config = load_match(None, {"rules": RULES, "duration": options.duration, "teams": teams, **pairing.settings})
     count = options.matches // 2 if pairing.both_sides else options.matches
     seeds = range(options.first_seed, options.first_seed + count)
-    return plan_series(config, seeds, both_sides=pairing.both_sides)
+    return plan_series(config, seeds, both_sides=pairing.both_sides, brain_folder=SPARRING_FOLDER)
 
 
 def tables_of(name: str, pairing: Pairing, rows: list[MatchRow]) -> str:
