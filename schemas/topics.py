@@ -15,6 +15,7 @@ from schemas.messages.debug import RobotDebug
 from schemas.messages.hardware import HardwareHealth
 from schemas.messages.health import Health, Invalid
 from schemas.messages.manual import ManualDrive
+from schemas.messages.pace import PaceReply, PaceRequest
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.radio import Belief
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
@@ -245,6 +246,17 @@ SCENE = Topic(
     "loads a scene, places, adds or removes bodies, or resets the world, or is refused with the reason",
     reply=SceneReply,
 )
+PACE = Topic(
+    "host/pace",
+    PaceRequest,
+    Party.OPERATOR,
+    (Party.HOST,),
+    "on demand",
+    Delivery.QUERY,
+    False,
+    "pauses the match, steps it tick by tick, or lets it run, or is refused with the reason",
+    reply=PaceReply,
+)
 ADMISSION = Topic(
     "host/admission",
     AdmissionRequest,
@@ -362,6 +374,7 @@ TOPICS: dict[str, Topic] = {
     "robot_claim": ROBOT_CLAIM,
     "parameters": PARAMETERS,
     "scene": SCENE,
+    "pace": PACE,
     "admission": ADMISSION,
     "applied": APPLIED,
     "health": HEALTH,

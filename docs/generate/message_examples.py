@@ -17,6 +17,7 @@ from schemas.messages.debug import Debug, DebugCircle, DebugLine, RobotDebug
 from schemas.messages.hardware import CallHealth, DeviceHealth, Fallback, HardwareHealth, HardwareState
 from schemas.messages.health import AccountHealth, Health, Invalid, RobotHealth
 from schemas.messages.manual import ManualDrive
+from schemas.messages.pace import PaceOperation, PaceReply, PaceRequest
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
 from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
@@ -174,6 +175,8 @@ def _host() -> tuple[Message, ...]:
         *_parameters(),
         SceneRequest(operation=SceneOperation.PLACE, place=[Placement(body="ball", x=2.0, y=-1.0, vx=3.0)]),
         SceneReply(accepted=True, episode=1),
+        PaceRequest(operation=PaceOperation.STEP, ticks=10),
+        PaceReply(accepted=True, tick=_TICK, paused=False, until=_TICK + 10),
         Applied(
             tick=_TICK + 1,
             time=_TIME + 0.02,

@@ -11,13 +11,14 @@ from recordings.timing import LATCHED_S, REPLAY_STEP_S
 from runtime.bus.batch_publisher import BatchPublisher
 from runtime.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
 from runtime.process.timing import PARTING_S, POLL_S
+from schemas.messages.pace import PaceReply
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.scene import SceneReply
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import ActionReply
 from schemas.topic import Party, Topic
-from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
+from schemas.topics import ACTION, PACE, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 from schemas.wire.message import VERSION, BadMessageError, Message
 
 _UNCHANGEABLE = "this is a replay: what is recorded cannot be changed"
@@ -25,6 +26,7 @@ _UNCHANGEABLE = "this is a replay: what is recorded cannot be changed"
 _REFUSALS: dict[Topic, Callable[[], Message]] = {
     ACTION: lambda: ActionReply(accepted=False, reason=_UNCHANGEABLE),
     PARAMETERS: lambda: ParametersReply(accepted=False, reason=_UNCHANGEABLE),
+    PACE: lambda: PaceReply(accepted=False, reason="this is a replay: pause it there", tick=0, paused=False),
     SCENE: lambda: SceneReply(accepted=False, reason=_UNCHANGEABLE, episode=1),
 }
 """Queries that change a match, and the refusal that a replay replies with."""

@@ -90,6 +90,8 @@ class Health(Message):
     """`lockstep`, `realtime`, or `x4` for four times real time."""
     real_time_factor: float
     """Simulated seconds per wall second, over the last second."""
+    paused: bool = False
+    """An operator has paused the match."""
     late_ticks: int = 0
     """Ticks that began late; in lockstep, ticks without all answers in time."""
     worst_tick_ms: float = 0.0

@@ -67,7 +67,9 @@ class Host:
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
         self._debug = DebugPublisher(self._batches, tick_s)
-        self._reports = HostReports(self._outbox, self.simulation, self.presence, self._seat, self._admission)
+        self._reports = HostReports(
+            self._outbox, self.simulation, self.presence, self._seat, self._admission, self._services.pause
+        )
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
         )
@@ -116,12 +118,26 @@ class Host:
             if self.stopping:
                 return
             self.presence.update(timeout=POLL_S)
-            self._process_requests()
-            self._reports.publish(self.simulation.now)
-            self._report(self.simulation.now)
-            self._batches.send_if_due()
+            self._serve_between_ticks()
             if self._services.requests.actions:
                 return
+
+    def _wait_while_paused(self) -> None:
+        """Serve all clients until an operator lets the match run or step."""
+        if not self._services.pause.is_paused:
+            return
+        while self._services.pause.is_paused and not self.stopping:
+            self._services.wait_for_operator(POLL_S)
+            self.presence.update()
+            self._serve_between_ticks()
+        self.pace.begin()
+
+    def _serve_between_ticks(self) -> None:
+        """Process requests, and publish reports and batches that are due, while no tick is computed."""
+        self._process_requests()
+        self._reports.publish(self.simulation.now)
+        self._report(self.simulation.now)
+        self._batches.send_if_due()
 
     def _lacks_remote_side(self) -> bool:
         sides, stats = self._sides(), self.inbox.agent_stats
@@ -139,11 +155,12 @@ class Host:
         self.pace.begin()
 
     def tick(self) -> TickResult:
-        """One tick: collect commands, step the simulation, publish the result."""
+        """One tick: collect commands, step the simulation once the match is not paused, publish the result."""
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
         self._debug.publish(commands, self._roster, self.simulation.state)
         self.presence.update()
         self._process_requests()
+        self._wait_while_paused()
         self._look_for_sight_recorders()
         self._set_sim_time(self.simulation.now.tick + 1)
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
@@ -275,7 +292,7 @@ class Host:
         clients = self.inbox, self.presence, self._admission
         radio = self.simulation.radio_use, self.simulation.profile.radio.budget
         report = self._health.report(tick.tick, tick.time, self.pace.late_ticks, *clients, *radio)
-        self._outbox.health.put(report)
+        self._outbox.health.put(report.replace(paused=self._services.pause.is_paused))
 
 
 def _pace(

@@ -8,6 +8,7 @@ from schemas.soccer.game import EventKind
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.admission.door import Admission, PresenceTracker
 from sim_host.server.reports.outbox import Outbox
+from sim_host.server.services.pause import Pause
 from sim_host.server.services.referee_seat import RefereeSeat
 
 log = logging.getLogger("sim_host")
@@ -23,15 +24,17 @@ class HostReports:
         presence: PresenceTracker,
         seat: RefereeSeat,
         admission: Admission,
+        pause: Pause,
     ) -> None:
         self._outbox = outbox
         self._simulation = simulation
         self._presence = presence
         self._seat = seat
         self._admission = admission
+        self._pause = pause
 
     def publish(self, tick: TickResult) -> None:
-        """Log agents that joined or left; publish refusals, changes of the seat, accounts over a limit."""
+        """Log agents that joined or left; publish refusals, changes of the seat, pauses, accounts over a limit."""
         self._log_agents()
         for refusal in self._presence.pop_refusals():
             log.warning(refusal.text)
@@ -39,9 +42,10 @@ class HostReports:
                 self.publish_on_agent(tick, refusal.robot, "claim", refusal.text)
             else:
                 self._publish(tick, "claim", refusal.text)
-        for text in self._seat.pop_changes():
-            log.warning(text)
-            self._publish(tick, "referee_seat", text)
+        for rule, texts in (("referee_seat", self._seat.pop_changes()), ("pace", self._pause.pop_changes())):
+            for text in texts:
+                log.warning(text)
+                self._publish(tick, rule, text)
         names = self._admission.accounts.pop_over_limit()
         over = [f"{name} is over its limit of messages: the rest is not read" for name in names]
         for text in [*over, *self._admission.recorders.pop_changes()]:

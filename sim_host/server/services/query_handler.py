@@ -32,11 +32,15 @@ class QueryHandler:
         self._report = report
         self._allowed = _MOST_AT_ONCE
 
-    def process(self) -> None:
-        """Reply to queries that have arrived; of a flood, the rest waits for the next call."""
+    def process(self, timeout: float = 0.0) -> None:
+        """Reply to queries that have arrived; of a flood, the rest waits for the next call.
+
+        Without one, it is waited for up to `timeout` s.
+        """
         self._allowed = min(_MOST_AT_ONCE, self._allowed + _MOST_IN_A_ROW)
-        while self._allowed and (query := self._server.receive()) is not None:
+        while self._allowed and (query := self._server.receive(timeout)) is not None:
             self._allowed -= 1
+            timeout = 0.0
             try:
                 asked = query.message()
             except BadMessageError as error:

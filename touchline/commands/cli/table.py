@@ -15,7 +15,7 @@ PANELS = {
     "Processes on several machines": ("host", "agent", "team", "ros2", "record", "credentials"),
     "Recordings": ("info", "stats", "verify", "diff", "filter", "recover", "export", "import"),
     "Protocol": ("topics",),
-    "Operate a running match": ("coach", "referee", "scene", "parameters"),
+    "Operate a running match": ("coach", "referee", "scene", "parameters", "pace"),
 }
 """The commands by their place in `touchline --help`."""
 

@@ -197,7 +197,8 @@ def health_line(follower: MatchFollower) -> Text:
         return Text("no health report from the host yet", style=QUIET)
     behind = f"  recorder {max(health.recorders.values())} ticks behind" if health.recorders else "  no recorder"
     total = sum(not robot.still for robot in health.robots.values())
-    words = f"×{health.real_time_factor:.2f} {health.pace}  late {health.late_ticks}  {robots_text(health, total)}"
+    pace = f"{health.pace}, paused" if health.paused else health.pace
+    words = f"×{health.real_time_factor:.2f} {pace}  late {health.late_ticks}  {robots_text(health, total)}"
     line = Text(f"{words}{behind}", style=QUIET)
     losses = losses_text(follower)
     if losses:
