@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from schemas.config.free import GameName
 from schemas.config.match_config import MatchConfig
+from schemas.config.task import GameName
 from schemas.messages.setup import Setup
 from sim_host.free.game import ARENA as FREE_ARENA
 from sim_host.free.game import Free
@@ -12,6 +12,7 @@ from sim_host.game.ball_control import Arena
 from sim_host.game.contract import Game
 from sim_host.soccer.game import ARENA as SOCCER_ARENA
 from sim_host.soccer.game import Soccer
+from sim_host.task.game import TaskGame
 
 
 class GameRow(NamedTuple):
@@ -26,7 +27,7 @@ class GameRow(NamedTuple):
 
 GAMES: Mapping[GameName, GameRow] = {
     GameName.SOCCER: GameRow(SOCCER_ARENA, Soccer.of_match, Soccer.of_setup),
-    GameName.FREE: GameRow(FREE_ARENA, Free.of_match),
+    GameName.FREE: GameRow(FREE_ARENA, lambda _: Free()),
 }
 
 
@@ -36,7 +37,10 @@ def game_of_match(config: MatchConfig) -> Game:
     Raises:
         TouchlineError: the numbers of the game are invalid.
     """
-    return GAMES[config.game].of_match(config)
+    if config.task is None:
+        return GAMES[config.game].of_match(config)
+    game = GAMES[config.game].of_match(config.model_copy(update={"duration": None}))
+    return TaskGame(config.task, game, config.duration, config.seed)
 
 
 def game_of_recording(config: MatchConfig | None, setup: Setup | None) -> Game | None:
@@ -47,7 +51,7 @@ def game_of_recording(config: MatchConfig | None, setup: Setup | None) -> Game |
     """
     if config is not None:
         return game_of_match(config)
-    of_setup = GAMES[setup.game].of_setup if setup is not None else None
+    of_setup = GAMES[setup.game].of_setup if setup is not None and setup.task is None else None
     return of_setup(setup) if of_setup is not None and setup is not None else None
 
 

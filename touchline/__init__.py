@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from schemas.messages.sight import Obstacle as Obstacle
     from schemas.messages.sight import Sight as Sight
     from schemas.soccer.game import TeamPhase as TeamPhase
-    from sim_host.free.score import Moment as Moment
-    from sim_host.free.score import Score as Score
+    from sim_host.task.score import Moment as Moment
+    from sim_host.task.score import Score as Score
     from touchline import skills as skills
     from touchline.play.play_match import MatchOutcome as MatchOutcome
     from touchline.play.play_match import play_match as play_match
@@ -59,7 +59,7 @@ _NAMES = {
     "schemas.messages.drawing": ("Drawing",),
     "schemas.messages.radio": ("BallBelief", "Motion", "Radio"),
     "schemas.messages.sight": ("Obstacle", "Sight"),
-    "sim_host.free.score": ("Moment", "Score"),
+    "sim_host.task.score": ("Moment", "Score"),
     "touchline.play.play_match": ("MatchOutcome", "play_match"),  # these two need PyBullet
 }
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}

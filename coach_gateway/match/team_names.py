@@ -4,8 +4,8 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from schemas.config.free import score_text
 from schemas.config.match_config import MatchConfig
+from schemas.config.task import score_text
 from schemas.messages.setup import Setup
 from schemas.side import Side
 from schemas.soccer.game import Score

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Rectangle
 
-from schemas.config.free import Zone
 from schemas.config.sections import Pitch
+from schemas.config.task import Zone
 
 _GRASS = "#2f6f4e"
 _MOWN = "#33775a"

@@ -1,8 +1,8 @@
 """Formats the facts of a recording for a terminal."""
 
 from recordings.inspection.recording_facts import RecordingFacts
-from schemas.config.free import score_text
 from schemas.config.number_files import versioned_name
+from schemas.config.task import score_text
 
 HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
 """Column headings for `key_rows`."""

@@ -141,9 +141,10 @@ class Drawing:
         entities = [
             obstacle_entity(name, validated(ObstacleTruth, one), frame) for name, (frame, one) in obstacles.items()
         ]
-        if (free := self._setup.free) is not None:
-            return [*floor_entities(self._setup.pitch), *map(zone_entity, free.zones), *entities]
-        return [*field_entities(self._setup.pitch), *entities]
+        if (task := self._setup.task) is not None:
+            entities = [*map(zone_entity, task.zones), *entities]
+        drawn = field_entities if self._setup.free is None else floor_entities
+        return [*drawn(self._setup.pitch), *entities]
 
     def _robots(self, appearance: list[tuple[str, str | None]]) -> list[SceneEntity]:
         return [robot_entity(self._appearance(name, why), self._setup) for name, why in appearance]

@@ -11,9 +11,9 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
 from recordings.viz.colours import BOUNDARY, GOAL, INK, LINE, MOVABLE, NET, OBSTACLE, PITCH, SURROUND
 from recordings.viz.primitives import Triple, cube, cylinder, entity, line, text
-from schemas.config.free import Zone
 from schemas.config.obstacle import Shape
 from schemas.config.sections import Pitch
+from schemas.config.task import Zone
 from schemas.frames import MAP
 from schemas.messages.world import ObstacleTruth
 

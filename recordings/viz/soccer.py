@@ -5,7 +5,7 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from recordings.viz.colours import INK, TEAM_TEXT
 from recordings.viz.foxglove import set_time
 from recordings.viz.primitives import encode_scene, entity, scene_update, text
-from schemas.config.free import score_text
+from schemas.config.task import score_text
 from schemas.frames import MAP
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent, GameState

@@ -4,7 +4,7 @@
 is self-contained.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,8 +12,6 @@ from pydantic import Field, field_validator, model_validator
 
 from schemas.config.config_model import ConfigModel
 from schemas.config.confinement import Isolation, Limits
-from schemas.config.free import REMEDIES as FREE_REMEDIES
-from schemas.config.free import FreeConfig, GameName, with_program
 from schemas.config.match_parts import (
     PROGRAM_KINDS,
     NoiseConfig,
@@ -37,6 +35,8 @@ from schemas.config.scene import Scene, load_scene
 from schemas.config.settings import DEFAULT_MATCH
 from schemas.config.soccer.rule_book import FILES as RULE_BOOKS
 from schemas.config.soccer.rule_book import RuleBook, load_rule_book, rule_book_of
+from schemas.config.task import REMEDIES as TASK_REMEDIES
+from schemas.config.task import GameName, TaskConfig, with_program
 from schemas.config.toml_file import read_tables, validate_tables, with_files
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
@@ -79,7 +79,7 @@ REMEDIES = {
     "limits.processes": "processes and threads of a robot, from 16",
     "limits.file_size": "size of a file in MB, from 0.001",
     "noise.preset": f"one of {', '.join(PRESETS)}",
-    **FREE_REMEDIES,
+    **TASK_REMEDIES,
 }
 """Key → remedy for an invalid value; keys without one get the validator's message."""
 
@@ -138,8 +138,8 @@ class MatchConfig(ConfigModel):
     """What each robot may use of the machine that launches it."""
     game: GameName = GameName.SOCCER
     """The game that is played."""
-    free: FreeConfig | None = None
-    """The numbers of the game `free`; None for soccer."""
+    task: TaskConfig | None = None
+    """What is scored, and what ends the match before its time; None for a match that its game alone decides."""
 
     @field_validator("pace")
     @classmethod
@@ -165,13 +165,13 @@ class MatchConfig(ConfigModel):
 
     @model_validator(mode="after")
     def _check_game(self) -> "MatchConfig":
-        if (self.free is not None) != (self.game is GameName.FREE):
-            given = "below it stands [free]" if self.free is not None else "[free] is missing"
-            raise ValueError(f'game is "{self.game}", and {given}; the table [free] belongs to the game "free"')
-        if self.free is not None:
-            missing = [key for key in ("scene", "duration") if getattr(self, key) is None]
+        if self.game is GameName.FREE:
+            needed: Sequence[str] = ("task", "scene", "duration")
+            missing = [key for key in needed if getattr(self, key) is None]
             if missing:
                 raise ValueError(f'{missing[0]} is missing; the game "free" needs one')
+        if self.task is not None and not self.robots(self.task.side):
+            raise ValueError(f"task.side is {self.task.side}, which has no robots; name the other side")
         return self
 
     @model_validator(mode="after")
@@ -205,6 +205,11 @@ class MatchConfig(ConfigModel):
     def limits_of(self, side: Side) -> Limits:
         """The limits of a robot of a side."""
         return self.team(side).limits.over(self.limits)
+
+    @property
+    def free(self) -> TaskConfig | None:
+        """The task of a game without goals, which only its score decides; None for soccer."""
+        return self.task if self.game is GameName.FREE else None
 
     @property
     def remote_sides(self) -> tuple[Side, ...]:

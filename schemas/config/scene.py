@@ -144,8 +144,8 @@ class Scene(ConfigModel):
     """The obstacles on the pitch."""
     drill: Drill | None = None
     """What makes it a drill: its end and verdict; a match that starts in the scene plays on."""
-    vary: Annotated[list[Variation], Field(max_length=2 * MAX_ROBOTS + 1)] = Field(default_factory=list)
-    """How the start of a drill differs from seed to seed; a match starts in the scene as it is."""
+    vary: Annotated[list[Variation], Field(max_length=2 * MAX_ROBOTS + MAX_OBSTACLES + 1)] = Field(default_factory=list)
+    """How the start of a drill or a task differs from seed to seed; another match starts in the scene as it is."""
 
     @model_validator(mode="after")
     def _check_robots(self) -> "Scene":
@@ -155,12 +155,15 @@ class Scene(ConfigModel):
 
     @model_validator(mode="after")
     def _check_drill(self) -> "Scene":
-        names = [robot.name for robot in self.robots]
+        names, obstacles = [robot.name for robot in self.robots], [obstacle.name for obstacle in self.obstacles]
         for one in self.vary:
-            if one.body not in ("ball", *names):
-                raise ValueError(f'vary names the body "{one.body}"; {did_you_mean(one.body, ["ball", *names])}')
+            bodies = ["ball", *names, *obstacles]
+            if one.body not in bodies:
+                raise ValueError(f'vary names the body "{one.body}"; {did_you_mean(one.body, bodies)}')
             if (one.body == "ball" and one.heading) or (one.body != "ball" and one.vz):
-                raise ValueError(f"vary of {one.body}: the ball has no heading, and a robot no vz; leave it out")
+                raise ValueError(f"vary of {one.body}: only the ball has vz, and only the ball has no heading")
+            if one.body in obstacles and (one.vx or one.vy):
+                raise ValueError(f"vary of {one.body}: an obstacle starts at rest; leave vx and vy out")
         for occurred in [*self.drill.success, *self.drill.failure] if self.drill is not None else []:
             _, colon, who = occurred.partition(":")
             if colon and who not in (*Side, *names):

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
-from schemas.config.free import FreeConfig, GameName, Zone
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import OfficiatingConfig, Parameter
 from schemas.config.number_files import UNVERSIONED
@@ -14,6 +13,7 @@ from schemas.config.sensors.table import Sensor
 from schemas.config.soccer.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.soccer.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.config.soccer.rule_book import Discipline, People, Periods, Restarts, RuleBook, Stall
+from schemas.config.task import GameName, TaskConfig, Zone
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
 from schemas.soccer.game import OfficiatingMode
@@ -42,13 +42,15 @@ class TeamSetup(Part):
     """Values of the match file for the team's own program; the other team can read them, too."""
 
 
-class FreeSetup(Part):
-    """The game `free`: what its score is called, and the zones on the floor."""
+class TaskSetup(Part):
+    """The task of a match: what its score is called, who does it, and the zones on the floor."""
 
     score: str
     """`module:function` of the score."""
     unit: str = ""
     """Unit of the score; empty without one."""
+    side: Side = Side.CYAN
+    """The side that does the task."""
     zones: list[Zone] = []
     """Parts of the floor that the score names."""
 
@@ -127,9 +129,9 @@ class Setup(Message):
     orders: dict[Side, int] = {}
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
     game: GameName = GameName.SOCCER
-    """The game that is played."""
-    free: FreeSetup | None = None
-    """What is known of the game `free`; None for soccer. The numbers of the rule book have no effect in it."""
+    """The game that is played; in a game `free`, the numbers of the rule book have no effect."""
+    task: TaskSetup | None = None
+    """What is known of the task; None for a match without one."""
     sensors: dict[Name, dict[Name, Sensor]] = {}
     """Type → its sensors by name, with their numbers; omitted while no type has any."""
 
@@ -167,10 +169,15 @@ class Setup(Message):
             engine=dict(engine),
             parameters=dict(parameters),
             game=config.game,
-            free=_free(config.free) if config.free is not None else None,
+            task=_task(config.task) if config.task is not None else None,
             sensors={name: dict(carried) for name in types_of(profile) if (carried := profile.sensors_of(name))},
             **{name: getattr(book, name) for name in RULE_SECTIONS},
         )
+
+    @property
+    def free(self) -> TaskSetup | None:
+        """The task of a game without goals, which only its score decides; None for soccer."""
+        return self.task if self.game is GameName.FREE else None
 
     @property
     def sides(self) -> dict[str, Side]:
@@ -207,8 +214,8 @@ class Setup(Message):
         return self.replace(**own)
 
 
-def _free(free: FreeConfig) -> FreeSetup:
-    return FreeSetup(score=free.score, unit=free.unit, zones=free.zones)
+def _task(task: TaskConfig) -> TaskSetup:
+    return TaskSetup(score=task.score, unit=task.unit, side=task.side, zones=task.zones)
 
 
 def _team(config: MatchConfig, side: Side) -> TeamSetup:

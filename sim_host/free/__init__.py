@@ -1,1 +1,1 @@
-"""The game `free`: robots, obstacles, things to push and zones; its score is a function of the user."""
+"""The game `free`: robots, obstacles and things to push, without a ball; its task scores it."""

@@ -1,10 +1,8 @@
-"""The game `free`: robots, obstacles, things to push and zones; its score is a function of the user."""
+"""The game `free`: robots, obstacles and things to push, without a ball; its task scores it."""
 
 import json
 from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple
 
-from schemas.config.free import FreeConfig
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import RosterEntry
@@ -22,19 +20,8 @@ ARENA = Arena(NoBall, Furniture(ball=False, goals=False))
 """No ball, no goals."""
 
 
-class Free(NamedTuple):
-    """A `sim_host.game.contract.Game`: the constants of one match."""
-
-    config: FreeConfig
-    duration: float
-    """Simulated time after which the match ends in s."""
-    seed: int
-
-    @classmethod
-    def of_match(cls, config: MatchConfig) -> "Free":
-        """The game of a match file."""
-        assert config.free is not None and config.duration is not None  # as the config checks
-        return cls(config.free, config.duration, config.seed)
+class Free:
+    """A `sim_host.game.contract.Game`, which needs no numbers of the match."""
 
     @property
     def arena(self) -> Arena:
@@ -47,7 +34,7 @@ class Free(NamedTuple):
         return ()
 
     def fingerprint(self) -> dict[str, str]:
-        """Nothing: the recording holds the text of the score's module."""
+        """Nothing: it computes no more than a clock."""
         return {}
 
     def setup(
@@ -63,9 +50,9 @@ class Free(NamedTuple):
     def check_team_sizes(self, robots: Sequence[RosterEntry]) -> None:
         """Any number of robots may take part."""
 
-    def judge(self, profile: Profile, roster: Roster) -> FreeJudge:
-        """What scores the ticks."""
-        return FreeJudge(self.config, self.duration, self.seed, profile.field, roster)
+    def judge(self, _profile: Profile, _roster: Roster) -> FreeJudge:
+        """What judges the ticks."""
+        return FreeJudge()
 
     def state_json(self, state: FreeState) -> str:
         """The complete state as JSON."""

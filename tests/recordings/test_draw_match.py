@@ -12,11 +12,11 @@ from draw_bodies import COLOURS, draw_bodies
 from draw_match import draw
 from draw_pitch import draw_floor
 from draw_readings import draw_readings
-from schemas.config.free import Zone
 from schemas.config.obstacle import Shape
 from schemas.config.sensors.compass import Compass, CompassReading
 from schemas.config.sensors.contact import Bumper, ContactReading
 from schemas.config.sensors.range import RangeFinder, RangeReading
+from schemas.config.task import Zone
 from schemas.errors import TouchlineError
 from schemas.messages.world import ObstacleTruth, World
 from schemas.side import Side

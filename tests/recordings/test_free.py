@@ -20,7 +20,7 @@ from support.free_match import free_match, record_free_match
 @pytest.fixture(scope="module")
 def free(tmp_path_factory: pytest.TempPathFactory) -> Recording:
     folder = tmp_path_factory.mktemp("free")
-    return open_recording(record_free_match(folder, free_match(folder, **{"free.unit": "m", "teams.cyan.name": "Us"})))
+    return open_recording(record_free_match(folder, free_match(folder, **{"task.unit": "m", "teams.cyan.name": "Us"})))
 
 
 def test_the_summary_has_the_score_with_its_unit_and_the_team_that_played(free: Recording) -> None:

@@ -38,7 +38,7 @@ def free_match(folder: Path, program: str = SCORE, **overrides: Any) -> MatchCon
     settings = {
         "game": "free",
         "duration": 10.0,
-        "free": {"score": "tally:count", "zones": [{"name": "dock", "place": [5.0, 5.0], "radius": 1.0}]},
+        "task": {"score": "tally:count", "zones": [{"name": "dock", "place": [5.0, 5.0], "radius": 1.0}]},
         "noise.preset": "perfect",
         "scene": scene(),
     }

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import Recording
-from schemas.config.free import with_program
 from schemas.config.match_config import MatchConfig
+from schemas.config.task import with_program
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
@@ -46,7 +46,7 @@ class RegeneratedSights:
 def playable_config(recording: Recording, score_folders: Sequence[Path] = ()) -> MatchConfig:
     """The match file of a recording, from which the match can be played again.
 
-    The program that a recording of a free game brings is not run: its score is that of the module in `score_folders`;
+    The program that a recording of a task brings is not run: its score is that of the module in `score_folders`;
     without any it is 0, on which no sight depends.
 
     Raises:
@@ -57,9 +57,9 @@ def playable_config(recording: Recording, score_folders: Sequence[Path] = ()) ->
         raise TouchlineError(
             f"{recording.path}: it has neither sights nor its match file; record with touchline match --sights"
         )
-    if (free := config.free) is None:
+    if (task := config.task) is None:
         return config
-    program = f"def {free.score.partition(':')[2]}(now): return 0.0"
+    program = f"def {task.score.partition(':')[2]}(now): return 0.0"
     if score_folders:
-        program = with_program({"free": {"score": free.score}}, str(recording.path), score_folders)["free"]["program"]
-    return config.model_copy(update={"free": free.model_copy(update={"program": program})})
+        program = with_program({"task": {"score": task.score}}, str(recording.path), score_folders)["task"]["program"]
+    return config.model_copy(update={"task": task.model_copy(update={"program": program})})

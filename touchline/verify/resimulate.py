@@ -106,7 +106,7 @@ def _why_no_referee(recording: Recording, wanted: bool | None) -> str:
     config = config_of(recording)
     if game_of_recording(config, recording.manifest.setup) is None:
         return "the recording has neither its match file nor a setup with the referee's settings"
-    if config is not None and config.free is not None and not wanted:
+    if config is not None and config.task is not None and not wanted:
         return "its score is a program in the recording, which --referee runs"
     return ""
 

@@ -12,7 +12,7 @@ from recordings.editing.atomic_output import ExportSummary, atomic_output
 from recordings.reading.recording import Recording
 from recordings.soccer.league import LOG_PERIOD
 from recordings.soccer.league.game_log import GameLog
-from schemas.config.free import GameName
+from schemas.config.task import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.league.robot_numbers import numbers_of

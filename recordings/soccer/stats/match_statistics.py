@@ -15,7 +15,7 @@ from recordings.soccer.stats.match_tick import GAP, KEYS, MatchTick, match_ticks
 from recordings.soccer.stats.momentum import Momentum
 from recordings.soccer.stats.motion import MotionTracker
 from recordings.soccer.stats.referee_calls import RefereeCalls
-from schemas.config.free import GameName
+from schemas.config.task import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.world import World

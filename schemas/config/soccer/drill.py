@@ -62,16 +62,16 @@ class Drill(ConfigModel):
 
 
 class Variation(ConfigModel):
-    """How far a body of a drill may start from its place in the scene, to both sides; equally likely."""
+    """How far a body may start from its place in the scene, to both sides; equally likely."""
 
     body: Name
-    """The body: `ball`, or the name of a robot."""
+    """The body: `ball`, or the name of a robot or an obstacle."""
     x: Annotated[float, Field(ge=0)] = 0.0
     """x in m."""
     y: Annotated[float, Field(ge=0)] = 0.0
     """y in m."""
     heading: Annotated[float, Field(ge=0)] = 0.0
-    """Heading of a robot in rad."""
+    """Heading of a robot or an obstacle in rad."""
     vx: Annotated[float, Field(ge=0)] = 0.0
     """Velocity along x in m/s."""
     vy: Annotated[float, Field(ge=0)] = 0.0

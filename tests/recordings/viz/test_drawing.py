@@ -352,7 +352,7 @@ def test_of_a_free_game_floor_zones_and_score_are_drawn_and_the_box_moves_with_i
         {"name": "dock", "place": [3.0, 0.0], "radius": 1.5},
         {"name": "lane", "place": [-2.0, 1.0], "size": [2.0, 1.0], "heading": 0.5},
     ]
-    match = free_match(tmp_path, **{"free.unit": "m", "free.zones": zones})
+    match = free_match(tmp_path, **{"task.unit": "m", "task.zones": zones})
     board = Board(Setup.of(match, load_profile("msl"), load_rule_book("msl")))
     size = {"radius": 0.3, "height": 0.4, "shape": Shape.BOX, "size_x": 0.6, "size_y": 0.5}
     box = ObstacleTruth(

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from pytest import approx
 
-from schemas.config.free import GameName
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.obstacle import ObstacleConfig
 from schemas.config.roster import Placement
+from schemas.config.task import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.scene import SceneOperation, SceneRequest
@@ -34,7 +34,7 @@ def play(tmp_path: Path) -> Iterator[Any]:
     made = []
 
     def make(**overrides: Any) -> Simulation:
-        made.append(Simulation(free_match(tmp_path, **{"free.score": "tally:plain"} | overrides)))
+        made.append(Simulation(free_match(tmp_path, **{"task.score": "tally:plain"} | overrides)))
         return made[-1]
 
     yield make
@@ -165,7 +165,7 @@ def _played(config: MatchConfig) -> _Played:
 
 
 def test_a_plain_number_is_a_score_and_the_duration_ends_the_match(play) -> None:
-    simulation = play(**{"free.score": "tally:plain", "duration": 0.5})
+    simulation = play(**{"task.score": "tally:plain", "duration": 0.5})
     while not simulation.over:
         simulation.step({})
     assert simulation.now.time == approx(0.5)
@@ -186,9 +186,9 @@ def test_people_may_end_it(play) -> None:
 
 
 def test_viewers_know_the_game_its_unit_and_its_zones(play) -> None:
-    setup = play(**{"free.unit": "points"}).setup()
+    setup = play(**{"task.unit": "points"}).setup()
     again = type(setup).decode(setup.encode())
-    assert (again.game, again.free.unit, again.free.zones[0].name) == (GameName.FREE, "points", "dock")
+    assert (again.game, again.task.unit, again.task.zones[0].name) == (GameName.FREE, "points", "dock")
     assert "def count" not in setup.encode().decode()
 
 
@@ -199,20 +199,20 @@ def test_goals_are_not_compared_where_there_are_none(tmp_path: Path) -> None:
 
 FAULTS = {
     "an unknown game": ({"game": "chess"}, "game is 'chess'; one of soccer, free"),
-    "no table": ({"free": None}, r'\[free\] is missing; the table \[free\] belongs to the game "free"'),
-    "a table of another game": ({"game": "soccer"}, 'game is "soccer", and below it stands'),
+    "no table": ({"task": None}, 'task is missing; the game "free" needs one'),
+    "a side without robots": ({"task.side": "magenta"}, "task.side is magenta, which has no robots; name the other"),
     "no duration": ({"duration": None}, 'duration is missing; the game "free" needs one'),
     "no scene": ({"scene": None}, 'scene is missing; the game "free" needs one'),
-    "no such module": ({"free.score": "nothing:count"}, 'free.score is "nothing:count"; there is no nothing.py in '),
-    "no such function": ({"free.score": "tally:cuont"}, 'has no function cuont; did you mean "count"'),
-    "no function": ({"free.score": "tally"}, "free.score is 'tally'; write .module:function"),
+    "no such module": ({"task.score": "nothing:count"}, 'task.score is "nothing:count"; there is no nothing.py in '),
+    "no such function": ({"task.score": "tally:cuont"}, 'has no function cuont; did you mean "count"'),
+    "no function": ({"task.score": "tally"}, "task.score is 'tally'; write .module:function"),
     "no Python": ({"program": "def count(:"}, r"invalid syntax \(.*tally.py, line 1\)"),
     "a zone of two shapes": (
-        {"free.zones": [{"name": "a", "place": [0, 0], "radius": 1.0, "size": [1, 1]}]},
+        {"task.zones": [{"name": "a", "place": [0, 0], "radius": 1.0, "size": [1, 1]}]},
         "give radius or size",
     ),
     "two zones of a name": (
-        {"free.zones": [{"name": "a", "place": [0, 0], "radius": 1.0}] * 2},
+        {"task.zones": [{"name": "a", "place": [0, 0], "radius": 1.0}] * 2},
         'two zones are named "a"',
     ),
     "friction of what stands fast": ({"scene": scene(mass=None)}, "friction is for an obstacle with a mass"),
@@ -245,7 +245,7 @@ RUNTIME = {
 @pytest.mark.parametrize("body, said", RUNTIME.values(), ids=RUNTIME)
 def test_a_fault_of_the_score_is_one_line_with_its_place(tmp_path: Path, body: str, said: str) -> None:
     simulation = Simulation(free_match(tmp_path, f"def count(now):\n    {body}\n"))
-    with pytest.raises(TouchlineError, match='free.score is "tally:count"; ' + said):
+    with pytest.raises(TouchlineError, match='task.score is "tally:count"; ' + said):
         while not simulation.over:
             simulation.step({})
     simulation.close()

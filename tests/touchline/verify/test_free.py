@@ -47,7 +47,7 @@ def test_what_is_not_told_to_runs_nothing_of_the_recording(tmp_path: Path, monke
     assert compare_brain(open_recording(path), "one", "support.free_match:Pusher").first is None
     (tmp_path / "tally.py").unlink()
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(TouchlineError, match=r'free.score is "tally:count"; there is no tally.py in .*; put its file'):
+    with pytest.raises(TouchlineError, match=r'task.score is "tally:count"; there is no tally.py in .*; put its file'):
         LiveMatch(open_recording(path), "one", "support.free_match:Pusher")
     assert not proof.exists()
     verify(path, referee=True)

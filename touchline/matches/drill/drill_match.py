@@ -5,7 +5,7 @@ from typing import Any
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.scene import Scene, load_scene
 from schemas.side import Side
-from touchline.matches.drill.variation import varied
+from sim_host.staging.variation import varied
 
 
 def drill_match(

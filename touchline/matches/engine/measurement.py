@@ -5,7 +5,7 @@ from pathlib import Path
 from recordings.reading.recording import open_recording
 from recordings.soccer.stats.match_statistics import MatchStatistics, match_ticks_of
 from recordings.soccer.stats.match_tick import MatchTick
-from schemas.config.free import GameName
+from schemas.config.task import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameState

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from robot_agent.process.timing import HANG_S
-from schemas.config.free import GameName
 from schemas.config.match_config import LOCKSTEP, MatchConfig
+from schemas.config.task import GameName
 from schemas.side import Side
 
 
@@ -66,7 +66,7 @@ _NO_PART: Mapping[str, Any] = {
     "teams": {side.value: {"process"} for side in Side},
 }
 """Fields of a config on which the result of a match does not depend."""
-_LATER = {"game": GameName.SOCCER, "free": None, "mass": None, "friction": None}
+_LATER = {"game": GameName.SOCCER, "task": None, "mass": None, "friction": None}
 """Fields that the configs of published matches do not have → the value at which an identity leaves them out."""
 
 

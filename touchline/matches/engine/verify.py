@@ -145,7 +145,7 @@ def _check_recording(path: Path, planned: PlannedMatch, outcome: Result) -> tupl
         recorded = open_recording(path).manifest.config
         is_own = recorded is not None and _compared(recorded) == _compared(planned.config)
         runs_score = (
-            is_own and planned.config.free is not None
+            is_own and planned.config.task is not None
         )  # the plan's own program, not one that a recording brings
         ticks, faults = _simulated(path, runs_score=runs_score)
         if not is_own:

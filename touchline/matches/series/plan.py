@@ -4,9 +4,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from schemas.config.free import GameName
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import TeamConfig, TeamConfigs
+from schemas.config.task import GameName
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.matches.engine.planned_match import PlannedMatch

@@ -95,7 +95,7 @@ export class Match {
 
   /** The game `free`: its unit and zones; null in soccer. */
   get free() {
-    return this.setup?.free ?? null;
+    return this.setup?.game === "free" ? this.setup.task : null;
   }
 
   /** The sides that play: in a free game one may have no robots. */

@@ -23,7 +23,7 @@ def words(folder: Path, program: str = SCORE, **more: Any) -> dict[str, Any]:
     shelf = {key: value for key, value in BOX.items() if key not in ("mass", "friction")} | {"name": "shelf"}
     stage = scene()
     stage["obstacles"].append(shelf | {"place": [-4.0, -3.0]})
-    settings = {"free.unit": "points", "free.zones": ZONES, "scene": stage, "teams.cyan.name": "Us", **more}
+    settings = {"task.unit": "points", "task.zones": ZONES, "scene": stage, "teams.cyan.name": "Us", **more}
     return free_match(folder, program, **settings).model_dump() | {"name": "friendly", "pace": "realtime"}
 
 

@@ -314,5 +314,5 @@ def test_a_match_whose_score_fails_has_failed_by_nobody_s_fault(folder: Path, tm
     )
     outcome = play(PlannedMatch(config, brain_folder=folder, logs=tmp_path / "logs"))
     assert isinstance(outcome, Failed) and not outcome.culprits
-    line = """free.score is "tally:count"; it raised AttributeError: .*'nothing' \\(tally.py, line 2\\) at tick 1"""
+    line = """task.score is "tally:count"; it raised AttributeError: .*'nothing' \\(tally.py, line 2\\) at tick 1"""
     assert re.fullmatch(line, outcome.reason)

@@ -1,4 +1,4 @@
-"""The game `free` of a match file: its score, and the zones that the score names.
+"""The task of a match file: what is scored, who is controlled, and the zones that the score names.
 
 The text of the score's module is embedded like a profile: a config is self-contained, so that a recording can be judged
 again where the module's file is not, or has changed since.
@@ -14,9 +14,9 @@ from typing import Annotated, Any
 from pydantic import Field, StringConstraints, model_validator
 
 from schemas.config.config_model import ConfigModel
-from schemas.config.obstacle import Length
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.frames import rotate
+from schemas.side import Side
 from schemas.wire.message import Name
 
 
@@ -29,13 +29,18 @@ class GameName(StrEnum):
 
 REMEDIES = {
     "game": f"one of {', '.join(GameName)}",
-    "free": "write [free], and below it score",
-    "free.score": 'write "module:function"',
-    "free.zones": "write [[free.zones]] above each zone",
-    "free.zones.place": "x and y of the centre in m",
-    "free.zones.size": "x and y of a rectangle in m",
+    "task": "write [task], and below it score",
+    "task.side": "cyan or magenta",
+    "task.score": 'write "module:function"',
+    "task.zones": "write [[task.zones]] above each zone",
+    "task.zones.place": "x and y of the centre in m",
+    "task.zones.size": "x and y of a rectangle in m",
 }
 """Key → remedy for an invalid value."""
+
+
+Extent = Annotated[float, Field(gt=0, le=100)]
+"""m."""
 
 
 class Zone(ConfigModel):
@@ -45,9 +50,9 @@ class Zone(ConfigModel):
     """Name of the zone."""
     place: Annotated[list[float], Field(min_length=2, max_length=2)]
     """x and y of its centre in m, field frame."""
-    radius: Length | None = None
+    radius: Extent | None = None
     """Radius of a circle in m; None for a rectangle."""
-    size: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = None
+    size: Annotated[list[Extent], Field(min_length=2, max_length=2)] | None = None
     """Size of a rectangle in m: x along its heading, y across; None for a circle."""
     heading: float = 0.0
     """Direction of a rectangle's `size` x in the field frame, in rad."""
@@ -67,21 +72,27 @@ class Zone(ConfigModel):
         return abs(along) <= self.size[0] / 2 and abs(across) <= self.size[1] / 2
 
 
-class FreeConfig(ConfigModel):
-    """The game `free`: robots, obstacles and zones, no ball and no referee."""
+class TaskConfig(ConfigModel):
+    """A task: a score of the match, whatever its game is, which can end it.
+
+    With a task, the `duration` of the match is the simulated time after which it ends, and the start of its scene is
+    drawn from the seed, as the scene's `vary` allows.
+    """
 
     score: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")]
-    """`module:function` that scores each tick, see `sim_host.free.score`; the module is a file beside the match file or
+    """`module:function` that scores each tick, see `sim_host.task.score`; the module is a file beside the match file or
     in the current directory."""
     unit: Annotated[str, StringConstraints(max_length=20)] = ""
     """Unit of the score, for display."""
+    side: Side = Side.CYAN
+    """The side that does the task: its robots are played by the brain or the policy that is scored."""
     zones: Annotated[list[Zone], Field(max_length=100)] = Field(default_factory=list)
     """Parts of the floor that the score names."""
     program: str = ""
     """Text of the score's module; a match file gives none."""
 
     @model_validator(mode="after")
-    def _check_names(self) -> "FreeConfig":
+    def _check_names(self) -> "TaskConfig":
         names = [zone.name for zone in self.zones]
         if doubled := next((name for name in names if names.count(name) > 1), None):
             raise ValueError(f'two zones are named "{doubled}"; every zone has a name of its own')
@@ -103,20 +114,20 @@ def with_program(content: dict[str, Any], where: str, folders: Iterable[Path]) -
     Raises:
         TouchlineError: there is no such module, it is no Python, or it has no such function.
     """
-    free = content.get("free")
-    score = free.get("score") if isinstance(free, dict) else None
-    if not isinstance(free, dict) or not isinstance(score, str) or ":" not in score:
+    task = content.get("task")
+    score = task.get("score") if isinstance(task, dict) else None
+    if not isinstance(task, dict) or not isinstance(score, str) or ":" not in score:
         return content  # the validator names what is wrong
-    if "program" in free:
-        raise TouchlineError(f'{where}: free.program is not for match files; write free.score = "module:function"')
+    if "program" in task:
+        raise TouchlineError(f'{where}: task.program is not for match files; write task.score = "module:function"')
     module, _, name = score.partition(":")
-    file = _file_of(module, f'{where}: free.score is "{score}"', folders)
+    file = _file_of(module, f'{where}: task.score is "{score}"', folders)
     program = file.read_text("utf-8")
-    names = _names_in(program, file, f'{where}: free.score is "{score}"')
+    names = _names_in(program, file, f'{where}: task.score is "{score}"')
     if name not in names:
         hint = did_you_mean(name, names) if names else "it defines none"
-        raise TouchlineError(f'{where}: free.score is "{score}"; {file} has no function {name}; {hint}')
-    return content | {"free": {**free, "program": program}}
+        raise TouchlineError(f'{where}: task.score is "{score}"; {file} has no function {name}; {hint}')
+    return content | {"task": {**task, "program": program}}
 
 
 def _file_of(module: str, fault: str, folders: Iterable[Path]) -> Path:

@@ -1,6 +1,6 @@
-"""The score of a free game: a user's function of the true state, called once a tick.
+"""The score of a task: a user's function of the true state, called once a tick.
 
-    from sim_host.free.score import Moment, Score
+    from sim_host.task.score import Moment, Score
 
     def score(now: Moment) -> Score:
         done = now.zones["dock"].contains(now.obstacles["box"].x, now.obstacles["box"].y)
@@ -20,10 +20,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from schemas.config.free import FreeConfig, Zone
 from schemas.config.sections import Pitch
+from schemas.config.task import TaskConfig, Zone
 from schemas.errors import TouchlineError
-from sim_host.snapshot import ObstacleState, RobotState
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.side import Side
+from sim_host.snapshot import BallState, ObstacleState, RobotState
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,20 @@ class Moment:
     """Zone of the match file → its shape."""
     pitch: Pitch
     """The floor: `goal_line` and `touch_line` are its half length and width, and `border` what lies beyond in m."""
+    sides: Mapping[str, Side]
+    """Robot → its side."""
+    ball: BallState | None
+    """The ball; None in a game without one."""
+    holder: str | None
+    """The robot that holds the ball."""
+    touches: tuple[str, ...]
+    """Robots that touched, held or kicked the ball since the tick before, in order of their last touch."""
+    kicked: str | None
+    """The robot whose kick was carried out in this tick."""
+    events: Sequence[GameEvent]
+    """What the game's judge decided in this tick: goals, fouls, balls out, restarts."""
+    game: GameState
+    """The state of the game after it: phase, goals, clock."""
     memory: Any
     """What the tick before left in `Score.memory`; None in the first."""
     seed: int
@@ -63,6 +79,8 @@ class Score:
     """The score so far; a finite number."""
     over: bool = False
     """The match ends with this tick."""
+    reward: float | None = None
+    """What a learner gets for this tick; None for the change of `value`."""
     memory: Any = None
     """What the next tick needs: numbers, texts, lists and objects, as JSON has them."""
     events: Sequence[str] = ()
@@ -72,25 +90,25 @@ class Score:
 ScoreFunction = Callable[[Moment], Score | float]
 
 
-def load_score(free: FreeConfig) -> ScoreFunction:
+def load_score(task: TaskConfig) -> ScoreFunction:
     """The score function of a config; runs the text of its module.
 
     Raises:
         TouchlineError: the module raises, or has no such function.
     """
-    module, _, name = free.score.partition(":")
+    module, _, name = task.score.partition(":")
     names: dict[str, Any] = {"__name__": module}
     try:
-        exec(compile(free.program, _file(free), "exec"), names)
+        exec(compile(task.program, _file(task), "exec"), names)
     except Exception as error:
-        raise _fault(free, error, "") from error
+        raise _fault(task, error, "") from error
     found: ScoreFunction | None = names.get(name)
     if not callable(found):
-        raise TouchlineError(f'free.score is "{free.score}"; {module} has no function {name}')
+        raise TouchlineError(f'task.score is "{task.score}"; {module} has no function {name}')
     return found
 
 
-def call_score(free: FreeConfig, function: ScoreFunction, now: Moment) -> Score:
+def call_score(task: TaskConfig, function: ScoreFunction, now: Moment) -> Score:
     """The score of a tick, checked.
 
     Raises:
@@ -99,17 +117,18 @@ def call_score(free: FreeConfig, function: ScoreFunction, now: Moment) -> Score:
     try:
         returned = function(now)
     except Exception as error:
-        raise _fault(free, error, f" at tick {now.tick}") from error
+        raise _fault(task, error, f" at tick {now.tick}") from error
     score = returned if isinstance(returned, Score) else Score(returned)
-    if isinstance(score.value, bool) or not isinstance(score.value, int | float) or not math.isfinite(score.value):
-        raise TouchlineError(
-            f'free.score is "{free.score}"; at tick {now.tick} it returned {score.value!r}; '
-            "return a finite number, or a Score with one"
-        )
+    for number in (score.value, score.reward if score.reward is not None else 0.0):
+        if isinstance(number, bool) or not isinstance(number, int | float) or not math.isfinite(number):
+            raise TouchlineError(
+                f'task.score is "{task.score}"; at tick {now.tick} it returned {number!r}; '
+                "return a finite number, or a Score with one"
+            )
     return score
 
 
-def memory_text(free: FreeConfig, memory: Any) -> str:
+def memory_text(task: TaskConfig, memory: Any) -> str:
     """The memory of a score as JSON.
 
     Raises:
@@ -118,16 +137,16 @@ def memory_text(free: FreeConfig, memory: Any) -> str:
     try:
         return json.dumps(memory, allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:
-        raise TouchlineError(f'free.score is "{free.score}"; its memory is no JSON: {error}') from None
+        raise TouchlineError(f'task.score is "{task.score}"; its memory is no JSON: {error}') from None
 
 
-def _file(free: FreeConfig) -> str:
+def _file(task: TaskConfig) -> str:
     """The name of the module's file, for messages."""
-    return free.score.partition(":")[0].replace(".", "/") + ".py"
+    return task.score.partition(":")[0].replace(".", "/") + ".py"
 
 
-def _fault(free: FreeConfig, error: Exception, when: str) -> TouchlineError:
-    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == _file(free)]
-    line = f" ({_file(free)}, line {frames[-1].lineno})" if frames else ""
+def _fault(task: TaskConfig, error: Exception, when: str) -> TouchlineError:
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == _file(task)]
+    line = f" ({_file(task)}, line {frames[-1].lineno})" if frames else ""
     reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    return TouchlineError(f'free.score is "{free.score}"; it raised {reason}{line}{when}')
+    return TouchlineError(f'task.score is "{task.score}"; it raised {reason}{line}{when}')

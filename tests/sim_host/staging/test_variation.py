@@ -4,7 +4,7 @@ from pytest import approx
 
 from schemas.config.scene import load_scene
 from schemas.config.soccer.drill import Variation
-from touchline.matches.drill.variation import varied
+from sim_host.staging.variation import varied
 
 SCENE = load_scene("one_against_keeper").model_copy(
     update={"vary": [Variation(body="ball", x=0.5, vy=1.0), Variation(body="cyan2", heading=0.2)]}

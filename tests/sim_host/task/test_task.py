@@ -1,0 +1,92 @@
+"""A task in a match of soccer: it is scored, rewarded and ended while the referee officiates."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pytest import approx
+
+from schemas.errors import TouchlineError
+from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import RefereeAction
+from schemas.soccer.game import ActionName, EventKind, Phase
+from sim_host.match.simulation import Simulation
+from support.task_match import SCENE, task_match
+
+
+@pytest.fixture
+def play(tmp_path: Path) -> Iterator[Any]:
+    """Make simulations of a match."""
+    made = []
+
+    def make(**overrides: Any) -> Simulation:
+        made.append(Simulation(task_match(tmp_path, **overrides)))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+def test_the_score_is_published_with_the_goals_and_the_change_of_it_is_the_reward(play) -> None:
+    simulation = play()
+    simulation.step({})
+    first = simulation.state.game_state(1, 0.02)
+    assert first.phase is Phase.PLAY and first.score.cyan == 0
+    assert first.value == approx(simulation.now.world["ball"]["x"]) and first.left == approx(7.98)
+    simulation.step({})
+    assert simulation.state.reward == approx(simulation.state.value - first.value)
+
+
+def test_a_task_ends_by_its_time_in_the_middle_of_a_half(play) -> None:
+    simulation = play(duration=0.5, **{"task.score": "tally:phases"})
+    events = []
+    while not simulation.over:
+        events += simulation.step({}).events
+    assert (simulation.state.ended_by, simulation.now.tick, simulation.state.value) == ("time", 25, 11.0)
+    assert [event.text for event in events] == ["ends after 0.50 s with the score 11"]
+    sight = Sight.decode(simulation.now.sights["cyan1"])
+    assert (sight.game.phase, sight.game.running) == ("full_time", False)
+    assert simulation.step({}, [RefereeAction(action=ActionName.STOP)]).replies[0].reason == "the match is over"
+
+
+def test_a_task_ends_by_its_score_and_with_the_game(play) -> None:
+    rolling = play(scene=SCENE | {"ball": {"x": 1.0, "y": 0.0, "vy": 9.0}, "vary": []})
+    while not rolling.over:
+        tick = rolling.step({})
+    assert rolling.state.ended_by == "score" and rolling.now.time < 8.0
+    assert EventKind.BALL_OUT in [event.kind for event in tick.events]
+    ended = play()
+    reply = ended.step({}, [RefereeAction(action=ActionName.END_GAME)]).replies[0]
+    assert (reply.accepted, ended.state.ended_by) == (True, "game")
+
+
+def test_a_kick_earns_the_reward_that_the_function_gives(play) -> None:
+    simulation = play(scene=SCENE | {"ball": {"x": 0.4, "y": 0.0}, "vary": []})
+    rewards, kick = [], Kick(mode=KickMode.GROUND, speed=3.0)
+    for _ in range(60):
+        command = Command(answers_tick=simulation.now.tick, drive=Drive(vx=0.5), dribble=True, kick=kick)
+        simulation.step({"cyan1": command})
+        rewards.append(simulation.state.reward)
+    assert 2.0 in rewards
+
+
+def test_each_seed_draws_a_start_and_equal_seeds_draw_equal_ones(play) -> None:
+    one, again, other = (play(seed=seed).now.world for seed in (3, 3, 4))
+    assert one["ball"] == again["ball"] != other["ball"]
+    assert one["obstacles"]["post"]["x"] == again["obstacles"]["post"]["x"] != other["obstacles"]["post"]["x"]
+    assert abs(one["ball"]["y"]) <= 3.0 and one["ball"]["x"] == 1.0
+
+
+def test_a_start_whose_bodies_overlap_is_drawn_again(play) -> None:
+    crowded = SCENE | {"vary": [{"body": "magenta1", "x": 6.0, "y": 4.0}, {"body": "ball", "x": 1.2}]}
+    for seed in range(60):
+        play(scene=crowded, seed=seed)
+
+
+def test_a_scene_without_room_is_refused(play) -> None:
+    full = SCENE | {"obstacles": [SCENE["obstacles"][0] | {"place": [0.0, 0.0]}], "vary": [{"body": "post", "x": 0.01}]}
+    with pytest.raises(TouchlineError, match="post"):
+        play(scene=full)

@@ -1,0 +1,77 @@
+"""Keepaway, three against two: for how long the ball stays with the three. A keeper and a taker to start from."""
+
+import math
+
+from touchline import Action, Briefing, CoachOrder, Drive, Moment, Player, Score, WorldBelief, skills
+
+PRESSED = 1.8
+"""m; the holder passes before a taker is nearer than this."""
+PLACES = ((-3.5, 0.0), (2.5, -3.5), (2.5, 3.5))
+"""m; where the keepers wait for a pass."""
+AIR = 0.1
+"""m between the hulls of two robots that pass each other."""
+
+
+def kept(now: Moment) -> Score:
+    """s until a taker holds the ball, it leaves the square, or the referee stops play."""
+    assert now.ball is not None
+    taken = now.holder is not None and now.sides[now.holder] != "cyan"
+    is_out = not now.zones["square"].contains(now.ball.x, now.ball.y)
+    return Score(now.time, over=taken or is_out or bool(now.events))
+
+
+class Taker(Player):
+    """Drives to the ball and takes it."""
+
+    def play(self, belief: WorldBelief, _order: CoachOrder | None) -> Action:
+        """Get the ball."""
+        return self.get_ball(belief)
+
+    def get_ball(self, belief: WorldBelief) -> Action:
+        """Drive to where the ball can be met first."""
+        if belief.ball is None:
+            return Action("", "wait", Drive())
+        ball, gap = belief.ball.now, self.setup.dribble.gap
+        meeting = skills.meet(belief.me, skills.way_of(ball, self.rolling), gap, self.limits)
+        mates = [mate.body[:2] for mate in belief.mates.values()]
+        clearance = 2.0 * self.setup.robot.reach + AIR
+        drive = skills.take_ball(belief.me, ball, meeting, gap, belief.opponents, clearance, self.limits, mates)
+        return Action("attacker", "get the ball", drive, dribble=True)
+
+
+class Keeper(Taker):
+    """Holds the ball until a taker comes, and passes it to the most open keeper; the others wait in a triangle."""
+
+    def __init__(self, briefing: Briefing) -> None:
+        super().__init__(briefing)
+        self.receiver = ""
+        """The keeper that the ball was passed to last."""
+
+    def play(self, belief: WorldBelief, _order: CoachOrder | None) -> Action:
+        """Hold, pass, receive or wait."""
+        if belief.ball is None:
+            return Action("", "wait", Drive())
+        if belief.holding:
+            return self.keep(belief)
+        passed = [mate.pass_to for mate in belief.mates.values() if mate.pass_to]
+        self.receiver = passed[0] if passed else self.receiver
+        spot, me = belief.ball.now[:2], self.briefing.robot
+        field = {me: belief.me[:2]} | {name: mate.body[:2] for name, mate in belief.mates.items()}
+        if me == min(field, key=lambda name: (name != self.receiver, math.dist(field[name], spot))):
+            return self.get_ball(belief)
+        self.receiver = "" if self.receiver == me else self.receiver
+        place = PLACES[self.briefing.number - 1]
+        facing = math.atan2(spot[1] - belief.me.y, spot[0] - belief.me.x)
+        return Action("", "wait", skills.go_to(belief.me, *place, facing, self.limits))
+
+    def keep(self, belief: WorldBelief) -> Action:
+        """Wait for the takers, then pass."""
+        me = belief.me[:2]
+        mates = {name: mate.body[:2] for name, mate in belief.mates.items()}
+        best = max(mates, key=lambda name: skills.lane_width(me, mates[name], belief.opponents), default=None)
+        near = min((math.dist(me, opponent) for opponent in belief.opponents), default=math.inf)
+        if best is None or near > PRESSED:
+            return Action("holder", "hold", Drive(), dribble=True)
+        drive, kick = skills.pass_to(belief.me, mates[best], self.setup, self.limits)
+        self.receiver = best
+        return Action("holder", "pass", drive, dribble=True, kick=kick, pass_to=best if kick else None)
