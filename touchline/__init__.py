@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from schemas.config.match_config import MatchConfig as MatchConfig
     from schemas.config.match_config import load_match as load_match
     from schemas.config.robot_model import RobotModel as RobotModel
+    from schemas.config.sensors.compass import CompassReading as CompassReading
+    from schemas.config.sensors.contact import ContactReading as ContactReading
+    from schemas.config.sensors.range import RangeReading as RangeReading
     from schemas.messages.coach import CoachOrder as CoachOrder
     from schemas.messages.command import Command as Command
     from schemas.messages.command import Drive as Drive
@@ -52,6 +55,9 @@ _NAMES = {
     "robot_agent.sdk.world_model": ("SeenBall", "Teammate", "WorldBelief", "WorldModel"),
     "schemas.config.match_config": ("MatchConfig", "load_match"),
     "schemas.config.robot_model": ("RobotModel",),
+    "schemas.config.sensors.compass": ("CompassReading",),
+    "schemas.config.sensors.contact": ("ContactReading",),
+    "schemas.config.sensors.range": ("RangeReading",),
     "schemas.soccer.game": ("TeamPhase",),
     "schemas.messages.coach": ("CoachOrder",),
     "schemas.messages.command": ("Command", "Drive", "Kick", "KickMode"),
