@@ -1,6 +1,7 @@
 """`touchline experiment`: studies over factors of a match, and their reproduction."""
 
 import signal
+from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -60,6 +61,7 @@ def run(
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Play all matches again, also those that have a result.")
     ] = False,
+    failures: options.Failures = 0,
     jobs: options.Jobs = 0,
     dask: options.Dask = None,
     json: options.Json = False,
@@ -68,12 +70,14 @@ def run(
 
     A study that was interrupted goes on where it stopped: the result of each match is stored as soon as it has ended.
     `touchline experiment STUDY.toml` is short for this command. If a match fails, the others go on, and the exit
-    status is 1.
+    status is 1. With --failures, the worst matches are those with the least values of the first response.
 
     Example: touchline experiment run studies/sides.toml --jobs 2
     """
     _need_packages()
+    from touchline.matches.engine.failures import keep_failures
     from touchline.matches.engine.session import session_of
+    from touchline.matches.engine.store import RunStore
     from touchline.matches.study.cells import cells_of
     from touchline.matches.study.comparisons import answers, compared, unread_factors
     from touchline.matches.study.run_study import run_study
@@ -102,6 +106,13 @@ def run(
         raise typer.Exit(128 + signal.SIGINT)
     failed = result.failed
     stored = read_study(folder)
+    kept = None
+    if failures:
+        worths = dict(zip(stored.table["identity"], stored.table[study.primary], strict=True))
+        planned = [one.planned for one in plan.matches(result.seeds)]
+        with closing(RunStore(folder, read_only=True)) as store:
+            outcomes = store.outcomes()
+        kept = keep_failures(planned, outcomes, lambda one: worths.get(one.identity), failures, folder, jobs, json=json)
     sentences = [sentence_of_missing(name, list(stored.table)) for name in study.responses if name not in stored.table]
     sentences += [sentence_of_unread(key) for key in unread_factors(plan, stored.table)]
     sentences += [
@@ -111,9 +122,10 @@ def run(
         content = {"folder": str(folder), "seeds": result.seeds, "played": result.played, "answers": sentences}
         content["failed"] = [{"identity": one.identity, "reason": one.reason} for one in failed]
         content["disturbed"] = result.disturbed
+        content |= {"failures": kept} if kept is not None else {}
         typer.echo(json_text(content))
     else:
-        for sentence in sentences:
+        for sentence in [*sentences, *(kept.lines if kept is not None else ())]:
             typer.echo(sentence)
         typer.echo(f"report  {folder / REPORT}")
     if failed:

@@ -17,7 +17,8 @@ from touchline.launch.terminal.json_text import json_text
 from touchline.matches.series.seeds import seeds_of
 
 if TYPE_CHECKING:
-    from touchline.matches.engine.outcome import Outcome
+    from touchline.matches.engine.failures import Failures
+    from touchline.matches.engine.outcome import Outcome, Played
     from touchline.matches.engine.planned_match import PlannedMatch
     from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
     from touchline.matches.series.plan import SeriesPlan
@@ -42,6 +43,7 @@ def series(
     record: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Keep a recording of each match in this folder.")
     ] = None,
+    failures: options.Failures = 0,
     jobs: options.Jobs = 0,
     json: options.Json = False,
     *,
@@ -50,13 +52,15 @@ def series(
     """Play a series of matches in parallel, without a network, and print their figures with intervals of 95 %.
 
     Equal seeds give equal matches, whatever the number of jobs. The figures are as in `touchline stats`. Ctrl-C
-    prints the figures of the matches played so far. If a brain raises, its match is reported as failed, the
+    prints the figures of the matches played so far. With --failures, the worst matches are those that the first team
+    lost by most goals, or won by fewest. If a brain raises, its match is reported as failed, the
     series goes on, and the exit status is 1.
 
     Example: touchline series --cyan simple --magenta nubot --rules msl --seeds 1-20 --both-sides
     """
     options.need_pybullet()
     options.need_scipy()
+    from touchline.matches.engine.failures import keep_failures
     from touchline.matches.engine.play_list import play_list
     from touchline.matches.series.match_row import row_of, rows_of
     from touchline.matches.series.plan import plan_series, with_brains
@@ -79,14 +83,24 @@ def series(
         return sentence_of(row_of(0, matches[planned.identity], outcome), plan)
 
     played = play_list([one.planned for one in plan.matches], jobs, " – ".join(plan.teams), sentence, json=json)
-    failed = _print(plan, rows_of(plan, played.outcomes), json=json)
+    kept = None
+    if failures and not played.is_interrupted:
+
+        def lead(outcome: "Played") -> float:
+            first, second = matches[outcome.identity].sides
+            return float(outcome.goals[first] - outcome.goals[second])
+
+        planned = [one.planned for one in plan.matches]
+        folder = record or Path("runs") / f"{config.name}-failures"
+        kept = keep_failures(planned, played.outcomes, lead, failures, folder, jobs, json=json)
+    failed = _print(plan, rows_of(plan, played.outcomes), kept, json=json)
     if played.is_interrupted:
         raise typer.Exit(128 + signal.SIGINT)
     if failed:
         raise typer.Exit(FAILED)
 
 
-def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
+def _print(plan: "SeriesPlan", ended: "list[Row]", kept: "Failures | None", *, json: bool) -> bool:
     """Print the figures; returns whether a match has failed."""
     from touchline.matches.series.match_row import FailedMatch, MatchRow
     from touchline.matches.series.summary import summary_of
@@ -97,11 +111,14 @@ def _print(plan: "SeriesPlan", ended: "list[Row]", *, json: bool) -> bool:
     summary = summary_of(rows)
     if json:
         parts = {"summary": summary, "matches": rows, "failed": failed}
+        parts |= {"failures": kept} if kept is not None else {}
         typer.echo(json_text({"teams": plan.teams, "planned": len(plan.matches), **parts}))
         return bool(failed)
     _show(plan, summary, rows, failed)
     for one in failed:
         typer.echo(sentence_of(one, plan), err=True)
+    for line in kept.lines if kept is not None else []:
+        typer.echo(line)
     return bool(failed)
 
 

@@ -54,6 +54,9 @@ Changes = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Replace a key of the match file: radio.loss=0.2; repeatable."),
 ]
+Failures = Annotated[
+    int, typer.Option(metavar="N", min=0, help="Keep recordings of the N worst matches, and compare their events.")
+]
 Jobs = Annotated[int, typer.Option(help="Number of matches at a time; 0 for one per core.")]
 Dask = Annotated[
     str | None,

@@ -10,7 +10,7 @@ from touchline.commands.cli.errors import CommandGroup
 
 PANELS = {
     "Play": ("match",),
-    "Build a team": ("new", "check", "drill", "series", "tournament", "experiment", "identify"),
+    "Build a team": ("new", "check", "drill", "task", "series", "tournament", "experiment", "identify"),
     "Watch": ("watch", "health", "replay"),
     "Processes on several machines": ("host", "agent", "team", "ros2", "record", "credentials"),
     "Recordings": ("info", "stats", "verify", "diff", "filter", "recover", "export", "import"),

@@ -1,5 +1,6 @@
 """Measures a match tick by tick, while it is played or from its recording: both give the same outcome."""
 
+from collections import Counter
 from pathlib import Path
 
 from recordings.reading.recording import open_recording
@@ -8,7 +9,8 @@ from recordings.soccer.stats.match_tick import MatchTick
 from schemas.config.task import GameName
 from schemas.errors import TouchlineError
 from schemas.messages.setup import Setup
-from schemas.messages.soccer.game import GameState
+from schemas.messages.soccer.game import GameEvent, GameState
+from schemas.soccer.game import EventKind
 from touchline.matches.engine.outcome import Played
 
 
@@ -20,6 +22,7 @@ class Measurement:
         self._first: GameState | None = None
         self._last: GameState | None = None
         self._chain: str | None = None
+        self._events: Counter[str] = Counter()
 
     def update(self, tick: MatchTick) -> None:
         """Add a tick."""
@@ -27,6 +30,7 @@ class Measurement:
             self._statistics.update(tick)
         self._first, self._last = self._first or tick.state, tick.state
         self._chain = tick.chain
+        self._events.update(map(_label, tick.events))
 
     def played(self, identity: str, recording: Path | None) -> Played:
         """The outcome of the match that is over.
@@ -44,7 +48,17 @@ class Measurement:
             chain=self._chain,
             recording=str(recording) if recording is not None else None,
             value=self._last.value if self._last is not None else None,
+            events=dict(self._events),
         )
+
+
+def _label(event: GameEvent) -> str:
+    """What kind of thing happened, to whom: `goal:cyan`, `foul:magenta (charging)`; a sentence of a score as it is."""
+    if event.kind is EventKind.NOTE:
+        return event.text
+    side = f":{event.side.value}" if event.side is not None else ""
+    rule = f" ({event.rule})" if event.rule not in ("", event.kind.value, "score") else ""
+    return f"{event.kind.value}{side}{rule}"
 
 
 def measured(recording: Path, identity: str) -> Played:

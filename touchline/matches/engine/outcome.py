@@ -48,6 +48,8 @@ class Played:
     """The score of a game without goals."""
     missed: dict[str, int] = field(default_factory=dict)
     """Robot → sights that it did not answer, in lockstep: the match does not depend on its seed alone."""
+    events: dict[str, int] = field(default_factory=dict)
+    """What happened, as `foul:cyan (charging)` → how often."""
 
     @property
     def of_soccer(self) -> MatchFigures:

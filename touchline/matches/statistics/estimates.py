@@ -1,4 +1,4 @@
-"""Estimates with intervals of 95 %: shares by Wilson's score, rates by Student's t over independent samples."""
+"""Estimates with intervals of 95 %: shares by Wilson's score, rates and means by Student's t."""
 
 import math
 from collections.abc import Sequence
@@ -64,6 +64,22 @@ def ratio(counts: Sequence[float], sizes: Sequence[float], most: float = math.in
     error = math.sqrt(squares * number / (number - 1)) / size
     half = student_t(number - 1) * error
     return Estimate(value, max(0.0, value - half), min(most, value + half))
+
+
+def mean(values: Sequence[float]) -> Estimate | None:
+    """The mean of independent samples with its interval by Student's t; none for fewer than two, or equal ones.
+
+    None without a sample.
+    """
+    number = len(values)
+    if number == 0:
+        return None
+    value = math.fsum(values) / number
+    squares = math.fsum((one - value) ** 2 for one in values)
+    if min(values) == max(values):
+        return Estimate(value)
+    half = student_t(number - 1) * math.sqrt(squares / (number - 1) / number)
+    return Estimate(value, value - half, value + half)
 
 
 def student_t(freedom: int) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import pandas as pd
 from scipy import stats
 
-from touchline.matches.statistics.estimates import LEVEL, Estimate
+from touchline.matches.statistics.estimates import LEVEL, Estimate, mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +48,8 @@ class Comparison:
 def estimate_of(values: "pd.Series[float]") -> MeanEstimate:
     """The mean of independent values with its interval."""
     values = values.dropna()
-    if values.empty:
-        return MeanEstimate(float("nan"), None, None, 0)
-    if values.nunique() < 2:
-        return MeanEstimate(float(values.mean()), None, None, len(values))
-    interval = stats.ttest_1samp(values, 0.0).confidence_interval(LEVEL)
-    return MeanEstimate(float(values.mean()), float(interval.low), float(interval.high), len(values))
+    found = mean([float(value) for value in values]) or Estimate(float("nan"))
+    return MeanEstimate(found.value, found.low, found.high, len(values))
 
 
 def seed_means(table: pd.DataFrame, response: str, matches: int) -> pd.DataFrame:

@@ -56,7 +56,8 @@ def result_table(
 
 
 def _figures(played: Played, sides: tuple[Side, Side]) -> dict[str, Value]:
-    """All figures of a match by name: of soccer, or score and simulated time in s of a free game."""
+    """All figures of a match by name: of soccer, or simulated time in s of a free game, and the score of a task."""
     if played.figures is None:
         return {"score": played.value, "duration": played.playing_time}
-    return by_team(flat_figures(played.figures), sides)
+    scored = {} if played.value is None else {"score": played.value}
+    return by_team(flat_figures(played.figures), sides) | scored

@@ -118,3 +118,8 @@ def test_an_interrupted_series_prints_what_has_been_played(match_file: Path) -> 
     assert process.returncode == 128 + signal.SIGINT
     assert " of 300 matches, " in output and " not played" in output
     assert "share of points" in output
+
+
+def test_the_worst_match_of_the_first_team_leaves_its_recording(match_file: Path, tmp_path: Path) -> None:
+    kept = rows(match_file, "--seeds", "5-6", "--failures", "1", "--record", tmp_path)["failures"]["kept"]
+    assert open_recording(Path(kept[0]["recording"])).manifest.config.seed == 5

@@ -5,7 +5,7 @@ import math
 import pytest
 from pytest import approx
 
-from touchline.matches.statistics.estimates import ratio, share, student_t
+from touchline.matches.statistics.estimates import mean, ratio, share, student_t
 
 
 @pytest.mark.parametrize(("freedom", "t"), [(1, 12.706), (2, 4.303), (3, 3.182), (9, 2.262), (30, 2.042), (100, 1.984)])
@@ -53,3 +53,11 @@ def test_one_sample_has_no_interval_and_no_time_no_value() -> None:
     assert found is not None
     assert (found.value, found.low, found.high) == (1.5, None, None)
     assert ratio([0.0], [0.0]) is None
+
+
+def test_a_mean_has_the_interval_of_student() -> None:
+    found = mean([1.0, -2.0, 4.0])
+    assert found is not None
+    half = 4.303 * 3.0 / math.sqrt(3)
+    assert (found.value, found.low, found.high) == (1.0, approx(1.0 - half, abs=1e-3), approx(1.0 + half, abs=1e-3))
+    assert mean([]) is None and mean([2.0]).width is mean([2.0, 2.0]).width is None

@@ -75,3 +75,12 @@ def test_a_folder_without_a_study_is_refused(tmp_path: Path) -> None:
     status, text = run("verify", tmp_path)
     assert status != 0
     assert "give the folder of a study that was played" in text
+
+
+def test_the_match_with_the_least_response_leaves_a_recording(tmp_path: Path) -> None:
+    (tmp_path / "try.toml").write_text(STUDY)
+    words = ("experiment", str(tmp_path / "try.toml"), "--out", str(tmp_path / "out"), "--failures", "1", "--json")
+    result = CliRunner().invoke(app, [*words, "--jobs", "1"])
+    assert result.exit_code == 0, result.exception
+    (kept,) = json.loads(result.stdout)["failures"]["kept"]
+    assert Path(kept["recording"]).is_file()
