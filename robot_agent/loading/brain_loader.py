@@ -14,7 +14,7 @@ from robot_agent.loading.brain_folders import BrainFolders
 from robot_agent.loading.limit_reached import limit_reached
 from robot_agent.loading.user_code import OWN_PACKAGES, definition_of, place_of, sentence_of
 from robot_agent.sdk.contract import Brain, Briefing
-from schemas.config.shipped_teams import brain_of, wrong_team
+from schemas.config.shipped_teams import POLICY_BRAIN, brain_of, policy_file, wrong_team
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
@@ -50,10 +50,10 @@ def load_object(said: str, spec: str, beside: Path | None = None, here: Path | N
 
 def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, here: Path | None = None) -> Brain:
     """The brain that `module:name` names, or that of a shipped team: a class built with the briefing, or a function
-    `act(sight)`.
+    `act(sight)`; or the brain that plays the policy of `policy:FILE`.
 
-    Modules are also looked for in `beside_match`, the folder of the match file, and then in the current directory,
-    or in `here` where the process has left that.
+    Modules and files are looked for in `beside_match`, the folder of the match file, and then in the current
+    directory, or in `here` where the process has left that.
 
     Raises:
         TouchlineError: one line with the wrong part of the spec, or with what its code raised, and where.
@@ -61,6 +61,8 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
     if remedy := wrong_team(spec):
         raise TouchlineError(f'brain is "{spec}"; {remedy}')
     said = f'brain is "{spec}"'
+    if file := policy_file(spec):
+        return _policy_brain(said, file, briefing, BrainFolders(beside_match, here))
     found, name = load_object(said, brain_of(spec), beside_match, here)
     if not isinstance(found, type):
         if not callable(found):
@@ -68,6 +70,19 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
         _check_act(spec, found, f"{name}(sight)", f"def {name}(sight)")
         return _FunctionBrain(found)
     return _build(spec, found, briefing)
+
+
+def _policy_brain(said: str, file: str, briefing: Briefing, folders: BrainFolders) -> Brain:
+    """The brain of a policy; its class is imported here alone, because policies stand above the robots' packages."""
+    found = next((path / file for path in folders.paths if (path / file).is_file()), None)
+    if found is None:
+        raise TouchlineError(f"{said}; there is no file {file} {folders}; put it there")
+    module, _, name = POLICY_BRAIN.partition(":")
+    try:
+        brain: Brain = getattr(importlib.import_module(module), name).of_file(briefing, found)
+    except TouchlineError as error:
+        raise TouchlineError(f"{said}; {error}") from error
+    return brain
 
 
 def _build(spec: str, cls: type, briefing: Briefing) -> Brain:

@@ -36,7 +36,7 @@ class TeamConfig(ConfigModel):
     """Name of the team, for display; where it is empty, the side's."""
     brain: str | None = None
     """`module:Class` of a brain in Python; each robot's process constructs one instance. In a match file also the name
-    of a shipped team."""
+    of a shipped team, or `policy:FILE` for a trained policy."""
     command: list[str] | None = None
     """Command line of a program in any language, in place of a brain; environment variables name its robot."""
     stdio: list[str] | None = None

@@ -1,4 +1,4 @@
-"""The teams that ship, by name, and the brain that the name of a team stands for."""
+"""The teams that ship, by name, and the brain that a name or the file of a policy stands for."""
 
 import re
 
@@ -8,6 +8,9 @@ SHIPPED_TEAMS = {
     name.lower(): f"robot_agent.teams.{name.lower()}:{name}" for name in ("NuBot", "Random", "Reference", "Simple")
 }
 """Name of a shipped team → `module:Class` of its brain."""
+POLICY_BRAIN = "touchline.policy.policy_brain:PolicyBrain"
+"""The brain that plays a policy from a file."""
+_POLICY = re.compile(r"policy:(.*\.\w+)")
 _SPEC = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
 
@@ -22,9 +25,15 @@ def brain_of(team: str) -> str:
     return SHIPPED_TEAMS.get(team, team)
 
 
+def policy_file(brain: str) -> str:
+    """The file of the brain `policy:FILE`, whose name has a suffix; empty for any other brain."""
+    found = _POLICY.fullmatch(brain)
+    return found[1] if found else ""
+
+
 def wrong_team(team: str) -> str:
     """What to write in place of a text that names no team; empty if it names one."""
-    if team in SHIPPED_TEAMS or _SPEC.fullmatch(team):
+    if team in SHIPPED_TEAMS or _SPEC.fullmatch(team) or policy_file(team):
         return ""
     hint = "" if ":" in team else f"; {did_you_mean(team, SHIPPED_TEAMS)}"
-    return f'write "module:Class", or the name of a shipped team{hint}'
+    return f'write "module:Class", "policy:FILE", or the name of a shipped team{hint}'

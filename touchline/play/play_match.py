@@ -104,7 +104,7 @@ class InProcessMatch:
         try:
             for name, brain in self.brains.items():
                 self.acting = name
-                commands[name] = Command.decode(_command(brain, sights[name].own_copy()).encode())
+                commands[name] = Command.decode(answer_of(brain, sights[name].own_copy()).encode())
         except BaseException as error:
             error.add_note(f"{self.acting}, tick {self.simulation.now.tick}")
             raise
@@ -112,7 +112,12 @@ class InProcessMatch:
         return commands
 
 
-def _command(brain: Brain, sight: Sight) -> Command:
+def answer_of(brain: Brain, sight: Sight) -> Command:
+    """The command of a brain.
+
+    Raises:
+        ReturnedError: it returned something else.
+    """
     command = brain.act(sight)
     if not isinstance(command, Command):
         raise ReturnedError("act", repr(command), brain.act, "return a Command")

@@ -1,0 +1,34 @@
+"""A match of rovers in one process, for what its robots observe and do."""
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import touchline.tasks
+from schemas.config.match_config import load_match
+from support.rover_task import write_rover_task
+from touchline.play.play_match import InProcessMatch
+
+
+@pytest.fixture
+def rovers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[InProcessMatch]:
+    """The match, at tick 1, perceived without noise."""
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    monkeypatch.delitem(sys.modules, "tally", raising=False)
+    config = load_match(Path(write_rover_task(tmp_path)), {"noise.preset": "perfect"})
+    match = InProcessMatch(config, brain_folder=tmp_path)
+    match.step()
+    yield match
+    match.close()
+    sys.modules.pop("tally", None)
+
+
+@pytest.fixture
+def keepers() -> Iterator[InProcessMatch]:
+    """A match of keepaway at tick 0, perceived without noise."""
+    file = Path(touchline.tasks.__path__[0]) / "keepaway_3v2.toml"
+    match = InProcessMatch(load_match(file, {"noise.preset": "perfect"}), brain_folder=file.parent)
+    yield match
+    match.close()

@@ -1,0 +1,61 @@
+"""What an action does: numbers from −1 to 1 become a command within the robot's limits."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from robot_agent.sdk.contract import Briefing
+from schemas.messages.command import Command, Drive, KickMode
+from schemas.messages.sight import Sight
+from schemas.messages.soccer.game import DisciplinaryRecord
+from schemas.soccer.game import OffField
+from touchline.play.play_match import InProcessMatch
+from touchline.policy.control import Control
+
+
+def commanded(match: InProcessMatch, robot: str, action: list[float], **changes: Any) -> Command:
+    """The command for an action; `changes` are of the robot's sight."""
+    sight: Sight = match.simulation.now.sights.perceived[robot].replace(**changes)
+    return Control(Briefing.of(robot, match.simulation.setup())).command(np.array(action, np.float32), sight)
+
+
+def test_full_speed_is_that_of_the_robot(keepers: InProcessMatch, rovers: InProcessMatch) -> None:
+    drive = keepers.simulation.setup().drive
+    command = commanded(keepers, "cyan1", [1.0, -0.5, 0.25, -1.0, -1.0])
+    assert command.drive == Drive(vx=drive.max_speed, vy=-0.5 * drive.max_speed, omega=0.25 * drive.max_turn_rate)
+    two_wheels = commanded(rovers, "one", [0.5, 0.5])
+    limits = rovers.simulation.setup().drive
+    assert two_wheels.drive == Drive(vx=0.5 * limits.max_speed, omega=0.5 * limits.max_turn_rate)
+    assert (two_wheels.kick, two_wheels.dribble) == (None, False)
+
+
+def test_numbers_beyond_one_are_cut_off(keepers: InProcessMatch) -> None:
+    assert commanded(keepers, "cyan1", [7.0, -7.0, 7.0, 0, 0]) == commanded(keepers, "cyan1", [1.0, -1.0, 1.0, 0, 0])
+
+
+def test_a_robot_kicks_once_it_holds_the_ball_and_its_kicker_is_charged(keepers: InProcessMatch) -> None:
+    action = [0.0, 0.0, 0.0, 0.5, 1.0]
+    assert commanded(keepers, "cyan1", action, holding=False).kick is None
+    assert commanded(keepers, "cyan1", action, holding=True, kicker_ready=False).kick is None
+    assert commanded(keepers, "cyan1", [0.0, 0.0, 0.0, 0.0, 1.0], holding=True).kick is None
+    command = commanded(keepers, "cyan1", action, holding=True)
+    assert command.kick is not None and command.kick.mode is KickMode.GROUND
+    assert command.kick.speed == pytest.approx(0.5 * keepers.simulation.setup().kicker.max_ground_speed)
+    assert command.dribble
+
+
+def test_with_each_decision_the_team_hears_where_the_robot_and_the_ball_are(keepers: InProcessMatch) -> None:
+    now = keepers.simulation.now.sights.perceived["cyan1"]
+    told = commanded(keepers, "cyan1", [0.0] * 5).radio
+    assert told is not None and told.self == now.self and told.ball is not None and told.ball.x == now.ball.x
+    assert commanded(keepers, "cyan1", [0.0] * 5, tick=now.tick + 1).radio is None
+    blind = commanded(keepers, "cyan1", [0.0] * 5, ball=None).radio
+    assert blind is not None and blind.ball is None
+
+
+def test_a_robot_that_is_off_the_field_does_nothing(keepers: InProcessMatch) -> None:
+    game = keepers.simulation.now.sights.perceived["cyan1"].game
+    off = game.replace(robots={"cyan1": DisciplinaryRecord(off_field=OffField.RED_CARD)})
+    assert commanded(keepers, "cyan1", [1.0] * 5, game=off, holding=True) == Command(answers_tick=0)
+    assert commanded(keepers, "cyan2", [1.0] * 5, game=off) != Command(answers_tick=0)

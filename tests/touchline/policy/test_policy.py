@@ -1,0 +1,73 @@
+"""Policies in files, and the brain that plays them: exactly what the environment did."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robot_agent.loading.brain_loader import load_brain
+from robot_agent.sdk.contract import Briefing
+from schemas.errors import TouchlineError
+from touchline.play.play_match import InProcessMatch
+from touchline.policy.network import Network
+from touchline.policy.observation import Observation
+from touchline.policy.policy import load_policy
+
+
+def network_for(match: InProcessMatch, robot: str, actions: int, hidden: int = 8) -> Network:
+    sizes = (len(Observation(Briefing.of(robot, match.simulation.setup())).names), hidden, actions)
+    return Network.of(np.random.default_rng(7).normal(size=Network.size(sizes)), sizes)
+
+
+def test_a_network_is_the_same_after_it_was_saved(tmp_path: Path) -> None:
+    network = Network.of(np.arange(Network.size((3, 4, 2))) / 20, (3, 4, 2))
+    assert (network.observations, network.actions) == (3, 2)
+    network.save(tmp_path / "small.npz")
+    seen = np.array([0.5, -1.0, 0.25], np.float32)
+    assert load_policy(tmp_path / "small.npz").action(seen).tolist() == network.action(seen).tolist()
+
+
+def test_a_network_is_what_its_parameters_say() -> None:
+    network = Network.of(np.array([2.0, 0.0, 0.0, 1.0, 0.5, 0.0]), (2, 2))
+    action = network.action(np.array([0.1, 0.2], np.float32))
+    assert action.tolist() == pytest.approx([np.tanh(0.7), np.tanh(0.2)])
+    with pytest.raises(TouchlineError, match="has 6 parameters, in one row"):
+        Network.of(np.zeros(5), (2, 2))
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("none.npz", None, "there is no policy"),
+        ("text.npz", b"weights", "is no saved network"),
+        ("brain.py", b"", "its name ends in .npz or .zip"),
+        ("text.zip", b"weights", "stable-baselines3|no model of Stable-Baselines3"),
+    ],
+)
+def test_a_file_without_a_policy_is_one_clear_error(tmp_path: Path, name: str, content: bytes, said: str) -> None:
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(TouchlineError, match=said):
+        load_policy(tmp_path / name)
+
+
+def test_layers_that_do_not_fit_are_one_clear_error(tmp_path: Path) -> None:
+    layers = [
+        np.zeros((4, 3), np.float32),
+        np.zeros(4, np.float32),
+        np.zeros((2, 5), np.float32),
+        np.zeros(2, np.float32),
+    ]
+    names = ("weights0", "offsets0", "weights1", "offsets1")
+    np.savez(tmp_path / "torn.npz", allow_pickle=False, **dict(zip(names, layers, strict=True)))
+    with pytest.raises(TouchlineError, match="its layers do not fit"):
+        load_policy(tmp_path / "torn.npz")
+
+
+def test_a_policy_for_another_robot_is_one_clear_error(rovers: InProcessMatch, tmp_path: Path) -> None:
+    network_for(rovers, "one", 5).save(tmp_path / "five.npz")
+    briefing = Briefing.of("one", rovers.simulation.setup())
+    with pytest.raises(TouchlineError, match=r"is for actions of 5 numbers; one has 2 in this match"):
+        load_brain("policy:five.npz", briefing, tmp_path)
+    with pytest.raises(TouchlineError, match=r"there is no file six.npz beside the match file"):
+        load_brain("policy:six.npz", briefing, tmp_path)

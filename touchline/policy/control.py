@@ -1,0 +1,78 @@
+"""The actions of a robot: a vector of numbers from −1 to 1 that becomes a command."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.sdk.contract import Briefing
+from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.radio import BallBelief, Radio
+from schemas.messages.sight import Sight
+from touchline.policy.entries import Entry, signed
+from touchline.policy.groups import has_ball
+from touchline.policy.interface import Interface
+
+_FRESH = 0.1
+"""s; a ball that was seen no longer ago is told to teammates."""
+
+
+class Control:
+    """The layout of a robot's actions, which its briefing determines."""
+
+    def __init__(self, briefing: Briefing) -> None:
+        """The entries that this robot of this match has.
+
+        Raises:
+            TouchlineError: a parameter of the team is no valid setting of a policy.
+        """
+        drive, self._robot = briefing.setup.drive, briefing.robot
+        self._speed, self._turn = drive.max_speed, drive.max_turn_rate
+        self._sideways, self._ball = drive.sideways, has_ball(briefing)
+        self._kick = briefing.setup.kicker.max_ground_speed
+        self.decision_ticks = Interface.of(briefing.parameters).decision_ticks
+        """Control ticks from one decision to the next."""
+        entries = [signed("vx", "m/s", self._speed, self._speed, "velocity along the kick axis")]
+        if self._sideways:
+            entries.append(signed("vy", "m/s", self._speed, self._speed, "velocity to the left"))
+        entries.append(signed("omega", "rad/s", self._turn, self._turn, "turn rate, counter-clockwise"))
+        if self._ball:
+            kick = "speed of a kick along the ground, once the robot holds the ball; none at 0 or below"
+            entries.append(signed("kick", "m/s", self._kick, self._kick, kick))
+            entries.append(signed("dribble", "1", 1.0, 1.0, "the dribbler is on above 0"))
+        self.entries: tuple[Entry, ...] = tuple(entries)
+        """One for each number, in order; all are from −1 to 1."""
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the entries, in order."""
+        return [entry.name for entry in self.entries]
+
+    def decides(self, sight: Sight) -> bool:
+        """Whether a new action is due at this tick."""
+        return sight.tick % self.decision_ticks == 0
+
+    def command(self, action: NDArray[np.floating], sight: Sight) -> Command:
+        """The command for one tick while an action of shape (entries,) is in force; values beyond ±1 are cut off.
+
+        With each decision the robot tells its teammates where it is, and where it has just seen the ball. A robot that
+        is off the field does nothing.
+        """
+        record = sight.game.robots.get(self._robot)
+        if record is not None and record.off_field is not None:
+            return Command(answers_tick=sight.tick)
+        numbers = [min(1.0, max(-1.0, number)) for number in action.tolist()]
+        vx, omega = numbers[0] * self._speed, numbers[1 + self._sideways] * self._turn
+        vy = numbers[1] * self._speed if self._sideways else 0.0
+        radio = self._message(sight) if self.decides(sight) else None
+        drive = Drive(vx=vx, vy=vy, omega=omega)
+        if not self._ball:
+            return Command(answers_tick=sight.tick, drive=drive, radio=radio)
+        kick = None
+        if numbers[-2] > 0.0 and sight.holding and sight.kicker_ready:
+            kick = Kick(mode=KickMode.GROUND, speed=numbers[-2] * self._kick)
+        return Command(answers_tick=sight.tick, drive=drive, dribble=numbers[-1] > 0.0, kick=kick, radio=radio)
+
+    def _message(self, sight: Sight) -> Radio:
+        ball = sight.ball
+        if ball is None or ball.age > _FRESH:
+            return Radio(self=sight.self)
+        return Radio(self=sight.self, ball=BallBelief(x=ball.x, y=ball.y, vx=ball.vx, vy=ball.vy, age=ball.age))

@@ -1,0 +1,54 @@
+"""The brain that plays a policy: `brain = "policy:FILE"` in a match file."""
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.sdk.contract import Briefing
+from schemas.errors import TouchlineError
+from schemas.messages.command import Command
+from schemas.messages.sight import Sight
+from touchline.policy.control import Control
+from touchline.policy.observation import Observation
+from touchline.policy.policy import Policy, load_policy
+
+
+class PolicyBrain:
+    """Observes, decides and acts exactly as the environment does in which the policy was trained."""
+
+    def __init__(self, briefing: Briefing, policy: Policy) -> None:
+        """Plays the policy for the robot of this briefing.
+
+        Raises:
+            TouchlineError: the policy is for other observations or actions than this robot has.
+        """
+        self._observation, self._control, self._policy = Observation(briefing), Control(briefing), policy
+        for what, has, needs in (
+            ("observations", len(self._observation.entries), policy.observations),
+            ("actions", len(self._control.entries), policy.actions),
+        ):
+            if has != needs:
+                raise TouchlineError(
+                    f"the policy is for {what} of {needs} numbers; {briefing.robot} has {has} in this match: "
+                    "play it in its task, with the [teams.*.parameters] that it was trained with"
+                )
+        self._action: NDArray[np.float32] = np.zeros(policy.actions, np.float32)
+        self._decided = -1
+
+    @classmethod
+    def of_file(cls, briefing: Briefing, path: Path) -> "PolicyBrain":
+        """The brain of a policy in a file.
+
+        Raises:
+            TouchlineError: there is no policy in it that suits this robot.
+        """
+        return cls(briefing, load_policy(path))
+
+    def act(self, sight: Sight) -> Command:
+        """The command for one tick; a new action is decided every `decision_ticks`, and after a sight was missed."""
+        period = sight.tick // self._control.decision_ticks
+        if period != self._decided:
+            self._decided = period
+            self._action = self._policy.action(self._observation.observe(sight))
+        return self._control.command(self._action, sight)
