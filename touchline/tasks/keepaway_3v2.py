@@ -4,10 +4,12 @@ import math
 
 from touchline import Action, Briefing, CoachOrder, Drive, Moment, Player, Score, WorldBelief, skills
 
-PRESSED = 1.8
+PRESSED = 2.2
 """m; the holder passes before a taker is nearer than this."""
-PLACES = ((-3.5, 0.0), (2.5, -3.5), (2.5, 3.5))
-"""m; where the keepers wait for a pass."""
+LONG = 3.0
+"""s with the ball, after which the holder passes in any case: the referee stops a ball that rests for 5 s."""
+CORNERS = ((-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0))
+"""m; where keepers wait for a pass: at the two corners beside that of the ball."""
 AIR = 0.1
 """m between the hulls of two robots that pass each other."""
 
@@ -17,7 +19,7 @@ def kept(now: Moment) -> Score:
     assert now.ball is not None
     taken = now.holder is not None and now.sides[now.holder] != "cyan"
     is_out = not now.zones["square"].contains(now.ball.x, now.ball.y)
-    return Score(now.time, over=taken or is_out or bool(now.events))
+    return Score(now.time, over=taken or is_out or now.game.phase != "play")
 
 
 class Taker(Player):
@@ -40,15 +42,18 @@ class Taker(Player):
 
 
 class Keeper(Taker):
-    """Holds the ball until a taker comes, and passes it to the most open keeper; the others wait in a triangle."""
+    """Holds the ball until a taker comes, and passes along the more open side; the others wait at its neighbours."""
 
     def __init__(self, briefing: Briefing) -> None:
         super().__init__(briefing)
         self.receiver = ""
         """The keeper that the ball was passed to last."""
+        self.held = 0.0
+        """s with the ball."""
 
     def play(self, belief: WorldBelief, _order: CoachOrder | None) -> Action:
         """Hold, pass, receive or wait."""
+        self.held = self.held + belief.dt if belief.holding else 0.0
         if belief.ball is None:
             return Action("", "wait", Drive())
         if belief.holding:
@@ -57,12 +62,24 @@ class Keeper(Taker):
         self.receiver = passed[0] if passed else self.receiver
         spot, me = belief.ball.now[:2], self.briefing.robot
         field = {me: belief.me[:2]} | {name: mate.body[:2] for name, mate in belief.mates.items()}
-        if me == min(field, key=lambda name: (name != self.receiver, math.dist(field[name], spot))):
+        first = min(field, key=lambda name: (name != self.receiver, math.dist(field[name], spot)))
+        if first == me:
             return self.get_ball(belief)
         self.receiver = "" if self.receiver == me else self.receiver
-        place = PLACES[self.briefing.number - 1]
+        del field[first]
+        x, y = self.place(field, spot)
         facing = math.atan2(spot[1] - belief.me.y, spot[0] - belief.me.x)
-        return Action("", "wait", skills.go_to(belief.me, *place, facing, self.limits))
+        return Action("", "wait", skills.go_to(belief.me, x, y, facing, self.limits))
+
+    def place(self, waiting: dict[str, tuple[float, float]], spot: tuple[float, float]) -> tuple[float, float]:
+        """The corner of this robot: those beside the ball's corner are shared with the least way in all."""
+        near = min(range(4), key=lambda corner: math.dist(CORNERS[corner], spot))
+        mine = waiting.pop(self.briefing.robot)
+
+        def way(corner: tuple[float, float]) -> float:
+            return math.dist(mine, corner) - sum(math.dist(other, corner) for other in waiting.values())
+
+        return min(CORNERS[near - 1], CORNERS[(near + 1) % 4], key=way)
 
     def keep(self, belief: WorldBelief) -> Action:
         """Wait for the takers, then pass."""
@@ -70,7 +87,7 @@ class Keeper(Taker):
         mates = {name: mate.body[:2] for name, mate in belief.mates.items()}
         best = max(mates, key=lambda name: skills.lane_width(me, mates[name], belief.opponents), default=None)
         near = min((math.dist(me, opponent) for opponent in belief.opponents), default=math.inf)
-        if best is None or near > PRESSED:
+        if best is None or (near > PRESSED and self.held < LONG):
             return Action("holder", "hold", Drive(), dribble=True)
         drive, kick = skills.pass_to(belief.me, mates[best], self.setup, self.limits)
         self.receiver = best

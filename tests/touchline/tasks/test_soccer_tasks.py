@@ -1,0 +1,61 @@
+"""The shipped soccer tasks: their baseline does them, and their recordings verify."""
+
+from pathlib import Path
+from statistics import mean
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.messages.command import Command
+from schemas.messages.sight import Sight
+from support.task_moment import task_config
+from touchline.play.match_recording import MatchRecording
+from touchline.play.play_match import InProcessMatch
+from touchline.verify.resimulate import verify
+
+GAINS = {"goalkeeper": (5, 0.3), "keepaway_3v2": (3, 3.0), "pass_and_shoot": (5, 0.3)}
+"""Task → number of seeds, and by how much its baseline is better on average than robots that stand."""
+
+
+class Still:
+    """Stands."""
+
+    def act(self, sight: Sight) -> Command:
+        return Command(answers_tick=sight.tick, dribble=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("task", GAINS)
+def test_the_baseline_is_much_better_than_robots_that_stand(task: str) -> None:
+    seeds, gain = GAINS[task]
+    configs = [task_config(task, seed) for seed in range(1, seeds + 1)]
+    baseline = mean(final_score(InProcessMatch(config)) for config in configs)
+    still = mean(final_score(InProcessMatch(config, standing(config))) for config in configs)
+    assert baseline > still + gain
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("task", GAINS)
+def test_the_recording_of_an_episode_verifies(task: str, tmp_path: Path) -> None:
+    match = InProcessMatch(task_config(task, duration=1.5))
+    recording = MatchRecording(tmp_path / "task.mcap", match.simulation.config, match.simulation)
+    while not match.simulation.over:
+        recording.add(match.step(), match.commands)
+    recording.close()
+    match.close()
+    assert verify(tmp_path / "task.mcap", referee=True).identical
+
+
+def standing(config: MatchConfig) -> dict[str, Still]:
+    """Robots that stand in place of those that do the task."""
+    assert config.task is not None
+    return {name: Still() for name in config.robots(config.task.side)}
+
+
+def final_score(match: InProcessMatch) -> float:
+    """The score at the end of an episode."""
+    while not match.simulation.over:
+        match.step()
+    match.close()
+    value: float = match.simulation.state.value
+    return value
