@@ -1,7 +1,8 @@
 """The process of a ROS 2 graph: a session with the match, one with the nodes, and a thread for each robot."""
 
 import signal
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from robot_agent.process.claim import Membership
 from robot_agent.process.runner import ask_setup, serve
@@ -10,6 +11,8 @@ from robot_agent.ros2.clock_keeper import ClockKeeper
 from robot_agent.ros2.robot import RosRobot, RosRunner
 from robot_agent.ros2.settings import Ros2Settings
 from robot_agent.ros2.shown_match import show_match
+from robot_agent.ros2.simulation.control import SimulationControl
+from robot_agent.ros2.simulation.match_client import MatchClient
 from robot_agent.sdk.contract import Briefing
 from runtime.access.accounts import Account
 from runtime.access.credentials import read_host_credentials
@@ -18,7 +21,7 @@ from runtime.bus.contract import Bus
 from runtime.bus.endpoint import is_loopback
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.bus.zenoh.waiting_client import open_when_there
-from runtime.process.clock import WallClock
+from runtime.process.clock import Clock, WallClock
 from runtime.process.process_log import configure_log, log_line
 from runtime.process.timing import RECONNECT_S
 from runtime.ros2.graph import Graph, open_graph
@@ -52,7 +55,10 @@ def run(settings: Ros2Settings) -> int:
             setup = ask_setup(bus, settings.patience)
             robots = _robots(settings, setup)
             where = settings.domain, settings.listen, settings.router, settings.patience
-            with open_graph(NODE, clock, *where, _protection(settings, setup)) as graph:
+            with (
+                open_graph(NODE, clock, *where, _protection(settings, setup)) as graph,
+                _controlled(settings, clock, graph, setup),
+            ):
                 _say_where(graph, settings)
                 if not robots:
                     return show_match(bus, graph, setup, settings.patience)
@@ -84,6 +90,17 @@ def serve_robots(bus: Bus, graph: Graph, robots: Sequence[str], every: int, pati
             robot.is_driven.set()  # ends its wait
 
     return serve_team(robots, serve_robot, stop, bus.clock)
+
+
+@contextmanager
+def _controlled(settings: Ros2Settings, clock: Clock, graph: Graph, setup: Setup) -> Iterator[None]:
+    """With --control, nodes control the match meanwhile, by a session with the rights of its operator."""
+    if not settings.control:
+        yield
+        return
+    where = settings.match, clock, settings.connect, settings.patience, settings.credentials
+    with open_client(*where, Account.OPERATOR) as bus, SimulationControl(graph, MatchClient(bus, setup)):
+        yield
 
 
 def _robots(settings: Ros2Settings, setup: Setup) -> list[str]:

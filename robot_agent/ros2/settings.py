@@ -27,6 +27,8 @@ class Ros2Settings(ClientSettings, LogSettings):
     """Join the graph of this router of rmw_zenoh, tcp/127.0.0.1:7447, in place of --listen."""
     accounts: Path | None = None
     """With --listen: host.json of `touchline credentials new`; only nodes with its accounts join, for own robots."""
+    control: bool = False
+    """Let nodes pause, step, reset and change the match, by the services of simulation_interfaces below /touchline."""
     every: Annotated[int, Field(ge=1, le=1000)] = 1
     """Lockstep: the nodes answer every so many ticks; between them their last command stands."""
     patience: Annotated[float, Field(ge=0)] = 10.0

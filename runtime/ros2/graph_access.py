@@ -1,16 +1,17 @@
 """What the nodes of each account may do in a graph, as Zenoh's access control of its router. Pure.
 
 A team's nodes have all topics, services and tokens below the names of their own robots: they drive these and talk with
-each other there. Clock and transforms are read by all accounts. Everything else is denied.
+each other there. Those of the operator have the services by which nodes control the match. Clock and transforms are
+read by all accounts. Everything else is denied.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from runtime.access.access_rules import CACHE, access_section, rule
 from runtime.access.accounts import ACCOUNTS, Account
 from runtime.access.rights import Robots
-from runtime.ros2.graph_names import TOKENS, Kind
+from runtime.ros2.graph_names import CONTROL, TOKENS, Kind
 
 _FOR_ALL = ("clock", "tf", "tf_static")
 """Topics that everybody reads; only the bridge publishes them."""
@@ -24,7 +25,9 @@ def graph_access(domain: int, robots: Robots) -> Mapping[str, Any]:
 
 
 def _rules_of(account: Account, domain: int, robots: Robots) -> list[dict[str, Any]]:
-    own = robots[account.side] if account in (Account.CYAN, Account.MAGENTA) and account.side is not None else ()
+    own: Sequence[str] = (CONTROL,) if account is Account.OPERATOR else ()
+    if account in (Account.CYAN, Account.MAGENTA) and account.side is not None:
+        own = robots[account.side]
     keys = [f"{domain}/{robot}/**" for robot in own]
     read = [f"{domain}/{topic}/*/*" for topic in _FOR_ALL]
     read += [key + CACHE for key in read]

@@ -12,6 +12,8 @@ from schemas.errors import TouchlineError
 
 TOKENS = "@ros2_lv"
 """First chunk of every token."""
+CONTROL = "touchline"
+"""Namespace of the services by which nodes control a match."""
 _ENCLAVE = "%"
 """The enclave of a node without security by sros2."""
 _STAMP = struct.Struct("<qqB16s")

@@ -1,6 +1,7 @@
 """Builds and encodes the usual messages of ROS, by rosbags' store of types."""
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,22 @@ class MessageBuilder:
     def make(self, name: str, *fields: Any) -> Any:
         """A message of this type, with the fields in the order of its definition."""
         return self._types[name](*fields)
+
+    def filled(self, name: str, fields: Mapping[str, Any]) -> Any:
+        """A message of this type with these fields; the others are zero, false or empty."""
+        wanted = self._store.fielddefs[name][1]
+        return self.make(name, *(fields[one] if one in fields else self._empty(kind) for one, kind in wanted))
+
+    def _empty(self, description: Any) -> Any:
+        """The value of an empty field; of sequences and arrays only those occur that are no numbers."""
+        from rosbags.interfaces import Nodetype
+
+        kind, detail = description
+        if kind == Nodetype.NAME:
+            return self.filled(detail, {})
+        if kind == Nodetype.BASE:
+            return {"string": "", "bool": False}.get(detail[0], 0)
+        return []
 
     def encode(self, message: Any, topic_type: TopicType) -> memoryview:
         """The message in CDR."""

@@ -19,8 +19,10 @@ _EMPTY = "uint8 structure_needs_at_least_one_member"
 
 
 @cache
-def typestore() -> Any:
+def typestore(version: str = "") -> Any:
     """The types of ROS 2 Jazzy and of the packages here; they have the same hashes in later releases.
+
+    With a `version`, services are those of the folder of that name in their package, where it has them.
 
     Raises:
         TouchlineError: rosbags is not installed.
@@ -35,32 +37,57 @@ def typestore() -> Any:
     constants, fields = store.fielddefs[_EVENT_INFO]
     store.fielddefs[_EVENT_INFO] = (constants, [(name, _without_char(desc)) for name, desc in fields])
     found: dict[str, Any] = {}
-    for path in sorted(PACKAGES.glob("*/msg/*.msg")):
-        found |= get_types_from_msg(path.read_text("utf-8"), f"{path.parts[-3]}/msg/{path.stem}")
-    for path in sorted(PACKAGES.glob("*/srv/*.srv")):
-        found |= service_types(f"{path.parts[-3]}/srv/{path.stem}", path.read_text("utf-8"))
+    folders = ("msg", "action", "srv", f"{version}/srv") if version else ("msg", "action", "srv")
+    for path in [path for folder in folders for path in sorted(PACKAGES.glob(f"*/{folder}/*"))]:
+        package, kind = path.relative_to(PACKAGES).parts[0], path.parent.name
+        make = {"msg": get_types_from_msg, "srv": service_types, "action": action_types}[kind]
+        found |= make(path.read_text("utf-8"), f"{package}/{kind}/{path.stem}")
     store.register(found)
     return store
 
 
-def service_types(name: str, text: str) -> dict[str, Any]:
+def service_types(text: str, name: str) -> dict[str, Any]:
     """The types of a service from its `.srv` text: request, response, event, and the service, which has the hash."""
+    return _service(name, *(_fields(part, name) for part in text.split("---")))
+
+
+def action_types(text: str, name: str) -> dict[str, Any]:
+    """The types of an action from its `.action` text: goal, result, feedback, and its services and topic."""
     from rosbags.interfaces import Nodetype
+
+    parts = dict(zip(("Goal", "Result", "Feedback"), (_fields(part, name) for part in text.split("---")), strict=True))
+    found: dict[str, Any] = {f"{name}_{part}": fields for part, fields in parts.items()}
+    goal_id = ("goal_id", (Nodetype.NAME, "unique_identifier_msgs/msg/UUID"))
+    goal, result, feedback = ((part.lower(), (Nodetype.NAME, f"{name}_{part}")) for part in parts)
+    stamp = ("stamp", (Nodetype.NAME, "builtin_interfaces/msg/Time"))
+    accepted, status = ("accepted", (Nodetype.BASE, ("bool", 0))), ("status", (Nodetype.BASE, ("int8", 0)))
+    found |= _service(f"{name}_SendGoal", ([], [goal_id, goal]), ([], [accepted, stamp]))
+    found |= _service(f"{name}_GetResult", ([], [goal_id]), ([], [status, result]))
+    found[f"{name}_FeedbackMessage"] = ([], [goal_id, feedback])
+    return found
+
+
+def _service(name: str, request: Any, response: Any) -> dict[str, Any]:
+    from rosbags.interfaces import Nodetype
+
+    own = {part: (Nodetype.NAME, f"{name}_{part}") for part in ("Request", "Response", "Event")}
+    pair = [(part.lower(), (Nodetype.SEQUENCE, (own[part], 1))) for part in ("Request", "Response")]
+    return {
+        f"{name}_Request": request,
+        f"{name}_Response": response,
+        f"{name}_Event": ([], [("info", (Nodetype.NAME, _EVENT_INFO)), *pair]),
+        name: ([], [(f"{part.lower()}_message", own[part]) for part in own]),
+    }
+
+
+def _fields(text: str, name: str) -> Any:
+    """Constants and fields of a part of a service or an action; names without a package are those of its package."""
     from rosbags.typesys import get_types_from_msg
 
-    found: dict[str, Any] = {}
-    for part, fields in zip(("Request", "Response"), text.split("---"), strict=True):
-        whole = get_types_from_msg(fields if _has_fields(fields) else f"{fields}\n{_EMPTY}\n", f"{name}_{part}")
-        ((_, found[f"{name}_{part}"]),) = whole.items()  # rosbags adds `msg` to the name
-    request, response = f"{name}_Request", f"{name}_Response"
-    info = (Nodetype.NAME, _EVENT_INFO)
-    parts = [
-        (one, (Nodetype.SEQUENCE, ((Nodetype.NAME, f"{name}_{one.title()}"), 1))) for one in ("request", "response")
-    ]
-    found[f"{name}_Event"] = ([], [("info", info), *parts])
-    names = (("request_message", request), ("response_message", response), ("event_message", f"{name}_Event"))
-    found[name] = ([], [(field, (Nodetype.NAME, type_name)) for field, type_name in names])
-    return found
+    package = name.partition("/")[0]
+    whole = get_types_from_msg(text if _has_fields(text) else f"{text}\n{_EMPTY}\n", f"{package}/msg/Part")
+    (fields,) = whole.values()
+    return fields
 
 
 def _without_char(description: Any) -> Any:
@@ -82,5 +109,5 @@ def hash_of(topic_type: TopicType) -> str:
     Raises:
         TouchlineError: as `typestore`.
     """
-    found: str = typestore().hash_rihs01(topic_type.message)
+    found: str = typestore(topic_type.version).hash_rihs01(topic_type.message)
     return found

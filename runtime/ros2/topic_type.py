@@ -19,6 +19,8 @@ class TopicType(NamedTuple):
     depth: int = 10
     latched: bool = False
     """Durability `transient local`: whoever subscribes later gets the newest `depth` messages as well."""
+    version: str = ""
+    """Folder of the package with the fields of older releases; empty for the newest one."""
 
     @property
     def dds(self) -> str:

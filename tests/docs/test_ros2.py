@@ -5,6 +5,7 @@ import re
 import shlex
 import subprocess
 import sys
+import time
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -32,12 +33,15 @@ def commands_below(heading: str) -> list[list[str]]:
     return [shlex.split(line, comments=True)[1:] for line in block[1].splitlines()]
 
 
-def listed(at: str) -> dict[str, dict[str, list[str]]]:
-    """The graph, as the SDK lists it."""
+def listed(at: str, last: str) -> dict[str, dict[str, list[str]]]:
+    """The graph, as the SDK lists it, once the topic or service that comes last is there."""
     words = [sys.executable, "-W", "ignore", str(TEAM), "list", at]
-    found: dict[str, dict[str, list[str]]] = json.loads(
-        subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=True).stdout
-    )
+    found: dict[str, dict[str, list[str]]] = {"topics": {}, "services": {}}
+    deadline = time.monotonic() + LIMIT_S
+    while last not in found["topics"] | found["services"]:
+        assert time.monotonic() < deadline, found
+        run = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=True)
+        found = json.loads(run.stdout)
     return found
 
 
@@ -48,7 +52,7 @@ def test_the_commands_for_nodes_play_a_match_and_the_table_is_their_graph(tmp_pa
         log = stack.enter_context(started(words, tmp_path, "match"))
         said_in(log, "(waiting for cyan)")
         at = graph_at(stack.enter_context(started(touchline(*ros2, "--match", "page", *FREE), tmp_path, "ros2")))
-        graph = listed(at)
+        graph = listed(at, f"/{ROBOTS[-1]}/kick")
         stack.enter_context(started([sys.executable, "-W", "ignore", str(TEAM), "sdk", at, *ROBOTS], tmp_path, "team"))
         said_in(log, "(full time)")
     rows = re.findall(r"^\| `/(\S+)`(?: \*\*(in|service)\*\*)? \| (.*?) \|", PAGE, re.MULTILINE)
@@ -67,6 +71,23 @@ def test_the_commands_for_nodes_play_a_match_and_the_table_is_their_graph(tmp_pa
     }
 
 
+def test_the_commands_for_control_serve_what_their_table_lists(tmp_path: Path) -> None:
+    match, ros2 = commands_below("Pause, step and change a match")
+    with ExitStack() as stack:
+        words = touchline(*match, "--name", "page_control", "--pace", "realtime", "--no-record", *FREE)
+        said_in(stack.enter_context(started(words, tmp_path, "match")), "(kick-off)")
+        words = touchline(*ros2, "--match", "page_control", *FREE)
+        at = graph_at(stack.enter_context(started(words, tmp_path, "ros2")))
+        graph = listed(at, "/touchline/step_simulation")
+    section = PAGE.partition("\n## Pause, step and change a match\n")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| (`\w+`.*?) \|", section, re.MULTILINE)
+    written = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+    served = {name.removeprefix("/touchline/") for name in graph["services"] if name.startswith("/touchline/")}
+    assert served == (written - {"simulate_steps"}) | {
+        f"simulate_steps/_action/{part}" for part in ("send_goal", "cancel_goal", "get_result")
+    }
+
+
 def test_the_commands_for_a_recording_show_it(tmp_path: Path) -> None:
     replay, ros2 = commands_below("A match or a recording as a graph")
     team = {"size": 1, "brain": "robot_agent.teams.simple:Simple"}
@@ -77,9 +98,7 @@ def test_the_commands_for_a_recording_show_it(tmp_path: Path) -> None:
         said_in(log, r"(match \"page_replay\" on)")
         words = touchline(*ros2, "--match", "page_replay", *FREE)
         at = graph_at(stack.enter_context(started(words, tmp_path, "ros2")))
-        found: dict[str, dict[str, list[str]]] = {"topics": {}}
-        while "/cyan1/odom" not in found["topics"]:
-            found = listed(at)
+        found = listed(at, "/cyan1/odom")
     assert found["topics"]["/cyan1/odom"] == ["nav_msgs/msg/Odometry"]
 
 

@@ -1,7 +1,8 @@
 """Robots played by ROS 2 nodes that this project did not write: pyzeros, or the SDK of ROBOTIS. A process of its own.
 
-`python ros_team.py [--twist] {pyzeros,sdk} ENDPOINT ROBOT...` drives the robots in circles, a command each `/clock`,
-until it is ended. `python ros_team.py list ENDPOINT` prints the topics and services of the graph as JSON.
+`python ros_team.py [--twist] [--dribble] {pyzeros,sdk} ENDPOINT ROBOT...` drives the robots in circles, a command each
+`/clock`, until it is ended; with `--dribble` the SDK switches their dribblers on. `python ros_team.py list ENDPOINT`
+prints the topics and services of the graph as JSON.
 """
 
 import argparse
@@ -20,7 +21,9 @@ SPEED, TURN = 1.0, 0.5
 CLOCK_HASH = "RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564"
 TWIST_HASH = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
 STAMPED_HASH = "RIHS01_5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64"
+FLAG_HASH = "RIHS01_feb91e995ff9ebd09c0cb3d2aed18b11077585839fb5db80193b62d74528f6c9"
 TEXTS = {
+    "std_msgs/msg/Bool": "bool data\n",
     "builtin_interfaces/msg/Time": "int32 sec\nuint32 nanosec\n",
     "std_msgs/msg/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
     "geometry_msgs/msg/Vector3": "float64 x\nfloat64 y\nfloat64 z\n",
@@ -53,7 +56,7 @@ async def play_pyzeros(endpoint: str, robots: list[str], is_stamped: bool) -> No
                 publisher.publish(command)
 
 
-def play_sdk(endpoint: str, robots: list[str], is_stamped: bool) -> None:
+def play_sdk(endpoint: str, robots: list[str], is_stamped: bool, dribbles: bool) -> None:
     from zenoh_ros2_sdk import ROS2Publisher, ROS2Subscriber
     from zenoh_ros2_sdk.session import ZenohSession
 
@@ -67,6 +70,12 @@ def play_sdk(endpoint: str, robots: list[str], is_stamped: bool) -> None:
         ROS2Publisher(f"/{robot}/cmd_vel", name, TEXTS[name], node_name=f"driver_{robot}", type_hash=type_hash, **at)
         for robot in robots
     ]
+    flag = "std_msgs/msg/Bool"
+    dribblers = [
+        ROS2Publisher(f"/{robot}/dribble", flag, TEXTS[flag], node_name=f"holder_{robot}", type_hash=FLAG_HASH, **at)
+        for robot in robots
+        if dribbles
+    ]
     vector, twist = types["geometry_msgs/msg/Vector3"], types["geometry_msgs/msg/Twist"]
 
     def on_clock(told: Any) -> None:
@@ -74,6 +83,8 @@ def play_sdk(endpoint: str, robots: list[str], is_stamped: bool) -> None:
         if is_stamped:
             header = types["std_msgs/msg/Header"](stamp=told.clock, frame_id="")
             fields = {"header": header, "twist": twist(**fields)}
+        for dribbler in dribblers:
+            dribbler.publish(data=True)
         for publisher in publishers:
             publisher.publish(**fields)
 
@@ -103,11 +114,12 @@ if __name__ == "__main__":
     options.add_argument("library", choices=["pyzeros", "sdk", "list"])
     options.add_argument("endpoint")
     options.add_argument("--twist", action="store_true")
+    options.add_argument("--dribble", action="store_true")
     options.add_argument("robots", nargs="*")
     given = options.parse_args()
     if given.library == "list":
         list_graph(given.endpoint)
     elif given.library == "sdk":
-        play_sdk(given.endpoint, given.robots, not given.twist)
+        play_sdk(given.endpoint, given.robots, not given.twist, given.dribble)
     else:
         asyncio.run(play_pyzeros(given.endpoint, given.robots, not given.twist))

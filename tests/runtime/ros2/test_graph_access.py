@@ -17,7 +17,7 @@ from runtime.process.clock import WallClock
 from runtime.ros2 import topic_type as types
 from runtime.ros2.graph import Arrived, Graph, open_graph
 from runtime.ros2.graph_access import graph_access
-from runtime.ros2.graph_names import Endpoint, Kind, NodeName, data_key
+from runtime.ros2.graph_names import Attachment, Endpoint, Kind, NodeName, data_key
 from runtime.ros2.message_types import hash_of
 from schemas.side import Side
 
@@ -103,3 +103,14 @@ def test_a_node_without_an_account_is_not_admitted(bridge: Graph) -> None:
         until(lambda: [*admitted.info.routers_zid()])
         time.sleep(0.3)
         assert [*other.info.routers_zid()] == []
+
+
+def test_nodes_of_the_operator_alone_control_the_match(bridge: Graph) -> None:
+    bridge.serve("/touchline/step_simulation", types.KICK, lambda request: request.reply(b"done"))
+    key = data_key(0, "/touchline/step_simulation", types.KICK, hash_of(types.KICK))
+    replies = {}
+    for account in (Account.CYAN, Account.OPERATOR):
+        with join(bridge.endpoint, account) as session:
+            found = session.get(key, payload=b"step", attachment=Attachment(1, 1, bytes(16)).pack(), timeout=5.0)
+            replies[account] = [reply.ok.payload.to_bytes() for reply in found if reply.ok is not None]
+    assert replies == {Account.CYAN: [], Account.OPERATOR: [b"done"]}

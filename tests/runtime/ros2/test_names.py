@@ -8,7 +8,7 @@ import pytest
 
 from runtime.ros2 import topic_type as types
 from runtime.ros2.graph_names import Attachment, Kind, NodeName, data_key, endpoint_of, gid_of, tokens_of
-from runtime.ros2.message_types import PACKAGES, hash_of, service_types, typestore
+from runtime.ros2.message_types import PACKAGES, action_types, hash_of, service_types, typestore
 from runtime.ros2.topic_type import TopicType, ros_type
 from schemas.errors import TouchlineError
 
@@ -121,8 +121,32 @@ def test_hashes_of_messages_and_services_are_those_of_another_library():
         "SetBool": "bool data\n---\nbool success\nstring message\n",
         "Trigger": "---\nbool success\nstring message\n",
     }.items():
-        store.register(service_types(f"std_srvs/srv/{name}", text))
+        store.register(service_types(text, f"std_srvs/srv/{name}"))
         assert store.hash_rihs01(f"std_srvs/srv/{name}") == hash_rihs01(getattr(all_srvs, name))
+
+
+def test_hashes_of_actions_are_those_of_installations():
+    """As rosidl writes them in `action_msgs/srv/CancelGoal.json`, and as its action of the tutorials has them."""
+    store = typestore()
+    assert store.hash_rihs01("action_msgs/srv/CancelGoal") == (
+        "RIHS01_573d8b0a534451d7bc2ac8c5ffde8ac14b8593b7001175d0cd6516dcbeb8689a"
+    )
+    name = "action_tutorials_interfaces/action/Fibonacci"
+    store.register(action_types("int32 order\n---\nint32[] sequence\n---\nint32[] partial_sequence\n", name))
+    assert store.hash_rihs01(f"{name}_SendGoal") == (
+        "RIHS01_a0603060ed69fe2dfbd1a6f3b982a1749957ef346e4a4d2b311a05e305ec37bb"
+    )
+    assert store.hash_rihs01(f"{name}_FeedbackMessage") == (
+        "RIHS01_50fc26b9cac313652ecbeab3adf9b5414d59fd4d4d5f9058ddcc7525169927f1"
+    )
+
+
+def test_a_service_has_the_hash_of_each_release_in_which_its_fields_differ():
+    services = [TopicType(f"simulation_interfaces/srv/{name}") for name in ("SetEntityState", "SpawnEntity")]
+    for one in services:
+        assert hash_of(one) != hash_of(one._replace(version="1.x"))
+    same = TopicType("simulation_interfaces/srv/StepSimulation")
+    assert hash_of(same) == hash_of(same._replace(version="1.x"))
 
 
 def test_the_hash_of_transforms_is_that_of_installations():

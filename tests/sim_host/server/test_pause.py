@@ -1,61 +1,16 @@
 """An operator pauses a running match, steps it, and lets it run; the match stays the one that it would have been."""
 
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 
 from schemas.config.roster import Placement
-from schemas.messages.pace import PaceOperation, PaceReply, PaceRequest
+from schemas.messages.pace import PaceReply, PaceRequest
 from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
-from schemas.topic import Topic
 from schemas.topics import APPLIED, HEALTH, PACE, SCENE, WORLD
-from schemas.wire.message import Message
 from support.host_rig import HostRig
-
-LIMIT_S = 60.0
-PAUSE, RUN, STEP, SHOW = PaceOperation.PAUSE, PaceOperation.RUN, PaceOperation.STEP, PaceOperation.SHOW
-
-
-@contextmanager
-def playing(rig: HostRig, ticks: int) -> Iterator[threading.Thread]:
-    """The host plays on another thread, and ends before the block does."""
-    thread = threading.Thread(target=rig.ticks, args=(ticks,))
-    thread.start()
-    yield thread
-    thread.join(LIMIT_S)
-    assert not thread.is_alive()
-
-
-def ask(rig: HostRig, request: Message, topic: Topic = PACE) -> Any:
-    return rig.outside.query(topic, request).result(LIMIT_S)
-
-
-def pace(rig: HostRig, operation: PaceOperation, **content: Any) -> PaceReply:
-    reply = ask(rig, PaceRequest(operation=operation, **content))
-    assert isinstance(reply, PaceReply)
-    return reply
-
-
-def stepped_to(rig: HostRig, tick: int) -> None:
-    """Step a paused match to this tick, and wait until it is there."""
-    now = pace(rig, SHOW).tick
-    reply = pace(rig, STEP, ticks=tick - now)
-    assert (reply.accepted, reply.until) == (True, tick)
-    while not (reply := pace(rig, SHOW)).paused:
-        pass
-    assert reply.tick == tick
-
-
-@contextmanager
-def paused(rig: HostRig, ticks: int) -> Iterator[None]:
-    """Play so many ticks on another thread, which the match does after a pause at the present tick."""
-    asked, now = rig.outside.query(PACE, PaceRequest(operation=PAUSE)), rig.host.simulation.now.tick
-    with playing(rig, ticks):
-        assert asked.result(LIMIT_S) == PaceReply(accepted=True, tick=now, paused=True, until=now)
-        yield
+from support.paused_host import RUN, STEP, ask, pace, paused, stepped_to
 
 
 @pytest.mark.parametrize("rig_name", ["rig", "realtime_rig"])

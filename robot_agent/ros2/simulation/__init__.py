@@ -1,0 +1,1 @@
+"""The services of simulation_interfaces: nodes pause, step and change a match, with the rights of its operator."""
