@@ -25,6 +25,8 @@ from schemas.wire.message import BadMessageError
 
 LIMIT = 90.0
 """Patience in s; no test depends on the exact time."""
+WHOLE_LIMIT = 240.0
+"""The same for a whole match: its five processes take 5 s of a core to start, and 45 s where nine share the core."""
 SHORT_LIMIT = 40.0
 """The same where a step takes a few seconds: a failure shows sooner."""
 POLL = 0.01
@@ -104,7 +106,10 @@ class Program:
 
     def status(self) -> int:
         """Its exit status, once it has ended."""
-        return self.popen.wait(LIMIT)
+        try:
+            return self.popen.wait(WHOLE_LIMIT)
+        except subprocess.TimeoutExpired:
+            raise AssertionError(f"it has not ended: {self.processes()}; {self.err}{self.out}") from None
 
     def wait_for_error(self, words: str) -> None:
         """Wait until its stderr contains these words."""
