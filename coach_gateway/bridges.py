@@ -4,23 +4,29 @@ import socket
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK, InheritedSockets, bound_socket
 from coach_gateway.service import Service
-from coach_gateway.settings import BridgeOptions
+from coach_gateway.settings import BridgeOptions, GatewaySettings
 from coach_gateway.soccer import refbox
 from coach_gateway.soccer.refbox.audience_feed import AudienceFeed
 from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.soccer.refbox.identity import SENT
 from coach_gateway.soccer.refbox.server import RefBoxServer, ServerAddress
+from coach_gateway.soccer.without_host.service import OpenMatch
 from coach_gateway.udp.server import UdpServer
 from runtime.bus.contract import Bus
+from runtime.bus.zenoh.bus import ZenohBus
+from runtime.process.clock import WallClock
+from runtime.process.timing import RECONNECT_S
 from schemas.errors import TouchlineError
 from schemas.messages.soccer.league.box_protocol import BoxProtocol
 from schemas.side import Side
+from schemas.soccer.game import OfficiatingMode
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +126,30 @@ def services_of(
     if wanted.audience:
         services.append(AudienceFeed(live, wanted.audience, log, team_states))
     return services
+
+
+class OpenedMatch(NamedTuple):
+    """A match of robots on hardware, without a host."""
+
+    bus: ZenohBus
+    game: Service
+
+
+def open_match(settings: GatewaySettings) -> OpenedMatch:
+    """Open the network of robots without a host, whose game is published there.
+
+    Raises:
+        TouchlineError: as `WithoutHost.open`, or the referee of a host would decide the game.
+    """
+    alone = settings.alone
+    setup = alone.setup()
+    if setup.officiating is not OfficiatingMode.MANUAL:
+        raise TouchlineError(
+            f'{alone.match_file}: referee.mode is "{setup.officiating.value}", and without a host nobody decides so; '
+            'write mode = "manual" in [referee], also for the robots'
+        )
+    bus = alone.open(settings.match or setup.match, settings.connect, WallClock(), RECONNECT_S)
+    return OpenedMatch(bus, OpenMatch(bus, setup))
 
 
 def _side_of(tokens: Tokens, token: str) -> Side | None:

@@ -2,10 +2,11 @@
 
 import socket
 import sys
+from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from coach_gateway.access.tokens import Tokens, tokens_of
-from coach_gateway.bridges import bridges_of, services_of
+from coach_gateway.bridges import bridges_of, open_match, services_of
 from coach_gateway.match.team_names import printable
 from coach_gateway.ports import InheritedSockets
 from coach_gateway.service import Service
@@ -27,7 +28,8 @@ def run(settings: GatewaySettings) -> int:
         TouchlineError: nothing is wanted, a package is not installed, a port is taken, or tokens cannot be read.
     """
     configure_log("gateway", settings.log_format)
-    if settings.web is None and not settings.bridges.wanted:
+    settings.alone.check(has_credentials=settings.credentials is not None)
+    if settings.web is None and not settings.bridges.wanted and settings.alone.match_file is None:
         raise TouchlineError("the settings have neither a page nor a bridge; add `web` or `bridges`")
     bridges, inherited = bridges_of(settings.bridges), InheritedSockets()
     ports = bridges.open_ports(inherited)
@@ -40,7 +42,15 @@ def run(settings: GatewaySettings) -> int:
     def services(bus: Bus) -> list[Service]:
         return [*([page.show(bus)] if page is not None else []), *services_of(bus, bridges, ports, known, say)]
 
-    run_services(settings, services, say, page)
+    others: list[Service] = [page] if page is not None else []
+    with ExitStack() as stack:
+        if settings.alone.match_file is not None:
+            match = open_match(settings)
+            bus = stack.enter_context(match.bus)
+            say(f"match {bus.match} without a host, at {bus.endpoint}")
+            settings = settings.model_copy(update={"connect": bus.endpoint, "match": bus.match})
+            others.append(match.game)
+        run_services(settings, services, say, others)
     return 0
 
 

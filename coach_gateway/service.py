@@ -32,14 +32,14 @@ def run(
     client: ClientSettings,
     make: Callable[[Bus], Sequence[Service]],
     log: Callable[[str], None],
-    page: Service | None = None,
+    others: Sequence[Service] = (),
 ) -> None:
-    """Run `page` and, once there is a host, the services that `make` returns, until SIGINT or SIGTERM.
+    """Run `others` and, once there is a host, the services that `make` returns, until SIGINT or SIGTERM.
 
     Raises:
         TouchlineError: a service cannot start, or it is not clear which match is meant.
     """
-    asyncio.run(_run([_Connected(client, make, log), *([page] if page is not None else [])]))
+    asyncio.run(_run([_Connected(client, make, log), *others]))
 
 
 async def _run(services: Sequence[Service]) -> None:
@@ -90,7 +90,7 @@ class _Connected:
 async def together(services: Sequence[Service], stop: asyncio.Event) -> None:
     """Run services concurrently; if one fails, the others are stopped and its error is raised."""
     tasks = [asyncio.create_task(service.serve(stop)) for service in services]
-    done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_EXCEPTION)
+    done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_EXCEPTION) if tasks else (set(), None)
     if any(task.exception() is not None for task in done):
         stop.set()
         await asyncio.wait(tasks)

@@ -8,6 +8,7 @@ from pydantic import Field
 from coach_gateway.ports import LOOPBACK
 from coach_gateway.web.settings import WebSettings
 from runtime.bus.settings import ClientSettings
+from runtime.bus.without_host import WithoutHost
 from runtime.process.log_format import LogSettings
 from schemas.config.settings import CommandLine, Settings
 from schemas.messages.soccer.league.box_protocol import BoxProtocol
@@ -42,6 +43,7 @@ class BridgeOptions(Settings):
 
 
 NO_BRIDGES = BridgeOptions()
+_A_HOST = WithoutHost()
 
 
 class GatewaySettings(ClientSettings, LogSettings):
@@ -56,3 +58,5 @@ class GatewaySettings(ClientSettings, LogSettings):
     no page is open any more."""
     bridges: BridgeOptions = NO_BRIDGES
     """What takes part besides the page."""
+    alone: WithoutHost = _A_HOST
+    """Robots on hardware without a host, whose game this process publishes."""

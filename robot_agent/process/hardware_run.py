@@ -17,12 +17,9 @@ from robot_agent.process.settings import FIRST_SIGHT_FAILED, AgentSettings, Body
 from robot_agent.process.timing import IDLE_S
 from robot_agent.sdk.contract import Brain
 from runtime.bus.contract import Bus
-from runtime.bus.endpoint import is_loopback
-from runtime.bus.zenoh.any_keys import open_network
 from runtime.bus.zenoh.bus import ZenohBus
 from runtime.process.clock import Clock
 from runtime.process.process_log import Level, log_line
-from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.messages.hardware import HardwareState
 from schemas.messages.setup import Setup
@@ -46,10 +43,7 @@ def check_body(settings: AgentSettings) -> None:
         raise TouchlineError("--arm, --match-file, --listen and --insecure are for hardware; name it with --hardware")
     if body.hardware and settings.mates:
         raise TouchlineError(f"{settings.robot}: a process has the hardware of one robot; start one for each robot")
-    if body.match_file is None and (body.listen is not None or body.insecure):
-        raise TouchlineError("--listen and --insecure are for robots without a host; add --match-file")
-    if body.match_file is not None and settings.credentials is not None:
-        raise TouchlineError("--credentials are those of a host; leave them or --match-file out")
+    body.check(has_credentials=settings.credentials is not None)
 
 
 @contextmanager
@@ -100,30 +94,12 @@ def open_free_network(settings: AgentSettings, clock: Clock, patience: float) ->
     """The network of robots without a host: this robot waits for the others, or connects to one of them.
 
     Raises:
-        TouchlineError: it is open to other machines and that is not wanted, or nothing answers for `patience` s.
+        TouchlineError: as `WithoutHost.open`.
     """
-    listen, connect = settings.body.listen, settings.connect
-    if listen is not None and connect is not None:
-        raise TouchlineError("--listen waits for other robots, --connect joins one that does; leave one of them out")
-    if listen is not None and not settings.body.insecure and not is_loopback(listen):
-        raise TouchlineError(
-            f"--listen {listen} is open to other machines; add --insecure on a network of your own, or listen on "
-            "tcp/127.0.0.1:7447"
-        )
-    match = settings.match or setup_without_host(settings).match
-    bus = open_network(match, clock, connect, listen, patience=patience)
+    match = settings.match or settings.body.setup().match
+    bus = settings.body.open(match, settings.connect, clock, patience)
     log_line(f"{settings.robot}: match {match} without a host, at {bus.endpoint}")
     return bus
-
-
-def setup_without_host(settings: AgentSettings) -> Setup:
-    """The setup of the match that the robot's match file describes.
-
-    Raises:
-        TouchlineError: the file is invalid.
-    """
-    config = load_match(settings.body.match_file)
-    return Setup.of(config, config.load_profile(), config.load_rule_book())
 
 
 def serve_open(

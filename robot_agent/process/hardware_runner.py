@@ -9,12 +9,14 @@ from robot_agent.process.brain_runner import BrainRunner
 from robot_agent.process.timing import IDLE_S
 from robot_agent.sdk.contract import Brain, Briefing
 from runtime.bus.contract import Bus
+from runtime.process.process_log import Level, log_line
+from runtime.process.timing import LINK_GRACE_S
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.setup import Setup
 from schemas.messages.sight import Outcome, ReceivedRadio, Sight
-from schemas.messages.soccer.game import GameView
-from schemas.soccer.game import TeamPhase
+from schemas.messages.soccer.game import GameState, GameView
+from schemas.soccer.game import OfficiatingMode, Phase, TeamPhase
 from schemas.topics import COMMAND, HARDWARE, SIGHT, STATE
 from schemas.wire.message import valid
 
@@ -56,6 +58,8 @@ class HardwareRunner(BrainRunner):
         self._states = bus.subscribe(STATE, history=True)
         self._attack: int | None = None
         """Sign of the x direction that the robot's team attacks; None before it is known."""
+        self._game: GameState | None = None
+        self._game_at = 0.0
 
     def next_sight(self, timeout: float | None) -> Sight | None:  # noqa: ARG002 - it waits for its own rate
         """The sight that is due next, from the robot's own sensors; None before a pose and news of the match.
@@ -128,17 +132,25 @@ class HardwareRunner(BrainRunner):
 
     def _hear(self, now: float) -> None:
         """Take over what has arrived."""
-        while (received := self._states.receive()) is not None:
-            state = valid(received.message)
-            if state is not None:
-                self._attack = self._side.attack(state.cyan_attacks)
+        self._hear_game(now)
         while (sight := super().next_sight(0.0)) is not None:
             self._news = News(sight.tick, sight.time, sight.game, sight.radio, sight.order)
             self._news_at = now
 
+    def _hear_game(self, now: float) -> None:
+        """Take over the newest state of the game."""
+        while (received := self._states.receive()) is not None:
+            state: GameState | None = valid(received.message)
+            if state is not None:
+                self._attack = self._side.attack(state.cyan_attacks)
+                self._game, self._game_at = state, now
+
 
 class OpenRunner(HardwareRunner):
-    """A robot on hardware without a host: the game is free, and teammates hear each other's commands."""
+    """A robot on hardware without a host, whose teammates hear each other's commands.
+
+    The game is free. Under manual officiating it is what a gateway publishes; without news of it the game is stopped.
+    """
 
     def __init__(self, guard: HardwareGuard, setup: Setup, bus: Bus, brain: Brain, robot: str) -> None:
         super().__init__(guard, setup, bus, brain, robot)
@@ -147,6 +159,9 @@ class OpenRunner(HardwareRunner):
         self._mates = [bus.subscribe(COMMAND, newest=True, robot=mate) for mate in Briefing.of(robot, setup).teammates]
         self._heard: dict[str, tuple[float, ReceivedRadio]] = {}
         """Teammate → its newest radio message, and when it arrived."""
+        self._is_officiated = setup.officiating is OfficiatingMode.MANUAL
+        self._is_heard: bool | None = None
+        """Whether there are news of the game; None before it is known."""
 
     def next_sight(self, timeout: float | None) -> Sight | None:
         """As in `HardwareRunner`; the sight is published for recorders."""
@@ -167,5 +182,22 @@ class OpenRunner(HardwareRunner):
             if received is not None and command is not None and command.radio is not None:
                 self._heard[received.chunks["robot"]] = now, ReceivedRadio.of(command.radio)
         radio = {name: one.replace(age=round(now - then, 4)) for name, (then, one) in self._heard.items()}
-        game = GameView(phase=TeamPhase.PLAY, running=True, clock=round(now, 4), our_score=0, their_score=0)
-        self._news, self._news_at = News(self._tick, now, game, radio), now
+        self._hear_game(now)
+        game = self._view(now) if self._is_officiated else None
+        if game is None:
+            game = GameView(phase=TeamPhase.PLAY, running=True, clock=round(now, 4), our_score=0, their_score=0)
+        record = game.robots.get(self._robot)
+        is_off = record is not None and record.off_field is not None
+        self._news, self._news_at = None if is_off else News(self._tick, now, game, radio), now
+
+    def _view(self, now: float) -> GameView:
+        """The game as it is officiated; stopped without news."""
+        state = self._game or GameState(tick=0, time=0.0, phase=Phase.STOPPED)
+        is_heard = self._game is not None and now - self._game_at <= LINK_GRACE_S
+        if is_heard is not self._is_heard:
+            self._is_heard = is_heard
+            what = "that of a gateway" if is_heard else "stopped: no gateway publishes it; start touchline coach bridge"
+            log_line(f"{self._robot}: the game is {what}", Level.INFO if is_heard else Level.WARNING)
+        if not is_heard:
+            state = state.replace(phase=Phase.STOPPED, side=None, running=False)
+        return GameView.of(state, self._side, self._setup.teams[self._side].robots)

@@ -5,9 +5,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from runtime.bus.settings import ClientSettings, Endpoint
+from runtime.bus.settings import ClientSettings
+from runtime.bus.without_host import WithoutHost
 from runtime.process.log_format import LogSettings
-from schemas.config.settings import CommandLine, Settings
+from schemas.config.settings import CommandLine
 from schemas.side import Side
 from schemas.wire.message import Name
 
@@ -15,19 +16,13 @@ FIRST_SIGHT_FAILED = 3
 """Exit status of an agent whose brain failed at its first sight: it would fail again."""
 
 
-class BodyOptions(Settings):
+class BodyOptions(WithoutHost):
     """The robot's own hardware, in place of a body in the simulation; without a host, its network and its match."""
 
     hardware: str = ""
     """The robot's own hardware: module:Class, a hardware file *.toml, or dummy, simulated, replayed."""
     arm: bool = False
     """Let the hardware move the robot; without it sensors are read and the brain runs, and the motors get nothing."""
-    match_file: Path | None = None
-    """Without a host: the match file with robots, profile and rules. The game is free, until the agent is stopped."""
-    listen: Endpoint | None = None
-    """Without a host: the endpoint at which this robot waits for teammates and recorders, who --connect to it."""
-    insecure: bool = False
-    """Without a host: let other machines connect, too. There are no credentials; use a network of your own."""
 
 
 class AgentOptions(ClientSettings, LogSettings):

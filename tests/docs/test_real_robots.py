@@ -1,5 +1,7 @@
 """docs/real_robots.md: its class is hardware, its tables are complete, and its commands drive a robot."""
 
+import asyncio
+import math
 import os
 import re
 import shutil
@@ -19,9 +21,14 @@ from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings, hardware_settings
 from robot_agent.sdk.contract import Briefing
 from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
 from schemas.config.match_config import load_match
 from schemas.messages.command import Command, Drive
+from schemas.topics import COMMAND
+from support.gateway_bench import until
 from support.messages import make_setup
+from support.referee_box import Box
 from support.stepped_board import track_on_board
 from support.stepped_clock import SteppedClock
 from touchline.hardware.robot_track import RobotTrack, path_distance
@@ -161,6 +168,51 @@ def test_its_example_of_two_bodies_is_played_driven_recorded_and_drawn_as_typed(
     done = subprocess.run([*drawn, "cyan1", tmp_path / "two.png"], capture_output=True, text=True, check=True)
     assert re.fullmatch(r"0\.0\d+ m apart on average, 0\.\d+ m at most\n", done.stdout)
     assert (tmp_path / "two.png").exists()
+
+
+@pytest.mark.processes
+@pytest.mark.slow
+@pytest.mark.anyio
+async def test_its_commands_let_robots_obey_the_leagues_box_without_a_host(
+    page: str, fenced: Fenced, tmp_path: Path
+) -> None:
+    (tmp_path / "robot.toml").write_text("watchdog = 9.0  # for a busy machine\n" + fenced(page, "toml")[0])
+    (tmp_path / "match.toml").write_text(fenced(page, "toml")[1])
+    endpoint, box = with_free_port("tcp/127.0.0.1:0"), Box()
+    port = await box.open()
+    (typed,) = (block for block in fenced(page, "sh") if "--refbox" in block)
+    typed = typed.replace("tcp/127.0.0.1:7447", endpoint).replace("192.168.1.2", f"127.0.0.1:{port}")
+    bridge, agent, stop, watch = (line.split()[1:] for line in typed.splitlines())
+    with running(bridge, tmp_path), running([*agent, "--patience", "60"], tmp_path):
+        with open_client("friendly", WallClock(), endpoint, 60.0) as bus:
+            commands = bus.subscribe(COMMAND)
+
+            def speeds() -> list[float]:
+                drives = [one.message().drive for one in iter(commands.receive, None)]
+                return [math.hypot(drive.vx, drive.vy) for drive in drives]
+
+            await until(lambda: box.links and speeds() == [0.0], "a robot that waits")
+            box.say("START")
+            await until(lambda: max(speeds(), default=0.0) > 0.5, "play")
+            box.say("STOP")
+            await until(lambda: speeds() == [0.0], "rest")
+            box.say("START")
+            await until(lambda: max(speeds(), default=0.0) > 0.5, "play again")
+            assert await asyncio.to_thread(_run, stop, tmp_path) == "stop accepted\n"
+            await until(lambda: speeds() == [0.0], "rest again")
+        shown = await asyncio.to_thread(_first_line, watch, tmp_path)
+        assert "half 1  Simple 0 : 0 NuBot" in shown
+    await box.close()
+
+
+def _first_line(command: list[str], folder: Path) -> str:
+    """What a command that goes on prints first."""
+    words = [sys.executable, "-m", "touchline", *command]
+    with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+    return line
 
 
 def _run(command: list[str], folder: Path) -> str:

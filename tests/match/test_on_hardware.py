@@ -1,6 +1,7 @@
 """Robots on hardware as processes: in the match of a host, and with hardware and brains that fail."""
 
 import os
+import re
 import signal
 
 import pytest
@@ -10,7 +11,8 @@ from runtime.bus.endpoint import with_free_port
 from schemas.config.match_config import MatchConfig
 from schemas.topics import HARDWARE
 from sim_host.server.settings import HostSettings
-from support.process_story import descendants, wait_for
+from support.process_story import LIMIT, descendants, wait_for
+from support.visitor import Visitor
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
@@ -140,6 +142,28 @@ def test_teammates_without_a_host_hear_each_other_over_the_network(start, place)
     for robot in robots.values():
         robot.popen.send_signal(signal.SIGTERM)
         assert robot.status() == 0
+
+
+def test_a_page_without_a_host_officiates_robots_on_hardware(start, place):
+    (place / "officiated.toml").write_text('[referee]\nmode = "manual"\n')
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    words = ("--match-file", "officiated.toml", "--listen", endpoint, "--port", "0")
+    gateway = start("touchline", "coach", "serve", *words, folder=place, name="gateway")
+    body = {"match_file": "officiated.toml"}
+    robot = start(
+        "robot_agent", folder=place, name="obeys", settings=settings(body=body, connect=endpoint, patience=60)
+    )
+    wait_for(lambda: "the game is that of a gateway" in robot.err, "the game")
+    origin, token = wait_for(lambda: re.search(r"referee: (\S+)/#token=(\S+)", gateway.out), "the page").groups()
+    page = Visitor(origin, token, patience=LIMIT)
+    page.hear_what_is_played()
+    assert page.ask("action", action={"action": "start"})["accepted"]
+    while page.hear("state")["state"]["phase"] != "play":
+        pass
+    page.socket.close()
+    for program in (robot, gateway):
+        program.popen.send_signal(signal.SIGTERM)
+        assert program.status() == 0
 
 
 @pytest.mark.parametrize("hardware", ["Hanging", "Stubborn"])

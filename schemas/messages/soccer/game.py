@@ -1,6 +1,7 @@
 """Messages about the game: its state, its events, and the requests to the referee."""
 
-from typing import Annotated
+from collections.abc import Collection
+from typing import Annotated, Self
 
 from msgspec import Meta
 
@@ -114,6 +115,24 @@ class GameView(Part):
     episode: int = 1
     """Counts the starts of the world. When the number changes, the world was set up anew, and earlier beliefs are
     void."""
+
+    @classmethod
+    def of(cls, state: GameState, side: Side, robots: Collection[str]) -> Self:
+        """The state from the point of view of a side, whose robots are given."""
+        score, attack, spot = state.score, side.attack(state.cyan_attacks), state.spot
+        return cls(
+            phase=TeamPhase.of(state.phase, state.side, side),
+            running=state.running,
+            half=state.half,
+            clock=state.clock,
+            our_score=score.of(side),
+            their_score=score.of(side.opponent),
+            spot=Point(x=attack * spot.x, y=attack * spot.y) if spot is not None else None,
+            stage=state.stage,
+            left=state.left,
+            robots={name: record for name, record in state.robots.items() if name in robots},
+            episode=state.episode,
+        )
 
 
 class GameEvent(Message):

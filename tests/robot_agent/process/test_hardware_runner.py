@@ -13,11 +13,12 @@ from robot_agent.process.hardware_runner import HardwareRunner, OpenRunner
 from schemas.messages.command import Command, Drive
 from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
-from schemas.messages.soccer.game import GameState
-from schemas.soccer.game import Phase, TeamPhase
+from schemas.messages.soccer.game import DisciplinaryRecord, GameState
+from schemas.side import Side
+from schemas.soccer.game import OffField, Phase, Score, TeamPhase
 from schemas.topics import COMMAND, HARDWARE, SIGHT, STATE
 from support.in_process_bus import SharedState
-from support.messages import make_sight
+from support.messages import make_setup, make_sight
 from support.stepped_clock import SteppedClock
 
 
@@ -172,3 +173,50 @@ def test_a_robot_whose_localisation_fails_is_not_asked_and_falls_back(field, mon
     assert health.fell_back == 1 and "motion: a reading is not finite" in health.reason
     monkeypatch.undo()
     assert robot.guard.sense().motion.vx == 0.0
+
+
+@pytest.fixture
+def officiated():
+    return Field(make_setup(**{"referee.mode": "manual"}))
+
+
+def seen_game(robot):
+    """What the brain was shown last."""
+    game = robot.brain.seen[-1].game
+    return game.phase, game.running
+
+
+def test_under_manual_officiating_the_game_is_what_a_gateway_publishes_and_stopped_without_news(officiated, capsys):
+    robot, states = officiated.robot("magenta2"), officiated.host.publisher(STATE)
+    play(3, robot)
+    assert seen_game(robot) == (TeamPhase.STOPPED, False)
+    corner = GameState(tick=1, time=0.02, phase=Phase.CORNER, side=Side.CYAN, running=True, score=Score(cyan=2))
+    states.put(corner)
+    play(120, robot)
+    assert seen_game(robot) == (TeamPhase.THEIR_CORNER, True)
+    play(10, robot)
+    assert seen_game(robot) == (TeamPhase.STOPPED, False), "the gateway is gone"
+    assert robot.brain.seen[-1].game.their_score == 2
+    states.put(corner)
+    play(1, robot)
+    assert seen_game(robot) == (TeamPhase.THEIR_CORNER, True)
+    lines = capsys.readouterr().err.splitlines()
+    stopped = "magenta2: the game is stopped: no gateway publishes it; start touchline coach bridge"
+    assert lines == 2 * [stopped, "magenta2: the game is that of a gateway"]
+
+
+def test_under_other_officiating_no_gateway_decides(field):
+    robot = field.robot("cyan2")
+    field.host.publisher(STATE).put(GameState(tick=1, time=0.02, phase=Phase.STOPPED))
+    play(3, robot)
+    assert seen_game(robot) == (TeamPhase.PLAY, True)
+
+
+def test_a_robot_that_is_sent_off_is_not_asked_and_falls_back(officiated):
+    robot, states = officiated.robot("cyan2"), officiated.host.publisher(STATE)
+    records = {"cyan2": DisciplinaryRecord(off_field=OffField.REPAIR)}
+    for off in ({}, records):
+        states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY, running=True, robots=off))
+        play(12, robot)
+        robot.guard.watch()
+    assert len(robot.brain.seen) == 12 and robot.guard.health().fell_back == 1

@@ -2,6 +2,7 @@
 
 import pytest
 
+from schemas.messages.soccer.game import GameView
 from schemas.side import Side
 from schemas.soccer.game import Point, TeamPhase
 from sim_host.soccer.referee.game_views import game_views
@@ -24,6 +25,11 @@ def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(rig, halves_over):
     assert ours.spot.x == pytest.approx(rig.pitch.goal_line - inset)
     assert theirs.spot == Point(x=-ours.spot.x, y=-ours.spot.y)
     assert ours.half == rig.state.half and ours.clock == rig.state.clock and not ours.running
+    rig.ask("yellow_card", robot="cyan2")
+    published, roster = rig.state.game_state(700, 14.0), rig.roster
+    for side, view in game_views(rig.state, rig.roster).items():
+        robots = [name for name, its in zip(roster.names, roster.sides, strict=True) if its is side]
+        assert GameView.of(published, side, robots) == view
 
 
 def test_in_play_both_see_the_same_and_no_spot(rig):

@@ -14,6 +14,7 @@ from coach_gateway.settings import BridgeOptions, GatewaySettings
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.process.settings import AgentOptions
 from runtime.bus.settings import ClientSettings, ListenSettings
+from runtime.bus.without_host import WithoutHost
 from schemas.config.match_config import MatchConfig
 from schemas.config.match_parts import RecordingConfig
 from schemas.config.settings import CommandLine, RecordOptions, Settings
@@ -28,7 +29,7 @@ COMMANDS: dict[str, tuple[type[Settings], ...]] = {
     "agent": (AgentOptions,),
     "record": (RecorderSettings,),
     "coach serve": (GatewaySettings,),
-    "coach bridge": (ClientSettings, BridgeOptions),
+    "coach bridge": (ClientSettings, BridgeOptions, WithoutHost),
     "match": (BridgeOptions, ListenSettings),
     "replay": (ListenSettings,),
     "referee stop": (ClientSettings,),
