@@ -1,0 +1,214 @@
+"""The environment of a team: PettingZoo's own tests, what a step is, and one clear error for each wrong call."""
+
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pettingzoo
+import pytest
+from pettingzoo.test import max_cycles_test, parallel_api_test, parallel_seed_test
+from pettingzoo.utils import parallel_to_aec
+
+from schemas.errors import TouchlineError
+from schemas.messages.sight import Sight
+from support.rover_task import write_rover_task
+from touchline.learn import TaskEnv
+from touchline.learn.registry import environment_name
+from touchline.matches.task.task import shipped_tasks
+from touchline.verify.resimulate import verify
+
+KEEPAWAY = "keepaway_3v2"
+
+
+def keepaway(**settings: Any) -> TaskEnv:
+    env: TaskEnv = pettingzoo.make("parallel", environment_name(KEEPAWAY), **settings)
+    return env
+
+
+def still(env: TaskEnv) -> dict[str, Any]:
+    return {agent: np.zeros(env.action_space(agent).shape, np.float32) for agent in env.agents}
+
+
+@pytest.fixture
+def rovers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., TaskEnv]]:
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    monkeypatch.delitem(sys.modules, "tally", raising=False)
+    path, made = write_rover_task(tmp_path), []
+
+    def make(**settings: Any) -> TaskEnv:
+        made.append(TaskEnv(path, **settings))
+        return made[-1]
+
+    yield make
+    for env in made:
+        env.close()
+    sys.modules.pop("tally", None)
+
+
+def test_pettingzoo_finds_its_api_kept(rovers: Callable[..., TaskEnv]) -> None:
+    parallel_api_test(rovers(), 20)
+    parallel_api_test(keepaway(), 20)
+
+
+def test_pettingzoo_finds_equal_seeds_equal() -> None:
+    parallel_seed_test(keepaway, 20)
+
+
+def test_an_episode_is_truncated_after_the_most_steps_that_are_asked_for(rovers: Callable[..., TaskEnv]) -> None:
+    max_cycles_test(
+        SimpleNamespace(
+            parallel_env=lambda max_cycles: rovers(max_cycles=max_cycles),
+            env=lambda max_cycles: parallel_to_aec(rovers(max_cycles=max_cycles)),
+        )
+    )
+
+
+def test_every_task_that_ships_has_an_environment() -> None:
+    for task in shipped_tasks():
+        env = pettingzoo.make("parallel", environment_name(task))
+        observations, _ = env.reset(1)
+        assert all(env.observation_space(agent).contains(seen) for agent, seen in observations.items())
+        env.close()
+
+
+def test_names_of_environments_are_those_of_tasks_in_words() -> None:
+    assert environment_name("keepaway_3v2") == "Touchline/Keepaway3v2-v0"
+    assert environment_name("pass_and_shoot") == "Touchline/PassAndShoot-v0"
+
+
+def test_a_step_lasts_the_ticks_of_a_decision_and_its_reward_is_the_change_of_the_score(
+    rovers: Callable[..., TaskEnv],
+) -> None:
+    env = rovers(parameters={"decision_ticks": 7})
+    env.reset(3)
+    ahead = still(env) | {"one": np.array([1.0, 0.0], np.float32)}
+    _, first, *_, infos = env.step(ahead)
+    assert infos["one"]["tick"] == 7
+    assert first["one"] == first["two"] == pytest.approx(infos["two"]["score"])
+    _, second, *_, infos = env.step(ahead)
+    assert first["one"] + second["one"] == pytest.approx(infos["one"]["score"])
+    assert second["one"] > first["one"] > 0
+
+
+def test_score_terminates_and_time_truncates(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers()
+    ends = []
+    for speed in (1.0, 0.0):
+        env.reset(3)
+        while env.agents:
+            *_, terminated, truncated, infos = env.step(still(env) | {"one": np.array([speed, 0.0])})
+        ends.append((terminated["two"], truncated["two"], infos["two"]["ended_by"]))
+    assert ends == [(True, False, "score"), (False, True, "time")]
+
+
+def test_equal_seeds_are_equal_episodes_and_others_are_drawn(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers()
+    seeds, starts = [], []
+    for seed in (5, None, 5, None):
+        observations, infos = env.reset(seed)
+        seeds.append(infos["two"]["seed"])
+        starts.append(observations["two"].tolist())
+    assert seeds[0] == seeds[2] == 5 and seeds[1] == seeds[3] != 5
+    assert starts[0] == starts[2] != starts[1] == starts[3]
+
+
+def test_robots_that_are_no_agents_are_played_by_their_brain() -> None:
+    env = keepaway(robots=["cyan2"], observation="sight", overrides={"noise.preset": "perfect"})
+    before, _ = env.reset(2)
+    assert env.possible_agents == list(before) == ["cyan2"]
+    for _ in range(5):
+        after, *_ = env.step(still(env))
+    bodies = zip(before["cyan2"].obstacles, after["cyan2"].obstacles, strict=True)
+    moved = [abs(one.x - other.x) for one, other in bodies]
+    assert sum(distance > 0.05 for distance in moved) >= 2
+
+
+def test_plain_sights_are_observed_where_they_are_asked_for(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers(observation="sight")
+    observations, _ = env.reset(1)
+    assert isinstance(observations["one"], Sight) and env.observation_space("one").contains(observations["one"])
+    assert env.observation_space("one") == env.observation_space("two")
+    with pytest.raises(TouchlineError, match="not sampled"):
+        env.observation_space("one").sample()
+
+
+def test_the_state_is_what_all_agents_observe(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers()
+    observations, _ = env.reset(1)
+    assert env.state().tolist() == [*observations["one"].tolist(), *observations["two"].tolist()]
+
+
+@pytest.mark.slow
+def test_any_episode_becomes_a_recording_that_verifies(tmp_path: Path) -> None:
+    env = keepaway()
+    env.reset(9, {"record": tmp_path / "nine.mcap"})
+    actions = np.random.default_rng(1)
+    while env.agents:
+        env.step({agent: actions.uniform(-1, 1, env.action_space(agent).shape) for agent in env.agents})
+    assert verify(tmp_path / "nine.mcap", referee=True).identical
+
+
+def test_a_recording_ends_with_the_next_reset(rovers: Callable[..., TaskEnv], tmp_path: Path) -> None:
+    env = rovers()
+    env.reset(9, {"record": tmp_path / "nine.mcap"})
+    env.step(still(env))
+    env.reset(9)
+    assert (tmp_path / "nine.mcap").read_bytes().endswith(b"\x89MCAP0\r\n")
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"robots": ["ome"]}, 'ome does not do this task; did you mean "one"?'),
+        ({"robots": []}, "no robot is an agent"),
+        ({"observation": "sigth"}, 'did you mean "sight"?'),
+        ({"parameters": {"decision_ticks": 0}}, "decision_ticks is 0; write a whole number from 1 to 1000"),
+        ({"parameters": {"observe": "motoin"}}, 'names "motoin"; did you mean "motion"?'),
+        ({"overrides": {"duratoin": 3}}, "duration"),
+    ],
+)
+def test_wrong_settings_are_one_clear_error(rovers: Callable[..., TaskEnv], settings: Any, said: str) -> None:
+    with pytest.raises(TouchlineError) as raised:
+        rovers(**settings)
+    assert said in str(raised.value) and "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("actions", "said"),
+    [
+        ({"one": [0.0, 0.0]}, "two has no action; give one for each of one, two"),
+        ({"one": [0.0, 0.0], "tow": [0.0, 0.0]}, "'tow' is no agent; did you mean \"two\"?"),
+        ({"one": [0.0, 0.0], "two": [0.0]}, "the action of two has the shape (1,); it is (2,): vx, omega"),
+        ({"one": [0.0, float("nan")], "two": [0.0, 0.0]}, "the action of one is [0.0, nan]; give finite numbers"),
+        ({"one": "left", "two": [0.0, 0.0]}, "the action of one is 'left'; give 2 numbers"),
+    ],
+)
+def test_wrong_actions_are_one_clear_error(rovers: Callable[..., TaskEnv], actions: Any, said: str) -> None:
+    env = rovers()
+    env.reset(1)
+    with pytest.raises(TouchlineError) as raised:
+        env.step(actions)
+    assert said in str(raised.value)
+
+
+def test_a_step_outside_of_an_episode_is_one_clear_error(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers()
+    with pytest.raises(TouchlineError, match="call reset"):
+        env.step({})
+    with pytest.raises(TouchlineError, match="call reset"):
+        env.state()
+    env.reset(1)
+    actions = still(env)
+    while env.agents:
+        env.step(actions)
+    with pytest.raises(TouchlineError, match="call reset"):
+        env.step(actions)
+
+
+@pytest.mark.parametrize("seed", [-1, 2**63, 1.5, True, "one"])
+def test_a_wrong_seed_is_one_clear_error(rovers: Callable[..., TaskEnv], seed: Any) -> None:
+    with pytest.raises(TouchlineError, match="give a whole number from 0"):
+        rovers().reset(seed)

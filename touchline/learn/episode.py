@@ -1,0 +1,82 @@
+"""One episode of a task in this process: some robots are controlled from outside, the others by their brains."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from robot_agent.sdk.contract import Briefing
+from schemas.config.match_config import MatchConfig
+from schemas.messages.command import Command
+from schemas.messages.sight import Sight
+from sim_host.task.judge import TaskState
+from touchline.play.match_recording import MatchRecording
+from touchline.play.play_match import InProcessMatch, answer_of
+
+
+class _Seat:
+    """In place of the brain of a robot that is controlled from outside."""
+
+    def act(self, sight: Sight) -> Command:
+        """Stand still."""
+        return Command(answers_tick=sight.tick)
+
+
+class Episode:
+    """A match that is stepped with the commands of the controlled robots; to be closed."""
+
+    def __init__(
+        self, config: MatchConfig, folder: Path, controlled: Sequence[str], recording: Path | None = None
+    ) -> None:
+        """`config` is of a task; brains are looked for in `folder`; the match is written into `recording`.
+
+        Raises:
+            TouchlineError: a brain cannot be loaded, or the recording cannot be written.
+        """
+        seat = _Seat()
+        self._match = InProcessMatch(config, dict.fromkeys(controlled, seat), folder)
+        self._simulation = self._match.simulation
+        self._brains = {name: brain for name, brain in self._match.brains.items() if brain is not seat}
+        self._recording: MatchRecording | None = None
+        if recording is not None:
+            try:
+                self._recording = MatchRecording(recording, config, self._simulation)
+            except BaseException:
+                self._match.close()
+                raise
+
+    def close(self) -> None:
+        """Free the engine, and finish the recording."""
+        self._match.close()
+        if self._recording is not None:
+            self._recording.close()
+            self._recording = None
+
+    @property
+    def sights(self) -> Mapping[str, Sight]:
+        """Robot → what it perceives now. Robots and ticks share parts of sights: a reader must not change these."""
+        return self._simulation.now.sights.perceived
+
+    @property
+    def state(self) -> TaskState:
+        """Score, reward and end."""
+        state: Any = self._simulation.state
+        assert isinstance(state, TaskState)
+        return state
+
+    @property
+    def tick(self) -> int:
+        """Control ticks since it began."""
+        return self._simulation.now.tick
+
+    def briefing(self, robot: str) -> Briefing:
+        """The briefing of a robot."""
+        return Briefing.of(robot, self._simulation.setup())
+
+    def step(self, commands: Mapping[str, Command]) -> None:
+        """One tick: the controlled robots do these commands, the others what their brains answer."""
+        sights, all_commands = self.sights, dict(commands)
+        for robot, brain in self._brains.items():
+            all_commands[robot] = answer_of(brain, sights[robot].own_copy())
+        tick = self._simulation.step(all_commands)
+        if self._recording is not None:
+            self._recording.add(tick, all_commands)

@@ -1,0 +1,229 @@
+"""A task as a parallel environment of PettingZoo: an agent for each robot of the side that does the task."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium.spaces import Box, Space
+from numpy.typing import NDArray
+from pettingzoo import ParallelEnv
+
+from schemas.config.match_parts import Parameter
+from schemas.errors import TouchlineError, did_you_mean
+from sim_host.task.judge import BY_TIME
+from touchline.learn.episode import Episode
+from touchline.learn.sight_space import SightSpace
+from touchline.matches.task.task import load_task
+from touchline.policy.control import Control
+from touchline.policy.entries import Entry
+from touchline.policy.observation import Observation
+
+Observed = Any
+"""A vector of shape (entries,), or a sight."""
+Infos = dict[str, dict[str, Any]]
+OBSERVATIONS = ("vector", "sight")
+
+
+class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
+    """A team that does a task; every robot gets the team's reward.
+
+    Observations are vectors of `touchline.policy.observation`, or the robots' sights; actions are vectors of
+    `touchline.policy.control`. A step lasts `decision_ticks` control ticks. A robot that is sent off stays an agent,
+    and its actions have no effect. `terminated` is an end by score or game, `truncated` one by time or `max_cycles`.
+    """
+
+    metadata: dict[str, Any] = {"name": "touchline", "render_modes": [], "is_parallelizable": True}
+    render_mode: str | None = None
+
+    def __init__(
+        self,
+        task: str,
+        *,
+        robots: Sequence[str] | None = None,
+        parameters: Mapping[str, Parameter] | None = None,
+        overrides: Mapping[str, Any] | None = None,
+        observation: str = "vector",
+        max_cycles: int | None = None,
+    ) -> None:
+        """An environment of a task that ships, by its name, or of one from the path of its match file.
+
+        Args:
+            robots: those of the task's side that are agents, all by default; the others are played by their brain.
+            parameters: of the team, such as `decision_ticks`, see `touchline.policy.interface`.
+            overrides: keys of the match file, with dots, such as `teams.magenta.brain`.
+            observation: `vector`, or `sight` for a `schemas.messages.sight.Sight`, whose parts must not be changed.
+            max_cycles: steps after which an episode is truncated; None for no such limit.
+
+        Raises:
+            TouchlineError: there is no such task, robot or kind of observation, or the match file is invalid.
+        """
+        side = load_task(task, overrides=overrides).side.value
+        given = {f"teams.{side}.parameters.{name}": value for name, value in (parameters or {}).items()}
+        self._task = load_task(task, overrides={**(overrides or {}), **given})
+        chosen = self._task.robots if robots is None else list(robots)
+        for robot in chosen:
+            if robot not in self._task.robots:
+                raise TouchlineError(f"{robot} does not do this task; {did_you_mean(robot, self._task.robots)}")
+        if not chosen:
+            raise TouchlineError(f"no robot is an agent; name some of {', '.join(self._task.robots)}")
+        if observation not in OBSERVATIONS:
+            raise TouchlineError(f'observation is "{observation}"; {did_you_mean(observation, OBSERVATIONS)}')
+        self.possible_agents: list[str] = chosen
+        self.agents: list[str] = []
+        self.max_cycles = max_cycles
+        self._cycles = 0
+        self._episode: Episode | None = None
+        self._seeds = np.random.default_rng()
+        self._sights = observation == "sight"
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        """Determine all layouts and spaces, which no episode changes."""
+        episode = self._begin(self._task.config.seed, None)
+        briefings = {agent: episode.briefing(agent) for agent in self.possible_agents}
+        episode.close()
+        self._observations = {agent: Observation(briefing) for agent, briefing in briefings.items()}
+        self._controls = {agent: Control(briefing) for agent, briefing in briefings.items()}
+        self.observation_spaces: dict[str, Space[Any]] = {
+            agent: SightSpace() if self._sights else Box(layout.low, layout.high, dtype=np.float32)
+            for agent, layout in self._observations.items()
+        }
+        self.action_spaces: dict[str, Space[Any]] = {
+            agent: Box(-1.0, 1.0, (len(control.entries),), np.float32) for agent, control in self._controls.items()
+        }
+
+    def observation_space(self, agent: str) -> Space[Any]:
+        """The space of an agent's observations: the same object each time."""
+        return self.observation_spaces[self._known(agent)]
+
+    def action_space(self, agent: str) -> Space[Any]:
+        """The space of an agent's actions: the same object each time."""
+        return self.action_spaces[self._known(agent)]
+
+    def observation_entries(self, agent: str) -> tuple[Entry, ...]:
+        """Name, unit, scale and limits of each number of an agent's observation."""
+        return self._observations[self._known(agent)].entries
+
+    def action_entries(self, agent: str) -> tuple[Entry, ...]:
+        """Name, unit and scale of each number of an agent's action."""
+        return self._controls[self._known(agent)].entries
+
+    def reset(
+        self, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> tuple[dict[str, Observed], Infos]:
+        """Begin the episode of a seed; without one, of a seed that is drawn after the last given one.
+
+        The option `record` is the path of an MCAP recording of the episode. Infos have the `seed` of the episode.
+
+        Raises:
+            TouchlineError: the seed is no whole number from 0 to 2^63 - 1, a brain cannot be loaded, or the recording
+                cannot be written.
+        """
+        if seed is None:
+            seed = int(self._seeds.integers(2**31))
+        elif isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
+            raise TouchlineError(f"seed is {seed!r}; give a whole number from 0 to 2^63 - 1")
+        else:
+            self._seeds = np.random.default_rng(seed)
+        self.close()
+        record = (options or {}).get("record")
+        self._seed = int(seed)
+        self._episode = self._begin(self._seed, Path(record) if record is not None else None)
+        self.agents, self._cycles = [*self.possible_agents], 0
+        return self._observe(self._episode), self._infos(self._episode)
+
+    def step(
+        self, actions: Mapping[str, Any]
+    ) -> tuple[dict[str, Observed], dict[str, float], dict[str, bool], dict[str, bool], Infos]:
+        """Keep the actions in force until the next decision; the reward is the sum over the ticks.
+
+        Raises:
+            TouchlineError: an agent is unknown or has no action, an action has another shape or is not finite, or no
+                episode is going on.
+        """
+        episode = self._episode
+        if episode is None or not self.agents:
+            raise TouchlineError("no episode is going on; call reset() first")
+        checked = self._checked(actions)
+        reward = 0.0
+        for _ in range(self._controls[self.agents[0]].decision_ticks):
+            sights = episode.sights
+            episode.step({agent: self._controls[agent].command(action, sights[agent]) for agent, action in checked})
+            reward += episode.state.reward
+            if episode.state.over:
+                break
+        self._cycles += 1
+        state, agents = episode.state, self.agents
+        terminated = state.over and state.ended_by != BY_TIME
+        truncated = not terminated and (state.over or self._cycles == self.max_cycles)
+        observed, infos = self._observe(episode), self._infos(episode)
+        if terminated or truncated:
+            self.agents = []
+            episode.close()
+        return (
+            observed,
+            dict.fromkeys(agents, reward),
+            dict.fromkeys(agents, terminated),
+            dict.fromkeys(agents, truncated),
+            infos,
+        )
+
+    def state(self) -> NDArray[np.float32]:
+        """The observations of all agents, one after the other, as vectors.
+
+        Raises:
+            TouchlineError: no episode was begun.
+        """
+        if self._episode is None:
+            raise TouchlineError("no episode was begun; call reset() first")
+        sights = self._episode.sights
+        return np.concatenate([layout.observe(sights[agent]) for agent, layout in self._observations.items()])
+
+    def close(self) -> None:
+        """Free the engine, and finish a recording; `reset` begins a new episode."""
+        if self._episode is not None:
+            self._episode.close()
+        self._episode, self.agents = None, []
+
+    def _begin(self, seed: int, recording: Path | None) -> Episode:
+        return Episode(self._task.episode(seed), self._task.folder, self.possible_agents, recording)
+
+    def _observe(self, episode: Episode) -> dict[str, Observed]:
+        sights = episode.sights
+        if self._sights:
+            return {agent: sights[agent] for agent in self.agents}
+        return {agent: self._observations[agent].observe(sights[agent]) for agent in self.agents}
+
+    def _infos(self, episode: Episode) -> Infos:
+        state = episode.state
+        info = {"seed": self._seed, "tick": episode.tick, "score": state.value or 0.0, "ended_by": state.ended_by}
+        return {agent: dict(info) for agent in self.agents}
+
+    def _checked(self, actions: Mapping[str, Any]) -> list[tuple[str, NDArray[np.float32]]]:
+        for agent in actions:
+            self._known(agent)
+        checked = []
+        for agent in self.agents:
+            if agent not in actions:
+                raise TouchlineError(f"{agent} has no action; give one for each of {', '.join(self.agents)}")
+            names = self._controls[agent].names
+            try:
+                action = np.asarray(actions[agent], np.float32)
+            except (TypeError, ValueError):
+                raise TouchlineError(
+                    f"the action of {agent} is {actions[agent]!r}; give {len(names)} numbers"
+                ) from None
+            if action.shape != (len(names),):
+                raise TouchlineError(
+                    f"the action of {agent} has the shape {action.shape}; it is ({len(names)},): {', '.join(names)}"
+                )
+            if not np.isfinite(action).all():
+                raise TouchlineError(f"the action of {agent} is {action.tolist()}; give finite numbers")
+            checked.append((agent, action))
+        return checked
+
+    def _known(self, agent: str) -> str:
+        if agent not in self.action_spaces:
+            raise TouchlineError(f"{agent!r} is no agent; {did_you_mean(str(agent), self.possible_agents)}")
+        return agent
