@@ -34,17 +34,22 @@ def _profile(task: str) -> Profile:
 
 def scored(
     task: str,
-    places: dict[str, tuple[float, float]],
+    places: dict[str, tuple[float, ...]],
     memory: Any = None,
     moved: dict[str, tuple[float, float]] | None = None,
     contacts: Iterable[tuple[str, str]] = (),
     time: float = 1.0,
 ) -> Score:
-    """The score of a moment with the robots, and the obstacles in `moved`, at these places in m."""
+    """The score of a moment with the robots, and the obstacles in `moved`, at these places in m.
+
+    A robot's place may have its velocity along x, in m/s, as third number.
+    """
     config = _config(task)
     assert config.task is not None and config.scene is not None
     profile = _profile(task)
-    robots = {name: RobotState(x, y, 0.4, 0.0, 0.0, 0.0, 0.0, holding=False) for name, (x, y) in places.items()}
+    robots = {}
+    for name, (x, y, *speed) in places.items():
+        robots[name] = RobotState(x, y, 0.4, 0.0, sum(speed), 0.0, 0.0, holding=False)
     obstacles = {one.name: ObstacleState.of(one) for one in config.scene.obstacles}
     for name, (x, y) in (moved or {}).items():
         obstacles[name] = obstacles[name]._replace(x=x, y=y)
