@@ -17,6 +17,7 @@ GAINS = {
     "pursuit": (30.0, 10.0),
     "push_box": (10.0, 2.0),
     "rendezvous": (10.0, 1.5),
+    "warehouse": (30.0, 4.0),
 }
 """Task → s that its episodes are cut to, and by how much its baseline is better then than robots that stand."""
 
