@@ -50,7 +50,7 @@ def test_the_friendly_shows_every_word_of_a_match_file(root: Path) -> None:
     words = {key or table for key, table in shown} | set(re.findall(r"(\w+) = ", "".join(obstacles)))
     schema = MatchConfig.model_json_schema()
     asked = set(schema["properties"]) - {"teams", "profile_tables", "rule_book_tables"}
-    asked -= {"task"}  # docs/testing.md has its words
+    asked -= {"task"}  # docs/tasks.md has its words
     of_scenes = {"Scene", "TaskConfig", "Zone", *Scene.model_json_schema()["$defs"]} - {"ObstacleConfig"}
     for name, part in schema["$defs"].items():
         if name not in of_scenes:

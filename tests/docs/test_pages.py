@@ -20,7 +20,7 @@ LIMITS = {
 LIMITS |= {"docs/first_week.md": (60, 110)}
 """Most lines, and most characters of a line."""
 GENERATED = ("docs/protocol.md", "docs/rules.md")
-LATER = {"docs/real_robots.md", "docs/ros2.md"}
+LATER = {"docs/real_robots.md", "docs/ros2.md", "docs/tasks.md"}
 """Pages of what came after the limit on their number was set."""
 MOST_WORDS = 5700
 RESULTS = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "benchmarks" / "results").glob("*.md"))
