@@ -9,6 +9,7 @@ Every number has a unit (declared in `schemas.config.sections`) and an origin (w
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from schemas.config.number_files import UNVERSIONED, VERSION_KEY, NumberFiles, read_numbers
@@ -117,6 +118,12 @@ def load_profile(name: str) -> Profile:
     Raises:
         TouchlineError: there is no such profile, or it is invalid.
     """
+    return _shipped(name) if name in SHIPPED else profile_of(name, FILES.tables(name))
+
+
+@cache
+def _shipped(name: str) -> Profile:
+    """A shipped profile, which is read once: learning begins thousands of matches in a process."""
     return profile_of(name, FILES.tables(name))
 
 

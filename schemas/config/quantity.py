@@ -8,6 +8,7 @@ import math
 import typing
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import cache
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 from schemas.errors import TouchlineError, did_you_mean
@@ -51,10 +52,17 @@ class Choice:
         return {**handler(schema), "description": self.description}
 
 
+@cache
 def meanings(section: type) -> dict[str, Quantity | Choice]:
     """The meaning of each field of a section, in order."""
     hints = get_type_hints(section, include_extras=True)
     return {field.name: get_args(hints[field.name])[1] for field in fields(section)}
+
+
+@cache
+def _types(section: type) -> dict[str, Any]:
+    """The type of each field of a section."""
+    return get_type_hints(section)
 
 
 def read_section(section: type[T], table: dict[str, Any], file: str, name: str, origins: dict[str, str]) -> T:
@@ -63,7 +71,7 @@ def read_section(section: type[T], table: dict[str, Any], file: str, name: str, 
     Raises:
         TouchlineError: an unknown or missing key, or an invalid unit, type or range; names place, value and remedy.
     """
-    for key in meanings(section):
+    for key in meanings(section):  # type: ignore[arg-type]  # a type can be hashed
         if key not in table:
             raise TouchlineError(f"{file}: {name}.{key} is missing; add it, or extend a profile that has it")
     return section(**read_changes(section, table, file, name, origins))
@@ -81,7 +89,7 @@ def read_changes(section: type, table: dict[str, Any], file: str, name: str, ori
     for key in table:
         if key not in known:
             raise TouchlineError(f"{where}.{key} is not known; {did_you_mean(key, known)}")
-    hints = get_type_hints(section)
+    hints = _types(section)
     values = {}
     for key, meaning in known.items():
         if key not in table:

@@ -6,6 +6,7 @@ The package ships those in `SHIPPED`; any other TOML file may extend one with `e
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Annotated, Any
 
 from schemas.config.number_files import HEADER, PROFILE_KEY, UNVERSIONED, NumberFiles, read_numbers
@@ -199,6 +200,12 @@ def load_rule_book(name: str) -> RuleBook:
     Raises:
         TouchlineError: there is no such rule book, or it is invalid.
     """
+    return _shipped(name) if name in FILES.shipped else rule_book_of(name, FILES.tables(name))
+
+
+@cache
+def _shipped(name: str) -> RuleBook:
+    """A shipped rule book, which is read once."""
     return rule_book_of(name, FILES.tables(name))
 
 
