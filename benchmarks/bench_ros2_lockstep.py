@@ -1,0 +1,169 @@
+"""What a ROS 2 graph costs in lockstep: ten robots that one foreign process drives, against ten agents in one process.
+
+`python benchmarks/bench_ros2_lockstep.py --rounds 5` plays both in turns, and prints the median of their ratios. The
+nodes answer each `/clock` with a stamped command for each robot. Nothing is recorded, and nobody reads other topics.
+"""
+
+import argparse
+import os
+import statistics
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+from bench_lockstep import MEASURE_S, cpu_seconds, newest, overrides
+from idle_brain import act
+from running_match import HERE, PATIENCE_S, launch
+
+from robot_agent.process.claim import Membership
+from robot_agent.process.runner import serve
+from robot_agent.process.team_process import serve_team
+from robot_agent.ros2.process import serve_robots
+from robot_agent.sdk.contract import Brain
+from runtime.bus.endpoint import with_free_port
+from runtime.bus.zenoh.bus import open_client
+from runtime.process.clock import WallClock
+from runtime.ros2 import topic_type as types
+from runtime.ros2.graph import Arrived, open_graph
+from runtime.ros2.message_builder import MessageBuilder
+from runtime.ros2.message_types import typestore
+from schemas.config.match_config import load_match
+from schemas.side import Side
+from schemas.topics import HEALTH
+from sim_host.server.settings import HostSettings
+
+ROBOTS = 10
+
+
+class Cost(NamedTuple):
+    """What was measured in one match."""
+
+    rate: float
+    """Ticks per second."""
+    host: float
+    """CPU time of the host in a tick, in s."""
+    robots: float
+    """CPU time of the agents or of the bridge in a tick, in s."""
+    nodes: float
+    """CPU time of the nodes in a tick, in s."""
+
+
+class _Idle:
+    """A brain that answers at once."""
+
+    act = staticmethod(act)
+
+
+def run_agents(match: str, endpoint: str, robots: list[str]) -> None:
+    """Play all robots in this process, as `process = "team"` does."""
+    with open_client(match, WallClock(), endpoint, PATIENCE_S) as bus:
+
+        def serve_robot(name: str, make: Any) -> int:
+            brain: Brain = _Idle()
+            return serve(bus, lambda _: brain, name, PATIENCE_S, Membership(bus, name, None, match), make)
+
+        serve_team(robots, serve_robot, bus.close, bus.clock)
+
+
+def run_bridge(match: str, endpoint: str, graph_endpoint: str, robots: list[str]) -> None:
+    """Play all robots by the nodes of a graph."""
+    clock = WallClock()
+    with (
+        open_client(match, clock, endpoint, PATIENCE_S) as bus,
+        open_graph("touchline", clock, 0, graph_endpoint, None, PATIENCE_S) as graph,
+    ):
+        serve_robots(bus, graph, robots, 1, PATIENCE_S)
+
+
+def run_nodes(graph_endpoint: str, robots: list[str]) -> None:
+    """Answer each `/clock`, as nodes do that this project did not write."""
+    build, store = MessageBuilder(), typestore()
+    with open_graph("nodes", WallClock(), 0, None, graph_endpoint, PATIENCE_S) as graph:
+        writers = [graph.publisher(f"/{robot}/cmd_vel", types.TWIST_STAMPED) for robot in robots]
+
+        def answer(arrived: Arrived) -> None:
+            told: Any = store.deserialize_cdr(arrived.payload, types.CLOCK.message)
+            for writer in writers:
+                message = build.make(
+                    types.TWIST_STAMPED.message, build.header(told.clock, ""), build.twist(0.0, 0.0, 0.0, 0.0)
+                )
+                writer.put(build.encode(message, types.TWIST_STAMPED))
+
+        graph.subscribe("/clock", types.CLOCK, answer)
+        threading.Event().wait()
+
+
+def role(*words: str) -> "subprocess.Popen[bytes]":
+    """Another process of this benchmark."""
+    return subprocess.Popen([sys.executable, __file__, *words], cwd=HERE)
+
+
+@contextmanager
+def ended(processes: list["subprocess.Popen[bytes]"]) -> Iterator[None]:
+    """End processes after the block, the last one first."""
+    try:
+        yield
+    finally:
+        for process in reversed(processes):
+            process.kill()
+            process.wait()
+
+
+def measure(kind: str, foreign: list[str]) -> Cost:
+    """Ticks per second with `agents` or with a `bridge`."""
+    config = load_match(None, overrides(ROBOTS))
+    endpoint, graph = with_free_port("tcp/127.0.0.1:0"), with_free_port("tcp/127.0.0.1:0")
+    robots = [robot for side in Side for robot in config.robots(side)]
+    processes = [launch("sim_host", HostSettings(config=config, listen=endpoint))]
+    where = ("agents", config.name, endpoint) if kind == "agents" else ("bridge", config.name, endpoint, graph)
+    with ended(processes), open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus:
+        processes.append(role(*where, *robots))
+        if kind != "agents":
+            nodes = [sys.executable, "-W", "ignore", *foreign, graph, *robots]
+            processes.append(subprocess.Popen(nodes) if foreign else role("nodes", graph, *robots))
+        healths = bus.subscribe(HEALTH)
+        while (received := healths.receive(PATIENCE_S)) is not None and received.message().tick < 500:
+            pass
+        first, before = newest(healths, 10.0), [cpu_seconds(one) for one in processes]
+        threading.Event().wait(MEASURE_S)
+        used = [cpu_seconds(one) - busy for one, busy in zip(processes, before, strict=True)]
+        last = newest(healths, 10.0)
+    assert first is not None and last is not None
+    ticks = last.message().tick - first.message().tick
+    rate = ticks / ((last.stamp.sent_ns - first.stamp.sent_ns) * 1e-9)  # type: ignore[union-attr]
+    return Cost(rate, *[one / (rate * MEASURE_S) for one in [*used, 0.0][:3]])
+
+
+def main() -> None:
+    """Print ticks per second and CPU times of both, and the median of the ratios of rounds."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=3, help="matches of each, in turns")
+    parser.add_argument("--sdk", action="store_true", help="nodes of zenoh-ros2-sdk")
+    options = parser.parse_args()
+    foreign = [str(HERE.parent / "tests" / "support" / "ros_team.py"), "sdk"] if options.sdk else []
+    rows = []
+    for _ in range(options.rounds):
+        rows.append((measure("agents", []), measure("bridge", foreign)))
+        a, b = rows[-1]
+        print(f"  agents {a.rate:.0f}, nodes {b.rate:.0f} ticks/s: {b.rate / a.rate:.3f}", flush=True)
+    for name, costs in zip(("agents", "nodes"), zip(*rows, strict=True), strict=True):
+        rate, *times = (statistics.median(column) for column in zip(*costs, strict=True))
+        host, robots, nodes = (f"{1e6 * one:.0f} us" for one in times)
+        print(f"{name:7} {rate:.0f} ticks/s; CPU time a tick: host {host}, robots {robots}, nodes {nodes}")
+    ratio = statistics.median(b.rate / a.rate for a, b in rows)
+    print(f"nodes / agents: {ratio:.3f} (at least 0.9), on {os.cpu_count()} cores")
+
+
+if __name__ == "__main__":
+    match sys.argv[1:]:
+        case ["agents", name, endpoint, *robots]:
+            run_agents(name, endpoint, robots)
+        case ["bridge", name, endpoint, graph, *robots]:
+            run_bridge(name, endpoint, graph, robots)
+        case ["nodes", graph, *robots]:
+            run_nodes(graph, robots)
+        case _:
+            main()
