@@ -52,6 +52,11 @@ class Pose:
     y: float
     heading: float = 0.0
 
+    def toward(self, other: "Pose", share: float) -> "Pose":
+        """The pose at a share of the way to another one, 0 to 1; turns the shorter way."""
+        x, y = self.x + share * (other.x - self.x), self.y + share * (other.y - self.y)
+        return Pose(x, y, wrap(self.heading + share * wrap(other.heading - self.heading)))
+
     def team(self, attack: int) -> "Pose":
         """Transform between the field frame and the team frame of a side that attacks `attack` (+1 or −1); its own
         inverse."""

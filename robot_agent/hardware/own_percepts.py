@@ -53,9 +53,11 @@ class OwnPercepts:
             self._take(readings.picture)
 
     def percept(self, now: float, attack: int) -> Percept:
-        """What the robot perceives at a time in s, in the frame of a team that attacks ±x; after the first pose."""
-        motion = self._motions[-1][1]
-        pose = Pose(motion.x, motion.y, motion.heading).team(attack)
+        """What the robot perceives at a time in s, in the frame of a team that attacks ±x; after the first pose.
+
+        The newest pose is driven on to that time by its velocities.
+        """
+        motion, pose = self._motions[-1][1], self.pose_at(now).team(attack)
         own = [pose.x, pose.y, wrap(pose.heading), attack * motion.vx, attack * motion.vy, motion.omega]
         picture = self._picture.time if self._picture is not None else 0.0
         obstacles = [
@@ -96,9 +98,7 @@ class OwnPercepts:
             return Pose(x, y, wrap(heading))
         (first, one), (last, other) = self._motions[after - 1], self._motions[after]
         share = (time - first) / (last - first)
-        turn = wrap(other.heading - one.heading)
-        x, y = one.x + share * (other.x - one.x), one.y + share * (other.y - one.y)
-        return Pose(x, y, wrap(one.heading + share * turn))
+        return Pose(one.x, one.y, one.heading).toward(Pose(other.x, other.y, other.heading), share)
 
     def _take(self, picture: Picture) -> None:
         pose = self.pose_at(picture.time)

@@ -1,6 +1,7 @@
 """The hardware `simulated` on a clock that is stepped: its driver, a serial line, and the board in this process."""
 
 import os
+import random
 import tty
 from contextlib import suppress
 from typing import Any
@@ -27,21 +28,35 @@ class BoardClock(SteppedClock):
         self._board, self._line = board, line
         self.alters = lambda data: data
         """Changes what the board sends."""
+        self.late: random.Random | None = None
+        """Makes both processes late, as a busy machine does; None for processes that have a core at once."""
 
     def sleep_until(self, moment: float) -> None:
+        if self.late is not None:
+            moment += min(0.03, self.late.expovariate(1.0 / 0.003))
+        step = 0.001  # a demand wakes the board
         while self.now() < moment:
-            super().sleep_until(min(moment, self.now() + 0.005))
+            if self.late is not None:
+                step += min(0.03, self.late.expovariate(1.0 / 0.004))
+            super().sleep_until(min(moment, self.now() + step))
+            sent = self.alters(self._board.advance(self.now()))
             with suppress(BlockingIOError):
                 self._board.receive(os.read(self._line, 65536))
-            sent = self.alters(self._board.advance(self.now()))
             with suppress(BlockingIOError):  # as on the real line, what nobody reads is lost
                 os.write(self._line, sent)
+            step = 0.004
 
 
-def track_on_board(brain: Brain, robot: str, setup: Setup, seconds: float, **numbers: Any) -> RobotTrack:
-    """What a robot perceives and commands in so many s on simulated hardware with these true numbers."""
+def track_on_board(
+    brain: Brain, robot: str, setup: Setup, seconds: float, *, late: random.Random | None = None, **numbers: Any
+) -> RobotTrack:
+    """What a robot perceives and commands in so many s on simulated hardware with these true numbers.
+
+    `late` is as that of the clock.
+    """
     model = setup.model_of(robot)
     stepped = SteppedBoard(model, **numbers)
+    stepped.clock.late = late
     bus = SharedState().open_bus("friendly", stepped.clock)
     commands = bus.subscribe(COMMAND)
     settings = HardwareSettings(hardware="simulated")

@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 Vectors = NDArray[np.complex128]
 
 _DT = 0.01
-"""s of a step of the model."""
+"""s of a step of the integration."""
 _STRETCH = 0.3
 """s over which motions are compared."""
 _SHORT = 0.1
@@ -61,7 +61,7 @@ class RobotNumbers(NamedTuple):
     heading_noise: float
     """rad; standard deviation."""
     camera_delay: float | None
-    """s from a picture to the sight that has it; None without bodies that stand still."""
+    """s from a picture to its arrival; None without bodies that stand still."""
 
 
 def identify(track: RobotTrack, model: RobotModel) -> RobotNumbers:
@@ -76,10 +76,11 @@ def identify(track: RobotTrack, model: RobotModel) -> RobotNumbers:
     if times[-1] < _LEAST or track.commands.count(None) > len(times) / 2:
         raise TouchlineError(f"{times[-1]:.1f} s of sights with commands; {_LEAST:g} s are needed, and 60 s are better")
     grid = np.arange(0.0, times[-1] + _DT, _DT)
-    held = np.maximum(np.searchsorted(times, grid + 1e-9, side="right") - 1, 0)
-    demands = _sent(track, model)[held]
+    nodes = np.sort(np.concatenate((times, (times[1:] + times[:-1]) / 2)))  # demands change there, however late
+    demands = _sent(track, model)[np.searchsorted(times, nodes, side="right") - 1]
     move, turn = demands[:, 0] + 1j * demands[:, 1], demands[:, 2]
     spin: Vectors = turn.astype(complex)
+    follow = _Follower(nodes, grid)
     heading = np.interp(grid, times, np.unwrap(pose[:, 2]))
     if np.abs(move).std() < 0.2 or turn.std() < 0.2:
         raise TouchlineError("the demands hardly change; let the robot start, stop and turn often, up to its limits")
@@ -88,12 +89,12 @@ def identify(track: RobotTrack, model: RobotModel) -> RobotNumbers:
     spun = _Comparison(times, grid, np.unwrap(pose[:, 2]) + 0j)
 
     def moved(top: float, gain: float, loss: float, latency: float) -> Vectors:
-        return driven.residual(_response(_delayed(move, latency), top, gain, loss) * turned)
+        return driven.residual(follow(move, top, gain, loss, latency) * turned)
 
     top, gain, loss, latency = _fitted(moved, (np.abs(move).max() * 0.8, 2.0, 2.0, 0.04))
 
     def rotated(top: float, change: float, latency: float) -> Vectors:
-        return spun.residual(_response(_delayed(spin, latency), top, change, change))
+        return spun.residual(follow(spin, top, change, change, latency))
 
     turn_top, turn_change, _ = _fitted(rotated, (np.abs(turn).max() * 0.8, 8.0, latency))
     scales = [np.std(moved(top, gain, loss, latency)), np.std(rotated(turn_top, turn_change, latency))]
@@ -103,9 +104,8 @@ def identify(track: RobotTrack, model: RobotModel) -> RobotNumbers:
         return np.concatenate([one / scale for one, scale in zip(residuals, scales, strict=True)])
 
     (latency,) = _fitted(both, (latency,))
-    speed, turn_rate = _response(_delayed(move, latency), top, gain, loss), _delayed(spin, latency)
-    left = driven.residual(speed * turned, _SHORT)
-    left_turn = spun.residual(_response(turn_rate, turn_top, turn_change, turn_change), _SHORT)
+    left = driven.residual(follow(move, top, gain, loss, latency) * turned, _SHORT)
+    left_turn = spun.residual(follow(spin, turn_top, turn_change, turn_change, latency), _SHORT)
     return RobotNumbers(
         max_speed=_reached(top, float(np.abs(move).max())),
         acceleration=gain,
@@ -174,24 +174,27 @@ class _Comparison:
         return residual
 
 
-def _delayed(demand: Vectors, latency: float) -> Vectors:
-    """A demand that acts later; between two steps of the grid it is the mean, weighted by the time."""
-    steps, share = divmod(max(0.0, latency) / _DT, 1.0)
-    padded: Vectors = np.concatenate((np.zeros(int(steps) + 1, dtype=complex), demand))
-    delayed: Vectors = (1.0 - share) * padded[1 : len(demand) + 1] + share * padded[: len(demand)]
-    return delayed
+class _Follower:
+    """What follows a demand within top speed and accelerations, some time later.
 
+    The demand changes at the nodes, times of sights among them, so that a sight that was late moves nothing else.
+    """
 
-def _response(demand: Vectors, top: float, gain: float, loss: float) -> Vectors:
-    """The velocity that follows a demand within top speed and accelerations."""
-    wanted = demand * np.minimum(1.0, top / np.maximum(np.abs(demand), 1e-9))
-    now, velocities = 0j, []
-    for goal in wanted.tolist():
-        velocities.append(now)
-        change = goal - now
-        most = (loss if abs(goal) < abs(now) else gain) * _DT
-        now = goal if abs(change) <= most else now + change * (most / abs(change))
-    return np.array(velocities)
+    def __init__(self, nodes: Floats, grid: Floats) -> None:
+        self._nodes, self._grid = nodes, grid
+        self._steps = np.diff(nodes, append=nodes[-1] + _DT).tolist()
+
+    def __call__(self, demand: Vectors, top: float, gain: float, loss: float, latency: float) -> Vectors:
+        """The velocity at each time of the grid; the demand is given per node."""
+        wanted = demand * np.minimum(1.0, top / np.maximum(np.abs(demand), 1e-9))
+        now, velocities = 0j, []
+        for goal, step in zip(wanted.tolist(), self._steps, strict=True):
+            velocities.append(now)
+            change = goal - now
+            most = (loss if abs(goal) < abs(now) else gain) * step
+            now = goal if abs(change) <= most else now + change * (most / abs(change))
+        velocity: Vectors = np.interp(self._grid - latency, self._nodes, np.array(velocities), left=0.0)
+        return velocity
 
 
 def _fitted(residual: Callable[..., Vectors], start: tuple[float, ...]) -> tuple[float, ...]:
@@ -250,8 +253,7 @@ def _camera_delay(track: RobotTrack, times: Floats, pose: Floats) -> float | Non
 
     coarse = min(np.arange(-_LONGEST_DELAY / 4, _LONGEST_DELAY, 0.01), key=spread)
     best = minimize_scalar(spread, bounds=(coarse - 0.01, coarse + 0.01), method="bounded").x
-    age = float(np.median(stated[fresh]))
-    return max(0.0, float(best) + age)
+    return max(0.0, float(best) + float(stated[fresh].min()))  # others have waited for their sight
 
 
 def _bodies(places: Vectors) -> Vectors:

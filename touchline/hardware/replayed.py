@@ -78,13 +78,20 @@ class Replayed:
         if taken <= self._picture + 1e-6:
             return None
         self._picture = taken
-        then = pose_of(self._sights[max(0, bisect_right(self._times, taken + 1e-6) - 1)])
+        then = self._pose_at(taken)
         ball = None
         if sight.ball is not None and sight.ball.visible:
             velocity = to_body(sight.ball.vx, sight.ball.vy, then.heading)
             ball = BodyBall(*_seen(then, sight.ball.x, sight.ball.y), *velocity, sight.ball.z)
         bodies = (Obstacle(*_seen(then, body.x, body.y), body.radius) for body in sight.obstacles)
         return Picture(taken, ball, tuple(bodies))
+
+    def _pose_at(self, time: float) -> Pose:
+        """Where the robot was, between two sights; a picture is placed by it again."""
+        after = min(max(1, bisect_right(self._times, time)), len(self._times) - 1)
+        first, last = self._times[after - 1], self._times[after]
+        one, other = pose_of(self._sights[after - 1]), pose_of(self._sights[after])
+        return one.toward(other, min(1.0, max(0.0, (time - first) / (last - first))))
 
 
 def _seen(pose: Pose, x: float, y: float) -> tuple[float, float]:

@@ -94,6 +94,8 @@ class Board:
     _dribbles: bool = False
     _heard: float = -math.inf
     """When the newest demand arrived."""
+    _demanded: float = 0.0
+    """When it was sent, on the driver's clock."""
     _due: deque[tuple[float, tuple[float, float, float] | None]] = field(default_factory=deque)
     """Demands on their way to the motors, and when they are there."""
     _pictures: deque[tuple[float, Seen]] = field(default_factory=deque)
@@ -130,7 +132,7 @@ class Board:
             self._due.clear()
             self._wanted = (0.0, 0.0, 0.0)
         elif kind == Kind.DEMAND and self.powered:
-            rims, self._dribbles = frames.read_demand(content)
+            self._demanded, rims, self._dribbles = frames.read_demand(content)
             self._due.append((self.time + self.numbers.latency, None if rims is None else self.wheels.twist(rims)))
             self._heard = self.time
         elif kind == Kind.KICK and self.powered and self.holding and self.ball is not None:
@@ -196,9 +198,10 @@ class Board:
             x, y = self._noisy(n.position_noise, self.x, self.y)
             heading = wrap(*self._noisy(n.heading_noise, self.heading))
             vx, vy, omega = self._noisy(n.velocity_noise, fx, fy, self.twist[2])
-            sent += frames.motion(Motion(0.0, x, y, heading, vx, vy, omega, self.holding, True))
+            clock = self.time, self._demanded, max(0.0, self._heard)
+            sent += frames.motion(Motion(*clock, x, y, heading, vx, vy, omega, self.holding, True))
         while self._pictures and self._pictures[0][0] <= self.time:
-            sent += frames.picture(self._pictures.popleft()[1])
+            sent += frames.picture(self._pictures.popleft()[1]._replace(time=self.time))
         return sent
 
     def _seen(self) -> Seen:
@@ -239,9 +242,9 @@ def main() -> None:
         ready, _, _ = select.select([line, sys.stdin], [], [], _LOOP)
         if sys.stdin in ready and not sys.stdin.readline():
             return
+        sent = board.advance(time.perf_counter() - began)
         if line in ready:
             board.receive(os.read(line, 4096))
-        sent = board.advance(time.perf_counter() - began)
         try:
             os.write(line, sent)
         except BlockingIOError:

@@ -10,6 +10,7 @@ from typing import Any
 from robot_agent.hardware.contract import BodyBall, Picture, SensorReadings
 from robot_agent.hardware.simulated import frames
 from robot_agent.hardware.simulated.board import BoardNumbers, settings_line
+from robot_agent.hardware.simulated.device_clock import DeviceClock
 from robot_agent.hardware.simulated.frames import FrameReader, Kind
 from schemas.config.robot_model import RobotModel
 from schemas.messages.command import Drive, Kick
@@ -40,6 +41,9 @@ class Simulated:
         self._board: subprocess.Popen[bytes] | None = None
         self._line: int | None = None
         self._reader = FrameReader()
+        self._clock = DeviceClock()
+        self._now: float | None = None
+        """When the line was last looked at; None before that."""
         self.holding, self.charged = False, True
 
     @property
@@ -63,24 +67,30 @@ class Simulated:
         self._write(frames.power(True))
 
     def sense(self, time: float) -> SensorReadings:
-        """What has arrived: the newest pose and the newest picture."""
-        motion, picture, at, wrong = None, None, time, self._reader.wrong
+        """What has arrived: the newest pose and the newest picture, with the times of the board's own clock."""
+        motion, picture, at, wrong, is_first = None, None, time, self._reader.wrong, self._now is None
+        self._now = time
         for kind, content in self._reader.feed(self._read()):
             if kind == Kind.MOTION:
                 read = frames.read_motion(content)
-                at, self.holding, self.charged = time - read.age, read.holding, read.charged
+                if not is_first:  # what has waited on the line says little of the board's clock
+                    self._clock.look(time, read.time, read.demanded - read.heard if read.heard else None)
+                at = self._at(read.time, time)
+                self.holding, self.charged = read.holding, read.charged
                 motion = Motion(x=read.x, y=read.y, heading=read.heading, vx=read.vx, vy=read.vy, omega=read.omega)
             elif kind == Kind.PICTURE:
                 seen = frames.read_picture(content)
                 ball = BodyBall(*seen.ball) if seen.ball is not None else None
-                picture = Picture(time - seen.age - self._delay, ball, tuple(Obstacle(*body) for body in seen.bodies))
+                picture = Picture(
+                    self._at(seen.time, time) - self._delay, ball, tuple(Obstacle(*body) for body in seen.bodies)
+                )
         wrong = self._reader.wrong - wrong
         return SensorReadings(at, motion, picture, self.holding, self.charged, unreadable=wrong)
 
     def actuate(self, drive: Drive | None, kick: Kick | None, dribble: bool) -> None:
         """Send rim speeds, and a kick."""
         rims = None if drive is None else self._wheels.rim_speeds(drive.vx, drive.vy, drive.omega)
-        self._write(frames.demand(rims, dribble) + (frames.kick(kick) if kick is not None else b""))
+        self._write(frames.demand(self._now or 0.0, rims, dribble) + (frames.kick(kick) if kick is not None else b""))
 
     def deactivate(self) -> None:
         """Take the power away."""
@@ -111,6 +121,11 @@ class Simulated:
         if not port:
             raise OSError("the simulated board did not start; its log has the reason")
         return port
+
+    def _at(self, measured: float, now: float) -> float:
+        """When something was measured, by the board's clock; now, where that is not known."""
+        at = self._clock.on_driver(measured)
+        return now if at is None else min(at, now)
 
     def _read(self) -> bytes:
         data = b""

@@ -14,8 +14,8 @@ from schemas.messages.command import Kick, KickMode
 
 _HEAD = b"\xa5\x5a"
 _MODES = tuple(KickMode)
-_KICK, _FLAGS, _MOTION = struct.Struct("<BH"), struct.Struct("<B"), struct.Struct("<Hiih3hB")
-_BALL, _PICTURE, _BODY = struct.Struct("<ii2h"), struct.Struct("<HB"), struct.Struct("<iiH")
+_KICK, _FLAGS, _MOTION = struct.Struct("<BH"), struct.Struct("<B"), struct.Struct("<QQQiih3hB")
+_BALL, _PICTURE, _BODY = struct.Struct("<ii2h"), struct.Struct("<QB"), struct.Struct("<iiH")
 _MAX_BODIES = 20
 """Bodies in a picture: more do not fit into a frame."""
 
@@ -26,15 +26,17 @@ class Kind(IntEnum):
     POWER = 1
     """1 powers the motors, 0 takes the power away."""
     DEMAND = 2
-    """Flags (1: roll freely, 2: dribbler on), then per wheel its rim speed in mm/s, as in `Wheels.rim_speeds`."""
+    """Time of sending in µs on the driver's clock; flags (1: roll freely, 2: dribbler on), then per wheel its rim speed
+    in mm/s, as in `Wheels.rim_speeds`."""
     KICK = 3
     """Number of the mode, then speed in cm/s."""
     MOTION = 16
-    """Age in 0.1 ms; x, y in 0.1 mm; heading in 0.1 mrad; vx, vy of the field frame in mm/s; turn rate in mrad/s;
-    flags (1: the ball is at the kicker, 2: charged)."""
+    """Time of measuring in µs on the board's clock; the time in the newest demand, and when that came on the board's
+    clock, both 0 before the first; x, y in 0.1 mm; heading in 0.1 mrad; vx, vy of the field frame in mm/s; turn rate in
+    mrad/s; flags (1: the ball is at the kicker, 2: charged)."""
     PICTURE = 17
-    """Age in 0.1 ms; 1 if it shows the ball; then the ball's x, y in 0.1 mm and vx, vy in mm/s; then per body x, y in
-    0.1 mm and radius in mm, all in the body frame."""
+    """Time of sending in µs on the board's clock; 1 if it shows the ball; then the ball's x, y in 0.1 mm and vx, vy in
+    mm/s; then per body x, y in 0.1 mm and radius in mm, all in the body frame."""
 
 
 class Frame(NamedTuple):
@@ -83,20 +85,21 @@ def power(on: bool) -> bytes:
     return frame(Kind.POWER, _FLAGS.pack(on))
 
 
-def demand(rim_speeds: Sequence[float] | None, dribble: bool) -> bytes:
-    """The frame of `Kind.DEMAND`: rim speeds in m/s; None to roll freely."""
+def demand(time: float, rim_speeds: Sequence[float] | None, dribble: bool) -> bytes:
+    """The frame of `Kind.DEMAND`, sent at a time in s: rim speeds in m/s; None to roll freely."""
     rims = [_clipped(1e3 * speed, 15) for speed in rim_speeds or ()]
-    return frame(Kind.DEMAND, struct.pack(f"<B{len(rims)}h", (rim_speeds is None) + 2 * dribble, *rims))
+    flags = (rim_speeds is None) + 2 * dribble
+    return frame(Kind.DEMAND, struct.pack(f"<QB{len(rims)}h", round(1e6 * time), flags, *rims))
 
 
-def read_demand(content: bytes) -> tuple[list[float] | None, bool]:
-    """Rim speeds in m/s, None to roll freely, and whether the dribbler is on.
+def read_demand(content: bytes) -> tuple[float, list[float] | None, bool]:
+    """When it was sent in s; rim speeds in m/s, None to roll freely; whether the dribbler is on.
 
     Raises:
         struct.error: the content is too short.
     """
-    flags, *rims = struct.unpack(f"<B{(len(content) - 1) // 2}h", content)
-    return None if flags & 1 else [speed / 1e3 for speed in rims], bool(flags & 2)
+    sent, flags, *rims = struct.unpack(f"<QB{(len(content) - 9) // 2}h", content)
+    return sent / 1e6, None if flags & 1 else [speed / 1e3 for speed in rims], bool(flags & 2)
 
 
 def kick(asked: Kick) -> bytes:
@@ -113,7 +116,9 @@ def read_kick(content: bytes) -> Kick:
 class Motion(NamedTuple):
     """What `Kind.MOTION` says: s, m, rad, m/s, rad/s in the field frame."""
 
-    age: float
+    time: float
+    demanded: float
+    heard: float
     x: float
     y: float
     heading: float
@@ -126,22 +131,25 @@ class Motion(NamedTuple):
 
 def motion(one: Motion) -> bytes:
     """The frame of `Kind.MOTION`."""
-    age, x, y, heading = (round(1e4 * number) for number in one[:4])
-    rates = (_clipped(1e3 * number, 15) for number in one[4:7])
-    return frame(Kind.MOTION, _MOTION.pack(age, x, y, heading, *rates, one.holding + 2 * one.charged))
+    times = (round(1e6 * number) for number in one[:3])
+    x, y, heading = (round(1e4 * number) for number in one[3:6])
+    rates = (_clipped(1e3 * number, 15) for number in one[6:9])
+    return frame(Kind.MOTION, _MOTION.pack(*times, x, y, heading, *rates, one.holding + 2 * one.charged))
 
 
 def read_motion(content: bytes) -> Motion:
     """The motion; `struct.error` if the content has another length."""
     *numbers, vx, vy, omega, flags = _MOTION.unpack(content)
-    age, x, y, heading = (number / 1e4 for number in numbers)
-    return Motion(age, x, y, heading, vx / 1e3, vy / 1e3, omega / 1e3, bool(flags & 1), bool(flags & 2))
+    time, demanded, heard = (number / 1e6 for number in numbers[:3])
+    x, y, heading = (number / 1e4 for number in numbers[3:])
+    rates = vx / 1e3, vy / 1e3, omega / 1e3
+    return Motion(time, demanded, heard, x, y, heading, *rates, bool(flags & 1), bool(flags & 2))
 
 
 class Seen(NamedTuple):
     """What `Kind.PICTURE` says, in the body frame."""
 
-    age: float
+    time: float
     """s."""
     ball: tuple[float, float, float, float] | None
     """x, y in m, vx, vy in m/s; None where the picture does not show it."""
@@ -151,7 +159,7 @@ class Seen(NamedTuple):
 
 def picture(seen: Seen) -> bytes:
     """The frame of `Kind.PICTURE`, with the first bodies if there are too many."""
-    content = _PICTURE.pack(round(1e4 * seen.age), seen.ball is not None)
+    content = _PICTURE.pack(round(1e6 * seen.time), seen.ball is not None)
     if seen.ball is not None:
         x, y, vx, vy = seen.ball
         content += _BALL.pack(round(1e4 * x), round(1e4 * y), _clipped(1e3 * vx, 15), _clipped(1e3 * vy, 15))
@@ -162,13 +170,13 @@ def picture(seen: Seen) -> bytes:
 
 def read_picture(content: bytes) -> Seen:
     """The picture; `struct.error` if the content has another length."""
-    age, has_ball = _PICTURE.unpack_from(content)
+    time, has_ball = _PICTURE.unpack_from(content)
     rest, ball = content[_PICTURE.size :], None
     if has_ball:
         x, y, vx, vy = _BALL.unpack_from(rest)
         ball, rest = (x / 1e4, y / 1e4, vx / 1e3, vy / 1e3), rest[_BALL.size :]
     bodies = [(x / 1e4, y / 1e4, radius / 1e3) for x, y, radius in _BODY.iter_unpack(rest)]
-    return Seen(age / 1e4, ball, bodies)
+    return Seen(time / 1e6, ball, bodies)
 
 
 def _clipped(number: float, bits: int) -> int:

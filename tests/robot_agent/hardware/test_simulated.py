@@ -18,7 +18,7 @@ from support.messages import make_setup
 from support.stepped_board import SteppedBoard
 
 QUIET = {"position_noise": 0.0, "heading_noise": 0.0, "velocity_noise": 0.0, "camera_noise": 0.0}
-MOTION = Motion(0.0012, -12.3456, 7.0001, 3.1415, -3.25, 0.5, -12.5, True, False)
+MOTION = Motion(7000.000012, 6999.5, 6999.507, -12.3456, 7.0001, 3.1415, -3.25, 0.5, -12.5, True, False)
 SEEN = Seen(0.08, (1.5, -2.25, 4.0, -0.125), [(1.0, 2.0, 0.26), (-30.5, 0.0, 0.25)])
 
 
@@ -38,8 +38,8 @@ def stepped():
 
 
 def test_what_is_framed_is_read_again_in_pieces_of_any_length():
-    sent = frames.motion(MOTION) + frames.picture(SEEN) + frames.demand([1.0, -0.5, 0.25], True) + frames.power(True)
-    sent += frames.demand(None, False) + frames.kick(Kick(mode=KickMode.LOB, speed=6.5))
+    sent = frames.motion(MOTION) + frames.picture(SEEN) + frames.demand(5.25, [1.0, -0.5, 0.25], True)
+    sent += frames.power(True) + frames.demand(0.0, None, False) + frames.kick(Kick(mode=KickMode.LOB, speed=6.5))
     reader, dice, found = FrameReader(), random.Random(1), []
     while sent:
         size = dice.randint(1, 9)
@@ -47,9 +47,9 @@ def test_what_is_framed_is_read_again_in_pieces_of_any_length():
         sent = sent[size:]
     assert frames.read_motion(found[0].content) == MOTION
     assert frames.read_picture(found[1].content) == SEEN
-    assert frames.read_demand(found[2].content) == ([1.0, -0.5, 0.25], True)
+    assert frames.read_demand(found[2].content) == (5.25, [1.0, -0.5, 0.25], True)
     assert (found[3].kind, found[3].content) == (Kind.POWER, b"\x01")
-    assert frames.read_demand(found[4].content) == (None, False)
+    assert frames.read_demand(found[4].content) == (0.0, None, False)
     assert frames.read_kick(found[5].content) == Kick(mode=KickMode.LOB, speed=6.5)
     assert reader.wrong == 0
 

@@ -5,6 +5,7 @@ import math
 import random
 import re
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -63,6 +64,21 @@ def test_each_number_of_the_simulated_hardware_is_found_within_five_percent(true
     for name in ("max_speed", "acceleration", "turn_acceleration", "latency"):
         assert getattr(found, name) == approx(true[name], rel=0.05), name
     assert found.deceleration == approx(true["acceleration"], rel=0.05)
+    assert found.camera_delay == approx(true["picture_delay"], rel=0.05)
+    assert found.position_noise == approx(noise["position_noise"], rel=0.05)
+    assert found.heading_noise == approx(noise["heading_noise"], rel=0.05)
+
+
+def test_the_numbers_are_the_same_where_robot_and_board_are_late_as_on_a_busy_machine():
+    true = {"max_speed": 3.0, "acceleration": 2.2, "turn_acceleration": 9.0, "latency": 0.05, "picture_delay": 0.08}
+    noise = {"position_noise": 0.012, "heading_noise": 0.009}
+    track = driven(shaker(), 60.0, late=random.Random(3), posts=POSTS, **noise, **true)
+    steps = sorted(after.time - before.time for before, after in pairwise(track.sights))
+    assert steps[len(steps) // 20] < 0.015 and steps[-len(steps) // 20] > 0.025
+    found = identify(track, LOOSE)
+    for name in ("max_speed", "acceleration", "turn_acceleration"):
+        assert getattr(found, name) == approx(true[name], rel=0.05), name
+    assert found.latency == approx(true["latency"], abs=0.005)  # a board that is late follows later
     assert found.camera_delay == approx(true["picture_delay"], rel=0.05)
     assert found.position_noise == approx(noise["position_noise"], rel=0.05)
     assert found.heading_noise == approx(noise["heading_noise"], rel=0.05)
