@@ -14,10 +14,10 @@ from robot_agent.teams.action import Action
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, chance, cost_of_loss, passes, worth
 from robot_agent.teams.reference.roles import Role
-from robot_agent.teams.reference.shooting import Shot, best_shot
+from robot_agent.teams.reference.shooting import Shot, best_shot, shot_ahead
 from schemas.config.sections import Pitch
 from schemas.frames import Point
-from schemas.messages.command import KickMode
+from schemas.messages.command import Kick, KickMode
 from schemas.messages.setup import Setup
 
 _WAYS = tuple(math.radians(angle) for angle in (0, 25, -25, 50, -50, 80, -80))
@@ -37,8 +37,8 @@ class Situation(NamedTuple):
     """The pass that was chosen a tick ago."""
     may_score: bool
     must_pass: bool
-    shoots: bool = False
-    """It aimed at the goal a tick ago."""
+    aimed: Shot | None = None
+    """The shot that it aimed at a tick ago."""
 
 
 class Choice(NamedTuple):
@@ -49,7 +49,8 @@ class Choice(NamedTuple):
     """The pass that it aims at."""
     weighed: dict[str, float]
     """Chance of the best shot, values of the best pass and of the best dribble."""
-    shoots: bool = False
+    shot: Shot | None = None
+    """The shot that it aims at."""
 
 
 def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Choice:
@@ -57,7 +58,7 @@ def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Par
     me, pitch = now.me, setup.pitch
     gap = setup.dribble.gap
     ball = me.x + gap * math.cos(me.heading), me.y + gap * math.sin(me.heading)
-    shot = best_shot(ball, me.heading, now.opponents, pitch, parameters) if now.may_score else None
+    shot = best_shot(ball, me.heading, now.opponents, pitch, parameters, now.aimed) if now.may_score else None
     best = _best_pass(now, ball, pitch, parameters)
     way, dribble_worth = _best_dribble(now, ball, pitch, parameters)
     weighed = {
@@ -67,7 +68,7 @@ def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Par
     }
     is_late = now.held > parameters.patience or now.must_pass
     if shot is not None and shot.chance > _least_chance(now, ball, parameters, is_late=is_late):
-        return Choice(_shoot(me, shot, setup, limits, parameters), None, weighed, shoots=True)
+        return Choice(_shoot(now, ball, shot, setup, limits, parameters), None, weighed, shot)
     if best is not None and (best.value > dribble_worth or (is_late and best.chance > parameters.pass_late)):
         return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
     return Choice(_dribble(now, way, setup, limits, parameters), None, weighed)
@@ -77,7 +78,7 @@ def _least_chance(now: Situation, ball: Point, parameters: Parameters, *, is_lat
     """The chance of a goal from which the robot shoots: what it has begun it ends, and with room it goes closer."""
     if is_late:
         return parameters.shot_late
-    if now.shoots:
+    if now.aimed is not None:
         return parameters.shot_keeps
     nearest = min((math.dist(ball, opponent) for opponent in now.opponents), default=math.inf)
     return parameters.shot_worth if nearest < parameters.shot_pressed else parameters.shot_waits
@@ -115,12 +116,18 @@ def _best_dribble(now: Situation, ball: Point, pitch: Pitch, parameters: Paramet
     return best, most - (parameters.pressed_cost if pressed else 0.0)
 
 
-def _shoot(me: Body, shot: Shot, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
-    """Shoot while driving on."""
-    kicker = setup.kicker
+def _shoot(
+    now: Situation, ball: Point, shot: Shot, setup: Setup, limits: DriveLimits, parameters: Parameters
+) -> Action:
+    """Turn to the target while driving on, and kick once the ball would score nearly as surely where it points."""
+    me, kicker = now.me, setup.kicker
     speed = kicker.max_lob_speed if shot.mode is KickMode.LOB else kicker.max_ground_speed
     velocity = _toward(me, shot.target, parameters.shot_drive * parameters.dribble_speed)
     motion, kick = kick_on_the_run(me, shot.target, speed, parameters.shot_error, velocity, limits, shot.mode)
+    if kick is None and shot.mode is KickMode.GROUND:
+        ahead = shot_ahead(ball, me.heading + me.omega * limits.tick, now.opponents, setup.pitch, parameters)
+        if ahead is not None and ahead.chance > parameters.shot_takes * shot.chance:
+            kick = Kick(mode=shot.mode, speed=speed)
     return Action(Role.ATTACKER, f"shoot {shot.mode.value}", motion, dribble=True, kick=kick)
 
 

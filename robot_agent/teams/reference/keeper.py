@@ -1,7 +1,7 @@
 """The keeper: where it stands, what it catches, when it comes out. Pure.
 
 A lob passes under the bar at 0.87 m: a hull that stands on the line is in its way, one that stands half a metre before
-it is not. So the keeper stands on the line, and moves along it.
+it is not. So the keeper stands on the line, and moves along it. A ball that is too near for a lob it comes to meet.
 """
 
 import math
@@ -19,11 +19,22 @@ from schemas.frames import Point
 from schemas.messages.command import Drive
 
 
-def guard(me: Body, ball: Ball, pitch: Pitch, reach: float, limits: DriveLimits, parameters: Parameters) -> Drive:
-    """Stand on the line where the open angle is halved; cross a shot's way; come back round the posts."""
-    x = -pitch.goal_line + parameters.on_line
+def guard(
+    me: Body,
+    ball: Ball,
+    opponents: Sequence[Point],
+    pitch: Pitch,
+    reach: float,
+    limits: DriveLimits,
+    parameters: Parameters,
+) -> Drive:
+    """Stand where the open angle is halved, nearer to where the holder of the ball points; cross a shot's way; come
+    back round the posts."""
+    nearer = parameters.narrows_within - math.hypot(ball.x + pitch.goal_line, ball.y)
+    out = max(0.0, min(parameters.narrows_most, parameters.narrows * nearer))
+    x = -pitch.goal_line + parameters.on_line + out
     crossing = shot_crossing(ball, x, pitch, reach, parameters)
-    y = crossing if crossing is not None else halving_place(ball, x, pitch, reach)
+    y = crossing if crossing is not None else _before_shot(ball, opponents, x, pitch, reach, parameters)
     front = -pitch.goal_line + reach
     if abs(y) < abs(me.y) and abs(me.y) > 0.5 * pitch.goal_width - reach:
         vx, vy = velocity_to(me, front + parameters.before_posts, y if me.x > front else me.y, limits)
@@ -33,6 +44,25 @@ def guard(me: Body, ball: Ball, pitch: Pitch, reach: float, limits: DriveLimits,
         vy = max(-limits.speed, min(limits.speed, parameters.crossing_gain * (y - me.y)))
     facing = math.atan2(ball.y - me.y, max(0.3, ball.x - me.x))
     return drive(me, vx, vy, turn_rate(me, facing, limits), limits)
+
+
+def _before_shot(
+    ball: Ball, opponents: Sequence[Point], x: float, pitch: Pitch, reach: float, parameters: Parameters
+) -> float:
+    """y on the line at `x` while nobody has shot: where the angle is halved, and nearer to where a kick would go now.
+
+    An opponent that holds the ball kicks along the line from its centre through the ball, and needs time to turn.
+    """
+    y = halving_place(ball, x, pitch, reach)
+    away, holder = min(((math.dist(ball[:2], place), place) for place in opponents), default=(math.inf, ball[:2]))
+    ahead = holder[0] - ball[0]
+    if away > parameters.holds_within or ahead < parameters.points_least * away:
+        return y
+    points_at = ball[1] + (ball[1] - holder[1]) / ahead * (ball[0] - x)
+    widest = 0.5 * pitch.goal_width
+    if abs(points_at) > 2.0 * widest:
+        return y
+    return y + parameters.points_weight * (max(-widest, min(widest, points_at)) - y)
 
 
 def halving_place(ball: Ball, x: float, pitch: Pitch, reach: float) -> float:

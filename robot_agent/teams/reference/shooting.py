@@ -10,8 +10,10 @@ from schemas.config.sections import Pitch
 from schemas.frames import Point, wrap
 from schemas.messages.command import KickMode
 
-_GROUND_PLACES = (0.0, -0.5, 0.5, -0.83, 0.83)
-"""Where a ground shot may aim, as shares of half the goal's width: the ball's edge 0.1 m inside the posts at most."""
+_GROUND_PLACES = (0.0, -0.45, 0.45, -0.78, 0.78)
+"""Where a ground shot may aim, as shares of half the goal's width: the ball's edge 0.15 m inside the posts at most."""
+_INSIDE_POSTS = 0.83
+"""The same share for a shot that is taken where the robot points."""
 _LOB_PLACES = (-0.55, 0.0, 0.55)
 """Where a lob may aim, as shares of half the goal's width."""
 
@@ -26,9 +28,19 @@ class Shot(NamedTuple):
 
 
 def best_shot(
-    ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
+    ball: Point,
+    heading: float,
+    opponents: Sequence[Point],
+    pitch: Pitch,
+    parameters: Parameters,
+    aimed: Shot | None = None,
 ) -> Shot | None:
-    """The likelier of the best ground shot and the best lob; None out of range. `heading` is the robot's, rad."""
+    """The likelier of the best ground shot and the best lob; None out of range.
+
+    Args:
+        heading: of the robot, rad.
+        aimed: the shot that it aimed at a tick ago.
+    """
     far = math.hypot(pitch.goal_line - ball[0], ball[1])
     if far > parameters.shot_range:
         return None
@@ -36,9 +48,30 @@ def best_shot(
     if keeper is None and far > parameters.keeper_unseen:
         keeper = (pitch.goal_line, 0.0)
         opponents = [*opponents, keeper]
-    ground = _ground(ball, heading, opponents, pitch, parameters)
+    ground = _ground(ball, heading, opponents, pitch, parameters, aimed)
     lob = _lob(ball, far, keeper, opponents, pitch, parameters)
-    return max((ground, lob), key=lambda shot: shot.chance) if lob is not None else ground
+    if lob is None:
+        return ground
+    stays = {aimed.mode: parameters.shot_stays} if aimed is not None else {}
+    return max((ground, lob), key=lambda shot: shot.chance + stays.get(shot.mode, 0.0))
+
+
+def shot_ahead(
+    ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
+) -> Shot | None:
+    """The shot along the ground that a kick would be now, without any turn; None if it passes the goal or a post."""
+    if math.cos(heading) < parameters.shot_least_cosine:
+        return None
+    y = ball[1] + math.tan(heading) * (pitch.goal_line - ball[0])
+    if abs(y) > 0.5 * _INSIDE_POSTS * pitch.goal_width:
+        return None
+    target = pitch.goal_line, y
+    return Shot(KickMode.GROUND, target, _scores(_room(ball, target, opponents, parameters), parameters))
+
+
+def _scores(room: float, parameters: Parameters) -> float:
+    """The chance of a shot with so many m of air beside all opponents."""
+    return 1.0 / (1.0 + math.exp(-room / parameters.shot_spread))
 
 
 def _keeper(opponents: Sequence[Point], pitch: Pitch) -> Point | None:
@@ -48,17 +81,26 @@ def _keeper(opponents: Sequence[Point], pitch: Pitch) -> Point | None:
     return nearest if nearest is not None and math.dist(nearest, goal) < pitch.goal_width else None
 
 
-def _ground(ball: Point, heading: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters) -> Shot:
+def _ground(
+    ball: Point,
+    heading: float,
+    opponents: Sequence[Point],
+    pitch: Pitch,
+    parameters: Parameters,
+    aimed: Shot | None,
+) -> Shot:
     """The shot along the ground with the most room beside all opponents; of equal ones, that with the least turn."""
     best, most, room_there = 0.0, -math.inf, -math.inf
     for share in _GROUND_PLACES:
         y = 0.5 * share * pitch.goal_width
         room = _room(ball, (pitch.goal_line, y), opponents, parameters)
         turn = abs(wrap(math.atan2(y - ball[1], pitch.goal_line - ball[0]) - heading))
-        if room - parameters.shot_turn * turn > most:
-            best, most, room_there = y, room - parameters.shot_turn * turn, room
-    chance = 1.0 / (1.0 + math.exp(-room_there / parameters.shot_spread))
-    return Shot(KickMode.GROUND, (pitch.goal_line, best), chance * _in_view(ball, pitch))
+        value = room - parameters.shot_turn * turn
+        if aimed is not None and aimed.target[1] == y:
+            value += parameters.shot_same
+        if value > most:
+            best, most, room_there = y, value, room
+    return Shot(KickMode.GROUND, (pitch.goal_line, best), _scores(room_there, parameters))
 
 
 def _room(ball: Point, target: Point, opponents: Sequence[Point], parameters: Parameters) -> float:
@@ -72,7 +114,7 @@ def _room(ball: Point, target: Point, opponents: Sequence[Point], parameters: Pa
         if along < -0.2:
             continue
         along = max(0.0, min(length, along))  # a keeper may be seen behind the line
-        time = max(0.0, along / parameters.shot_speed - parameters.shot_reaction)
+        time = along / parameters.shot_speed
         moves = 0.5 * parameters.shot_crossing * time * time
         beside = math.hypot(x - ball[0] - along * ux, y - ball[1] - along * uy)
         least = min(least, beside - parameters.shot_margin - moves)

@@ -13,8 +13,9 @@ from robot_agent.soccer.skills.keep_in_play import keep_in_play
 from robot_agent.soccer.skills.kick_at import kick_at
 from robot_agent.soccer.skills.take_ball import take_ball
 from robot_agent.teams.action import Action
+from robot_agent.teams.fair_play import Carry
 from robot_agent.teams.own_push import OwnPush, let_go_of_opponent, push_after
-from robot_agent.teams.player import Player
+from robot_agent.teams.player import LET_GO_BEFORE, STOP_BEFORE, Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.reference.attacker import Situation, play_ball
 from robot_agent.teams.reference.drawing import drawing
@@ -29,6 +30,7 @@ from robot_agent.teams.reference.recovery import BackOut
 from robot_agent.teams.reference.role_finding import RoleFinder
 from robot_agent.teams.reference.roles import Candidate, Role
 from robot_agent.teams.reference.set_pieces import Restart, restart_kick
+from robot_agent.teams.reference.shooting import Shot
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from schemas.frames import Point
 from schemas.messages.coach import CoachOrder
@@ -59,8 +61,8 @@ class Reference(Player):
         self._arrival = self._sent_arrival = math.inf
         """s until this robot could be at the ball: now, and as it was sent last."""
         self._held_place = HeldPlace(parameters)
-        self._shoots = False
-        """Whether this robot aims at the goal."""
+        self._shot: Shot | None = None
+        """The shot that this robot aims at."""
         self._weighed: dict[str, float] = {}
         """What this robot chose from, with the ball."""
 
@@ -103,6 +105,13 @@ class Reference(Player):
             return action
         return action._replace(drive=keep_hold(me, action.drive, self._last.drive, belief.dt, self.setup))
 
+    def _carry_on(self, belief: WorldBelief, action: Action, carry: Carry) -> Action:
+        """A robot that aims at the goal stops rather than lets the ball go, after which it could not shoot for 1 s."""
+        left = self._rule_limits.circle - carry.way
+        if self._shot is None or left > LET_GO_BEFORE:
+            return super()._carry_on(belief, action, carry)
+        return action._replace(drive=self._stopping(action.drive, left - STOP_BEFORE))
+
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """Find the role, then act by it."""
         del order
@@ -110,7 +119,7 @@ class Reference(Player):
         self._waited = self._waited + belief.dt if belief.game.running and belief.game.phase.ours else 0.0
         self._promised = promise_after(self._promised, belief)
         self._weighed = {}
-        self._shoots = self._shoots and belief.holding
+        self._shot = self._shot if belief.holding else None
         if belief.game.phase.theirs or belief.game.phase is TeamPhase.DROP_BALL:
             self._chosen = None
         if belief.ball is None:
@@ -184,11 +193,9 @@ class Reference(Player):
             chosen,
             may_score=self.may_score,
             must_pass=self.must_pass_on,
-            shoots=self._shoots,
+            aimed=self._shot,
         )
-        action, self._chosen, self._weighed, self._shoots = play_ball(
-            situation, self.setup, self.limits, self.parameters
-        )
+        action, self._chosen, self._weighed, self._shot = play_ball(situation, self.setup, self.limits, self.parameters)
         if action.pass_to is not None and belief.kicker_ready:
             self._promised = Promise(action.pass_to)
             if self._chosen is not None:
@@ -264,5 +271,5 @@ class Reference(Player):
             place = (-pitch.goal_line + reach + 0.1, 0.0)
             motion = stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits)
             return Action(Role.KEEPER, "guard", motion)
-        motion = guard(belief.me, ball, pitch, reach, self.limits, self.parameters)
+        motion = guard(belief.me, ball, belief.opponents, pitch, reach, self.limits, self.parameters)
         return Action(Role.KEEPER, "guard", motion, dribble=in_play)

@@ -9,7 +9,7 @@ from robot_agent.teams.reference.attacker import Situation, play_ball
 from robot_agent.teams.reference.give_and_go import Run, run_after, run_past
 from robot_agent.teams.reference.parameters import PARAMETERS
 from robot_agent.teams.reference.passing import chance, in_time, passes
-from robot_agent.teams.reference.shooting import best_shot
+from robot_agent.teams.reference.shooting import best_shot, shot_ahead
 from schemas.messages.command import KickMode
 
 PRESSED = {
@@ -42,6 +42,28 @@ def test_a_shot_from_near_is_surer_than_one_from_which_the_keeper_has_time_to_mo
     assert far.chance < 0.2
 
 
+def test_a_shot_where_the_robot_points_is_taken_before_its_turn_to_the_best_one_has_ended(setup, limits):
+    now = Situation(Body(7.2, 0.3, -0.27), {}, [(10.9, 0.3)], 1.0, None, may_score=True, must_pass=False)
+    choice = play_ball(now, setup, limits, PARAMETERS)
+    assert choice.action.kick is not None
+    assert choice.shot is not None
+    assert choice.shot.target[1] < -0.9  # where it would have turned to
+
+
+def test_a_kick_that_would_pass_the_goal_or_a_post_is_no_shot(setup):
+    for heading in (0.4, -0.4, 2.0):
+        assert shot_ahead((8.0, 0.0), heading, [], setup.pitch, PARAMETERS) is None
+
+
+def test_a_robot_that_aims_keeps_its_corner_while_the_keeper_is_before_the_middle(setup):
+    """The noise of the keeper's place would choose another corner in each tick."""
+    first = best_shot((7.0, 0.0), 0.0, [(10.9, 0.02)], setup.pitch, PARAMETERS)
+    then = best_shot((7.0, 0.0), 0.0, [(10.9, -0.02)], setup.pitch, PARAMETERS, first)
+    assert first is not None
+    assert then is not None
+    assert then.target == first.target
+
+
 def test_of_two_open_corners_the_one_that_the_robot_faces_is_chosen(setup):
     for heading in (0.25, -0.25):
         shot = best_shot((6.8, 0.0), heading, [(10.8, 0.0)], setup.pitch, PARAMETERS)
@@ -62,12 +84,12 @@ def test_a_wall_on_the_ground_is_lobbed_over(setup):
 
 
 def test_a_robot_that_has_to_give_up_the_ball_keeps_aiming_at_the_goal(setup, limits):
-    """An opponent is beside it; the chance of a lob is between the thresholds of late and of aiming robots."""
-    late = Situation(Body(3.7, 0.4, 0.4), {}, [(4.4, 0.0), (10.9, 0.0)], 3.5, None, may_score=True, must_pass=True)
+    """An opponent is beside it; the chance of the shot is between the thresholds of late and of aiming robots."""
+    late = Situation(Body(4.65, 0.0, 0.0), {}, [(4.4, 0.9), (10.8, 0.0)], 3.5, None, may_score=True, must_pass=True)
     first = play_ball(late, setup, limits, PARAMETERS)
     assert PARAMETERS.shot_late < first.weighed["shot"] < PARAMETERS.shot_keeps
-    assert first.shoots
-    assert play_ball(late._replace(shoots=True), setup, limits, PARAMETERS).shoots
+    assert first.shot is not None
+    assert play_ball(late._replace(aimed=first.shot), setup, limits, PARAMETERS).shot is not None
 
 
 def test_there_is_no_shot_from_the_own_half(setup):

@@ -87,7 +87,7 @@ def test_the_keeper_stands_on_its_line_where_a_lob_passes_lowest(setup, limits, 
     pitch, reach = setup.pitch, setup.robot.reach
     robot = plant(-10.2, 0.0, 0.0)
     for _ in range(150):
-        robot.step(guard(robot.body, Ball(-5.0, 3.0), pitch, reach, limits, PARAMETERS))
+        robot.step(guard(robot.body, Ball(-5.0, 3.0), [], pitch, reach, limits, PARAMETERS))
     assert abs(robot.body.x + pitch.goal_line) < 0.08
     assert 0.0 < robot.body.y < 0.5 * pitch.goal_width
 
@@ -97,7 +97,7 @@ def test_a_keeper_beside_its_goal_comes_back_before_the_post(setup, limits, plan
     robot = plant(-10.8, 1.7, 1.57)
     between = 0.5 * pitch.goal_width - reach
     for _ in range(200):
-        robot.step(guard(robot.body, Ball(-10.7, 6.7), pitch, reach, limits, PARAMETERS))
+        robot.step(guard(robot.body, Ball(-10.7, 6.7), [], pitch, reach, limits, PARAMETERS))
         beside_post = between < robot.body.y < 0.5 * pitch.goal_width + reach
         assert not beside_post or robot.body.x > -pitch.goal_line + setup.robot.radius
     assert robot.body.y < between
@@ -116,6 +116,24 @@ def test_the_keeper_comes_out_for_a_slow_ball_that_it_reaches_first(setup, limit
     assert fetches(me, ball, [(-5.0, 0.0)], rolling, setup.pitch, limits, PARAMETERS, has_area=True)
     assert not fetches(me, ball, [(-9.0, 0.5)], rolling, setup.pitch, limits, PARAMETERS, has_area=True)
     assert not fetches(me, Ball(-2.0, 0.0), [], rolling, setup.pitch, limits, PARAMETERS, has_area=True)
+
+
+def test_the_keeper_comes_off_its_line_for_a_ball_that_is_too_near_for_a_lob(setup, limits):
+    pitch, reach = setup.pitch, setup.robot.reach
+    on_line = Body(-11.0, 0.0, 0.0)
+    near, far = (guard(on_line, Ball(x, 0.0), [], pitch, reach, limits, PARAMETERS) for x in (-8.8, -6.5))
+    assert near.vx > 0.5
+    assert abs(far.vx) < 0.1
+
+
+def test_the_keeper_moves_to_the_side_to_which_the_holder_of_the_ball_points(setup, limits):
+    """Before it the ball is in the middle, so that only the line from the holder through the ball tells the side."""
+    pitch, reach, me, ball = setup.pitch, setup.robot.reach, Body(-11.0, 0.0, 0.0), Ball(-6.5, 0.0)
+    for side in (1.0, -1.0):
+        holder = (-6.16, -0.06 * side)
+        assert side * guard(me, ball, [holder], pitch, reach, limits, PARAMETERS).vy > 0.2
+    beside = (-6.5, 0.4)
+    assert abs(guard(me, ball, [beside], pitch, reach, limits, PARAMETERS).vy) < 0.05
 
 
 def test_a_ball_that_lies_in_the_goal_area_is_the_keepers_although_opponents_press(setup, limits, rolling):
