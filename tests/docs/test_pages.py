@@ -20,7 +20,7 @@ LIMITS = {
 LIMITS |= {"docs/first_week.md": (60, 110)}
 """Most lines, and most characters of a line."""
 GENERATED = ("docs/protocol.md", "docs/rules.md")
-LATER = {"docs/real_robots.md", "docs/ros2.md", "docs/tasks.md"}
+LATER = {"docs/real_robots.md", "docs/ros2.md", "docs/tasks.md", "docs/learning.md"}
 """Pages of what came after the limit on their number was set."""
 MOST_WORDS = 5700
 RESULTS = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "benchmarks" / "results").glob("*.md"))
@@ -94,7 +94,13 @@ def test_every_module_class_and_function_that_is_named_is_there(document: str) -
     assert missing == []
 
 
-PUBLIC = ("touchline", "touchline.testing", "recordings.reading.recording", "recordings.soccer.stats.match_statistics")
+PUBLIC = (
+    "touchline",
+    "touchline.learn",
+    "touchline.testing",
+    "recordings.reading.recording",
+    "recordings.soccer.stats.match_statistics",
+)
 """The modules that docs/team.md calls public."""
 
 

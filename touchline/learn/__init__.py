@@ -9,6 +9,7 @@ An environment steps the match itself: the same physics, sensors, radio and refe
 """
 
 from schemas.errors import TouchlineError
+from touchline.policy.network import Network
 
 try:
     from touchline.learn.registry import register_tasks
@@ -21,4 +22,4 @@ except ModuleNotFoundError as error:
 
 register_tasks()
 
-__all__ = ["RobotEnv", "TaskEnv"]
+__all__ = ["Network", "RobotEnv", "TaskEnv"]
