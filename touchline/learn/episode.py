@@ -4,11 +4,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import MatchConfig
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
 from sim_host.task.judge import TaskState
+from touchline.learn.picture import picture_of
 from touchline.play.match_recording import MatchRecording
 from touchline.play.play_match import InProcessMatch, answer_of
 
@@ -71,6 +75,10 @@ class Episode:
     def briefing(self, robot: str) -> Briefing:
         """The briefing of a robot."""
         return Briefing.of(robot, self._simulation.setup())
+
+    def picture(self) -> NDArray[np.uint8]:
+        """A picture from above, shape (height, width, 3)."""
+        return picture_of(self._simulation.setup(), self._simulation.now.world)
 
     def step(self, commands: Mapping[str, Command]) -> None:
         """One tick: the controlled robots do these commands, the others what their brains answer."""

@@ -20,7 +20,7 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     of an earlier time: `overrides={"teams.cyan.brain": "policy:FILE"}`.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}
 
     def __init__(
         self,
@@ -30,6 +30,7 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         parameters: Mapping[str, Parameter] | None = None,
         overrides: Mapping[str, Any] | None = None,
         max_cycles: int | None = None,
+        render_mode: str | None = None,
     ) -> None:
         """`robot` is the learner, by default the first of the task's side; for the others see `TaskEnv`.
 
@@ -38,8 +39,14 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         """
         self._robot = robot if robot is not None else load_task(task, overrides=overrides).robots[0]
         self._team = TaskEnv(
-            task, robots=[self._robot], parameters=parameters, overrides=overrides, max_cycles=max_cycles
+            task,
+            robots=[self._robot],
+            parameters=parameters,
+            overrides=overrides,
+            max_cycles=max_cycles,
+            render_mode=render_mode,
         )
+        self.render_mode = render_mode
         self.observation_space = self._team.observation_space(self._robot)
         self.action_space = self._team.action_space(self._robot)
 
@@ -72,6 +79,10 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         observations, rewards, terminated, truncated, infos = self._team.step({self._robot: action})
         robot = self._robot
         return observations[robot], rewards[robot], terminated[robot], truncated[robot], infos[robot]
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """A picture from above, shape (height, width, 3); None without a `render_mode`."""
+        return self._team.render()
 
     def close(self) -> None:
         """Free the engine, and finish a recording."""

@@ -33,8 +33,12 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
     and its actions have no effect. `terminated` is an end by score or game, `truncated` one by time or `max_cycles`.
     """
 
-    metadata: dict[str, Any] = {"name": "touchline", "render_modes": [], "is_parallelizable": True}
-    render_mode: str | None = None
+    metadata: dict[str, Any] = {
+        "name": "touchline",
+        "render_modes": ["rgb_array"],
+        "render_fps": 10,
+        "is_parallelizable": True,
+    }
 
     def __init__(
         self,
@@ -45,6 +49,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         overrides: Mapping[str, Any] | None = None,
         observation: str = "vector",
         max_cycles: int | None = None,
+        render_mode: str | None = None,
     ) -> None:
         """An environment of a task that ships, by its name, or of one from the path of its match file.
 
@@ -54,6 +59,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             overrides: keys of the match file, with dots, such as `teams.magenta.brain`.
             observation: `vector`, or `sight` for a `schemas.messages.sight.Sight`, whose parts must not be changed.
             max_cycles: steps after which an episode is truncated; None for no such limit.
+            render_mode: `rgb_array` for pictures from above by `render`.
 
         Raises:
             TouchlineError: there is no such task, robot or kind of observation, or the match file is invalid.
@@ -69,6 +75,9 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             raise TouchlineError(f"no robot is an agent; name some of {', '.join(self._task.robots)}")
         if observation not in OBSERVATIONS:
             raise TouchlineError(f'observation is "{observation}"; {did_you_mean(observation, OBSERVATIONS)}')
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(str(render_mode), ("rgb_array",))}')
+        self.render_mode = render_mode
         self.possible_agents: list[str] = chosen
         self.agents: list[str] = []
         self.max_cycles = max_cycles
@@ -179,6 +188,18 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             raise TouchlineError("no episode was begun; call reset() first")
         sights = self._episode.sights
         return np.concatenate([layout.observe(sights[agent]) for agent, layout in self._observations.items()])
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """A picture from above, shape (height, width, 3); None without a `render_mode`.
+
+        Raises:
+            TouchlineError: no episode was begun, or matplotlib is not installed.
+        """
+        if self.render_mode is None:
+            return None
+        if self._episode is None:
+            raise TouchlineError("no episode was begun; call reset() first")
+        return self._episode.picture()
 
     def close(self) -> None:
         """Free the engine, and finish a recording; `reset` begins a new episode."""

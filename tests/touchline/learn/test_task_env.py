@@ -151,6 +151,21 @@ def test_any_episode_becomes_a_recording_that_verifies(tmp_path: Path) -> None:
     assert verify(tmp_path / "nine.mcap", referee=True).identical
 
 
+def test_a_picture_shows_where_the_robots_are(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers(render_mode="rgb_array")
+    env.reset(1)
+    before = env.render()
+    while env.agents:
+        env.step(still(env) | {"one": np.array([1.0, 0.0], np.float32)})
+    env.reset(1)
+    assert before.dtype == np.uint8 and before.ndim == 3 and np.array_equal(before, env.render())
+    env.step(still(env) | {"one": np.array([0.0, 1.0], np.float32)})
+    assert not np.array_equal(before, env.render())
+    assert rovers().render() is None
+    with pytest.raises(TouchlineError, match='did you mean "rgb_array"'):
+        rovers(render_mode="rgb_aray")
+
+
 def test_a_recording_ends_with_the_next_reset(rovers: Callable[..., TaskEnv], tmp_path: Path) -> None:
     env = rovers()
     env.reset(9, {"record": tmp_path / "nine.mcap"})
