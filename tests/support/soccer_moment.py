@@ -52,8 +52,8 @@ def judged(
         "seed": 1,
     }
     module, _, function = config.task.score.partition(":")
-    returned: Score = getattr(import_module(f"touchline.tasks.{module}"), function)(Moment(**fields | changes))
-    return returned
+    returned: Score | float = getattr(import_module(f"touchline.tasks.{module}"), function)(Moment(**fields | changes))
+    return returned if isinstance(returned, Score) else Score(returned)
 
 
 @cache

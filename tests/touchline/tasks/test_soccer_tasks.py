@@ -13,7 +13,13 @@ from touchline.play.match_recording import MatchRecording
 from touchline.play.play_match import InProcessMatch
 from touchline.verify.resimulate import verify
 
-GAINS = {"goalkeeper": (5, 0.3), "keepaway_3v2": (3, 3.0), "pass_and_shoot": (5, 0.3)}
+GAINS = {
+    "free_kick": (5, 0.15),
+    "goalkeeper": (5, 0.3),
+    "keepaway_3v2": (3, 3.0),
+    "pass_and_shoot": (5, 0.3),
+    "two_on_one": (5, 0.3),
+}
 """Task → number of seeds, and by how much its baseline is better on average than robots that stand."""
 
 
@@ -35,7 +41,7 @@ def test_the_baseline_is_much_better_than_robots_that_stand(task: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("task", GAINS)
+@pytest.mark.parametrize("task", [*GAINS, "full_match"])
 def test_the_recording_of_an_episode_verifies(task: str, tmp_path: Path) -> None:
     match = InProcessMatch(task_config(task, duration=1.5))
     recording = MatchRecording(tmp_path / "task.mcap", match.simulation.config, match.simulation)
