@@ -13,6 +13,7 @@ from touchline.matches.task.episodes import TaskResult, episodes_of, result_of
 from touchline.matches.task.task import Task, load_task, shipped_tasks
 
 PAGE = Path(__file__).parents[1] / "tasks.md"
+PICTURES = "images/tasks"
 _MARK = "<!-- tasks -->\n"
 _HEAD = "| task | who | s | score | what it is |\n| --- | --- | --- | --- | --- |\n"
 
@@ -22,7 +23,7 @@ def row_of(task: Task, score: str) -> str:
     who = f"{len(task.robots)} {'robot' if len(task.robots) == 1 else 'robots'}"
     others = len(task.config.robots(task.side.opponent))
     who += f" against {others}" if others else ""
-    cells = (f"`{task.name}`", who, f"{task.config.duration:g}", score, task.description)
+    cells = (f"[`{task.name}`]({PICTURES}/{task.name}.gif)", who, f"{task.config.duration:g}", score, task.description)
     return f"| {' | '.join(cells)} |"
 
 

@@ -4,12 +4,10 @@ import math
 
 from touchline import Action, Briefing, CoachOrder, Drive, Moment, Player, Score, WorldBelief, skills
 
-PRESSED = 2.2
-"""m; the holder passes before a taker is nearer than this."""
-LONG = 3.0
-"""s with the ball, after which the holder passes in any case: the referee stops a ball that rests for 5 s."""
-CORNERS = ((-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0))
-"""m; where keepers wait for a pass: at the two corners beside that of the ball."""
+NUMBERS = {"pressed": 2.2, "long": 3.0, "corner": 4.0, "arriving": 3.5}
+"""The numbers of a keeper, which the parameters of its team replace: m of a taker at which the holder passes; s with
+the ball after which it passes in any case, because the referee stops a ball that rests for 5 s; m from the middle to
+the corners, along x and y; m/s of a pass when it arrives."""
 AIR = 0.1
 """m between the hulls of two robots that pass each other."""
 
@@ -46,6 +44,10 @@ class Keeper(Taker):
 
     def __init__(self, briefing: Briefing) -> None:
         super().__init__(briefing)
+        numbers = {name: float(briefing.parameters.get(name, value)) for name, value in NUMBERS.items()}
+        self.pressed, self.long, far, self.arriving = numbers.values()
+        self.corners = ((-far, -far), (far, -far), (far, far), (-far, far))
+        """m; where keepers wait for a pass: at the two beside that of the ball."""
         self.receiver = ""
         """The keeper that the ball was passed to last."""
         self.held = 0.0
@@ -73,13 +75,13 @@ class Keeper(Taker):
 
     def place(self, waiting: dict[str, tuple[float, float]], spot: tuple[float, float]) -> tuple[float, float]:
         """The corner of this robot: those beside the ball's corner are shared with the least way in all."""
-        near = min(range(4), key=lambda corner: math.dist(CORNERS[corner], spot))
+        near = min(range(4), key=lambda corner: math.dist(self.corners[corner], spot))
         mine = waiting.pop(self.briefing.robot)
 
         def way(corner: tuple[float, float]) -> float:
             return math.dist(mine, corner) - sum(math.dist(other, corner) for other in waiting.values())
 
-        return min(CORNERS[near - 1], CORNERS[(near + 1) % 4], key=way)
+        return min(self.corners[near - 1], self.corners[(near + 1) % 4], key=way)
 
     def keep(self, belief: WorldBelief) -> Action:
         """Wait for the takers, then pass."""
@@ -87,8 +89,8 @@ class Keeper(Taker):
         mates = {name: mate.body[:2] for name, mate in belief.mates.items()}
         best = max(mates, key=lambda name: skills.lane_width(me, mates[name], belief.opponents), default=None)
         near = min((math.dist(me, opponent) for opponent in belief.opponents), default=math.inf)
-        if best is None or (near > PRESSED and self.held < LONG):
+        if best is None or (near > self.pressed and self.held < self.long):
             return Action("holder", "hold", Drive(), dribble=True)
-        drive, kick = skills.pass_to(belief.me, mates[best], self.setup, self.limits)
+        drive, kick = skills.pass_to(belief.me, mates[best], self.setup, self.limits, self.arriving)
         self.receiver = best
         return Action("holder", "pass", drive, dribble=True, kick=kick, pass_to=best if kick else None)
