@@ -9,13 +9,12 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from draw_bodies import draw_bodies
-from draw_pitch import draw_floor, draw_pitch
 from draw_readings import draw_readings
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
 from schemas.messages.world import World
 from schemas.topics import WORLD
+from touchline.drawing.picture import drawn
 
 TRAIL_S = 3.0
 """Simulated time that trails reach back."""
@@ -37,16 +36,7 @@ def draw(recording_path: Path, second: float | None = None) -> Figure:
     worlds = [message for _, message in found if isinstance(message, World)]
     if not worlds or not begin <= until <= end:
         raise TouchlineError(f"{recording_path}: no world at {until:g} s; give a time from {begin:g} to {end:g} s")
-    figure = Figure(dpi=110)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    if setup.free is None:
-        draw_pitch(axes, setup.pitch)
-    else:
-        draw_floor(axes, setup.pitch, setup.free.zones)
-    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    scale = WIDTH / (right - left)
-    figure.set_size_inches(WIDTH, scale * (high - low))
-    draw_bodies(axes, setup, worlds, scale)
+    figure, axes, scale = drawn(setup, worlds, WIDTH, dpi=110)
     draw_readings(axes, setup, worlds, scale)
     return figure
 

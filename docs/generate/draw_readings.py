@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from draw_bodies import COLOURS
 from schemas.config.sensors.compass import CompassReading
 from schemas.config.sensors.contact import ContactReading
 from schemas.config.sensors.range import RangeReading
 from schemas.config.sensors.table import Reading
 from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
+from touchline.drawing.bodies import COLOURS
 
 _TOUCH, _HEADING = "#ff3b30", "#ffffff"
 _AROUND = 2.2

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 sys.path.insert(0, str(Path(__file__).parent))
 
 import skill_runs
-from draw_bodies import draw_bodies
-from draw_pitch import draw_pitch
+from touchline.drawing.bodies import draw_bodies
+from touchline.drawing.pitch import draw_pitch
 
 IMAGES = Path(__file__).parents[1] / "images"
 WIDTH = 3.4

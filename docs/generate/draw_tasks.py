@@ -4,18 +4,15 @@ The baseline brain plays the task's first seed; every `FRAME_S` of simulated tim
 time. The pictures of all tasks that ship are in docs/images/tasks.
 """
 
-import io
 import sys
 from pathlib import Path
 
-from matplotlib.figure import Figure
 from PIL import Image
 
-from draw_bodies import draw_bodies
-from draw_pitch import draw_floor, draw_pitch
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.wire.part_faults import validated
+from touchline.drawing.picture import drawn, pixels
 from touchline.matches.task.task import load_task, shipped_tasks
 from touchline.play.play_match import InProcessMatch
 
@@ -28,8 +25,8 @@ MOST = 60
 FASTER = 3.0
 TRAIL_S = 2.0
 """Simulated time that trails reach back, in s."""
-WIDTH, DPI = 3.6, 100
-"""Inches, dots per inch."""
+WIDTH = 3.6
+"""Inches."""
 _COLOURS = 64
 _END_MS = 1500
 """Milliseconds for which the last frame is shown."""
@@ -52,19 +49,8 @@ def worlds_of(name: str) -> tuple[Setup, list[World]]:
 
 def frame(setup: Setup, worlds: list[World]) -> Image.Image:
     """The picture of the last of these worlds."""
-    figure = Figure(dpi=DPI)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    if setup.free is None:
-        draw_pitch(axes, setup.pitch)
-    else:
-        draw_floor(axes, setup.pitch, setup.free.zones)
-    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    scale = WIDTH / (right - left)
-    figure.set_size_inches(WIDTH, scale * (high - low))
-    draw_bodies(axes, setup, worlds, scale)
-    drawn = io.BytesIO()
-    figure.savefig(drawn, format="png")
-    return Image.open(drawn).convert("RGB").quantize(_COLOURS, dither=Image.Dither.NONE)
+    figure, _, _ = drawn(setup, worlds, WIDTH)
+    return Image.fromarray(pixels(figure)).quantize(_COLOURS, dither=Image.Dither.NONE)
 
 
 def main() -> int:

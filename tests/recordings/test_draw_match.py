@@ -8,9 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.patches import Circle, Rectangle
 
-from draw_bodies import COLOURS, draw_bodies
 from draw_match import draw
-from draw_pitch import draw_floor
 from draw_readings import draw_readings
 from schemas.config.obstacle import Shape
 from schemas.config.sensors.compass import Compass, CompassReading
@@ -21,6 +19,8 @@ from schemas.errors import TouchlineError
 from schemas.messages.world import ObstacleTruth, World
 from schemas.side import Side
 from schemas.topics import WORLD
+from touchline.drawing.bodies import COLOURS, draw_bodies
+from touchline.drawing.pitch import draw_floor
 
 
 def world_at(recorded, second: float) -> World:

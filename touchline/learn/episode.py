@@ -9,12 +9,17 @@ from numpy.typing import NDArray
 
 from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
+from schemas.messages.world import World
+from schemas.wire.part_faults import validated
 from sim_host.task.judge import TaskState
-from touchline.learn.picture import picture_of
 from touchline.play.match_recording import MatchRecording
 from touchline.play.play_match import InProcessMatch, answer_of
+
+PICTURE_WIDTH = 8.0
+"""Width of a picture in hundreds of pixels."""
 
 
 class _Seat:
@@ -77,8 +82,18 @@ class Episode:
         return Briefing.of(robot, self._simulation.setup())
 
     def picture(self) -> NDArray[np.uint8]:
-        """A picture from above, shape (height, width, 3)."""
-        return picture_of(self._simulation.setup(), self._simulation.now.world)
+        """A picture from above, shape (height, width, 3).
+
+        Raises:
+            TouchlineError: matplotlib is not installed.
+        """
+        try:
+            from touchline.drawing.picture import drawn, pixels
+        except ModuleNotFoundError:
+            raise TouchlineError("render_mode needs matplotlib; run pip install 'touchline[study]'") from None
+        fields = {key: one for key, one in self._simulation.now.world.items() if key != "sensors"}
+        figure, _, _ = drawn(self._simulation.setup(), [validated(World, fields)], PICTURE_WIDTH)
+        return pixels(figure)
 
     def step(self, commands: Mapping[str, Command]) -> None:
         """One tick: the controlled robots do these commands, the others what their brains answer."""
