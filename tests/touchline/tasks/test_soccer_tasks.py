@@ -14,6 +14,7 @@ from touchline.play.play_match import InProcessMatch
 from touchline.verify.resimulate import verify
 
 GAINS = {
+    "dribble_slalom": (3, 5.0),
     "free_kick": (5, 0.15),
     "goalkeeper": (5, 0.3),
     "keepaway_3v2": (3, 3.0),
