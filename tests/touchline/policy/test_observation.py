@@ -46,8 +46,9 @@ def test_a_match_without_a_ball_has_no_entries_of_one(rovers: InProcessMatch, ke
 
 
 def test_a_ball_is_observed_where_it_is_and_zeros_before_it_is_seen(keepers: InProcessMatch) -> None:
-    seen = observed(keepers, "cyan1")
-    assert (seen["ball.seen"], seen["ball.x"]) == (1.0, pytest.approx(0.6 / 5, abs=0.01))
+    seen, world = observed(keepers, "cyan1"), keepers.simulation.now.world
+    ahead = world["ball"]["x"] - world["robots"]["cyan1"]["x"]  # the robot looks along +x
+    assert (seen["ball.seen"], seen["ball.x"]) == (1.0, pytest.approx(ahead / 5, abs=0.01))
     unseen = observed(keepers, "cyan1", ball=None)
     assert [unseen[f"ball.{name}"] for name in ("seen", "x", "y", "vx", "vy", "age")] == [0.0] * 6
 
