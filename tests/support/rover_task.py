@@ -8,11 +8,11 @@ game = "free"
 duration = 1.0
 profile = "differential"
 [task]
-score = "tally:docked"
+score = "rover_tally:docked"
 unit = "m"
 zones = [{ name = "dock", place = [4.0, 1.0], radius = 0.5 }]
 [teams.cyan]
-brain = "tally:Still"
+brain = "rover_tally:Still"
 [types.rover.sensors.scan]
 kind = "range"
 beams = { value = 4, unit = "1", origin = "test" }
@@ -46,6 +46,6 @@ def docked(now: Moment) -> Score:
 
 def write_rover_task(folder: Path) -> str:
     """The path of its match file, which is written into this folder."""
-    (folder / "tally.py").write_text(PROGRAM)
+    (folder / "rover_tally.py").write_text(PROGRAM)
     (folder / "rovers.toml").write_text(TASK)
     return str(folder / "rovers.toml")

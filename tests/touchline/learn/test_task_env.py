@@ -35,7 +35,7 @@ def still(env: TaskEnv) -> dict[str, Any]:
 @pytest.fixture
 def rovers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., TaskEnv]]:
     monkeypatch.setattr(sys, "path", [*sys.path])
-    monkeypatch.delitem(sys.modules, "tally", raising=False)
+    monkeypatch.delitem(sys.modules, "rover_tally", raising=False)
     path, made = write_rover_task(tmp_path), []
 
     def make(**settings: Any) -> TaskEnv:
@@ -45,7 +45,7 @@ def rovers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable
     yield make
     for env in made:
         env.close()
-    sys.modules.pop("tally", None)
+    sys.modules.pop("rover_tally", None)
 
 
 def test_pettingzoo_finds_its_api_kept(rovers: Callable[..., TaskEnv]) -> None:

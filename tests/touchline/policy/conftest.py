@@ -16,13 +16,13 @@ from touchline.play.play_match import InProcessMatch
 def rovers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[InProcessMatch]:
     """The match, at tick 1, perceived without noise."""
     monkeypatch.setattr(sys, "path", [*sys.path])
-    monkeypatch.delitem(sys.modules, "tally", raising=False)
+    monkeypatch.delitem(sys.modules, "rover_tally", raising=False)
     config = load_match(Path(write_rover_task(tmp_path)), {"noise.preset": "perfect"})
     match = InProcessMatch(config, brain_folder=tmp_path)
     match.step()
     yield match
     match.close()
-    sys.modules.pop("tally", None)
+    sys.modules.pop("rover_tally", None)
 
 
 @pytest.fixture

@@ -11,9 +11,11 @@ from typer.testing import CliRunner
 from recordings.inspection.contradictions import contradictions
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import open_recording
+from schemas.config import profile
 from schemas.config.match_config import load_match
 from schemas.config.number_files import NumberFiles
 from schemas.config.profile import load_profile
+from schemas.config.soccer import rule_book
 from schemas.config.soccer.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from sim_host.soccer.game import Soccer
@@ -38,6 +40,8 @@ def later_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
         return tables | {"version": tables["version"] + 90}
 
     monkeypatch.setattr(NumberFiles, "read", changed)
+    for module in (profile, rule_book):  # a process reads shipped files once
+        monkeypatch.setattr(module, "_shipped", module._shipped.__wrapped__)
     assert load_rule_book("msl").restarts.stop_to_signal == 0.3
     assert load_rule_book("friendly").restarts.stop_to_signal == 0.1
 
