@@ -90,9 +90,9 @@ class Recorder:
 
         run_in_idle_time(poll)
         self._host.update()
-        stopped = stopped and self._host.is_reachable()
-        self.drain(DRAINED_S if stopped else RECONNECT_S)
-        return self.finish(stopped)
+        self.drain(DRAINED_S if stopped and self._host.is_reachable() else RECONNECT_S)
+        self._host.update()  # which may have gone just before it was told to stop
+        return self.finish(stopped and self._host.is_reachable())
 
     def pump(self) -> int:
         """Read and write the received messages, and report progress; returns the number of messages."""
