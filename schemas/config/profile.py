@@ -118,11 +118,11 @@ def load_profile(name: str) -> Profile:
     Raises:
         TouchlineError: there is no such profile, or it is invalid.
     """
-    return _shipped(name) if name in SHIPPED else profile_of(name, FILES.tables(name))
+    return shipped_profile(name) if name in SHIPPED else profile_of(name, FILES.tables(name))
 
 
 @cache
-def _shipped(name: str) -> Profile:
+def shipped_profile(name: str) -> Profile:
     """A shipped profile, which is read once: learning begins thousands of matches in a process."""
     return profile_of(name, FILES.tables(name))
 

@@ -200,11 +200,11 @@ def load_rule_book(name: str) -> RuleBook:
     Raises:
         TouchlineError: there is no such rule book, or it is invalid.
     """
-    return _shipped(name) if name in FILES.shipped else rule_book_of(name, FILES.tables(name))
+    return shipped_rule_book(name) if name in FILES.shipped else rule_book_of(name, FILES.tables(name))
 
 
 @cache
-def _shipped(name: str) -> RuleBook:
+def shipped_rule_book(name: str) -> RuleBook:
     """A shipped rule book, which is read once."""
     return rule_book_of(name, FILES.tables(name))
 

@@ -1,7 +1,7 @@
 """A recording is verified by the profile and the rule book that it embeds, whatever the shipped ones have become."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +11,10 @@ from typer.testing import CliRunner
 from recordings.inspection.contradictions import contradictions
 from recordings.reading.recorded_config import config_of
 from recordings.reading.recording import open_recording
-from schemas.config import profile
 from schemas.config.match_config import load_match
 from schemas.config.number_files import NumberFiles
-from schemas.config.profile import load_profile
-from schemas.config.soccer import rule_book
-from schemas.config.soccer.rule_book import load_rule_book
+from schemas.config.profile import load_profile, shipped_profile
+from schemas.config.soccer.rule_book import load_rule_book, shipped_rule_book
 from schemas.errors import TouchlineError
 from sim_host.soccer.game import Soccer
 from touchline.commands.cli.command_line import app
@@ -29,7 +27,7 @@ TWO_A_SIDE = {"teams.cyan.size": 2, "teams.magenta.size": 2}
 
 
 @pytest.fixture
-def later_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+def later_numbers(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A later program: its shipped files have another version, and its rule books a shorter pause after STOP."""
     read = NumberFiles.read
 
@@ -40,10 +38,17 @@ def later_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
         return tables | {"version": tables["version"] + 90}
 
     monkeypatch.setattr(NumberFiles, "read", changed)
-    for module in (profile, rule_book):  # a process reads shipped files once
-        monkeypatch.setattr(module, "_shipped", module._shipped.__wrapped__)
+    forget()
     assert load_rule_book("msl").restarts.stop_to_signal == 0.3
     assert load_rule_book("friendly").restarts.stop_to_signal == 0.1
+    yield
+    forget()
+
+
+def forget() -> None:
+    """Read shipped files again, as another process would."""
+    shipped_profile.cache_clear()
+    shipped_rule_book.cache_clear()
 
 
 @pytest.fixture(scope="module")
