@@ -34,24 +34,32 @@ class Episode:
     """A match that is stepped with the commands of the controlled robots; to be closed."""
 
     def __init__(
-        self, config: MatchConfig, folder: Path, controlled: Sequence[str], recording: Path | None = None
+        self,
+        config: MatchConfig,
+        folder: Path,
+        controlled: Sequence[str],
+        recording: Path | None = None,
+        advised: bool = False,
     ) -> None:
         """`config` is of a task; brains are looked for in `folder`; the match is written into `recording`.
+
+        `advised`: the brains of the controlled robots give advice.
 
         Raises:
             TouchlineError: a brain cannot be loaded, or the recording cannot be written.
         """
-        seat = _Seat()
-        self._match = InProcessMatch(config, dict.fromkeys(controlled, seat), folder)
-        self._simulation = self._match.simulation
-        self._brains = {name: brain for name, brain in self._match.brains.items() if brain is not seat}
+        self._match = InProcessMatch(config, {} if advised else dict.fromkeys(controlled, _Seat()), folder)
+        self._simulation, brains = self._match.simulation, self._match.brains
+        self._brains = {name: brain for name, brain in brains.items() if name not in controlled}
+        self._advisers = {name: brains[name] for name in controlled} if advised else {}
         self._recording: MatchRecording | None = None
-        if recording is not None:
-            try:
+        try:
+            if recording is not None:
                 self._recording = MatchRecording(recording, config, self._simulation)
-            except BaseException:
-                self._match.close()
-                raise
+            self._ask()
+        except BaseException:
+            self.close()
+            raise
 
     def close(self) -> None:
         """Free the engine, and finish the recording."""
@@ -103,3 +111,10 @@ class Episode:
         tick = self._simulation.step(all_commands)
         if self._recording is not None:
             self._recording.add(tick, all_commands)
+        self._ask()
+
+    def _ask(self) -> None:
+        """Hear what the advisers would do now; a brain sees every sight once, in order."""
+        sights = self.sights
+        self.advice = {robot: answer_of(brain, sights[robot].own_copy()) for robot, brain in self._advisers.items()}
+        """Controlled robot → the command that its brain in the match file would give now; empty unless advised."""

@@ -48,6 +48,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         parameters: Mapping[str, Parameter] | None = None,
         overrides: Mapping[str, Any] | None = None,
         observation: str = "vector",
+        advice: bool = False,
         max_cycles: int | None = None,
         render_mode: str | None = None,
     ) -> None:
@@ -58,6 +59,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             parameters: of the team, such as `decision_ticks`, see `touchline.policy.interface`.
             overrides: keys of the match file, with dots, such as `teams.magenta.brain`.
             observation: `vector`, or `sight` for a `schemas.messages.sight.Sight`, whose parts must not be changed.
+            advice: infos have the action `advice`: what the brain in the match file would do now in the agent's place.
             max_cycles: steps after which an episode is truncated; None for no such limit.
             render_mode: `rgb_array` for pictures from above by `render`.
 
@@ -84,7 +86,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         self._cycles = 0
         self._episode: Episode | None = None
         self._seeds = np.random.default_rng()
-        self._sights = observation == "sight"
+        self._sights, self._advised = observation == "sight", advice
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -208,7 +210,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         self._episode, self.agents = None, []
 
     def _begin(self, seed: int, recording: Path | None) -> Episode:
-        return Episode(self._task.episode(seed), self._task.folder, self.possible_agents, recording)
+        return Episode(self._task.episode(seed), self._task.folder, self.possible_agents, recording, self._advised)
 
     def _observe(self, episode: Episode) -> dict[str, Observed]:
         sights = episode.sights
@@ -219,7 +221,10 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
     def _infos(self, episode: Episode) -> Infos:
         state = episode.state
         info = {"seed": self._seed, "tick": episode.tick, "score": state.value or 0.0, "ended_by": state.ended_by}
-        return {agent: dict(info) for agent in self.agents}
+        infos = {agent: dict(info) for agent in self.agents}
+        for agent, command in episode.advice.items():
+            infos[agent]["advice"] = self._controls[agent].action(command)
+        return infos
 
     def _checked(self, actions: Mapping[str, Any]) -> list[tuple[str, NDArray[np.float32]]]:
         for agent in actions:

@@ -71,6 +71,20 @@ class Control:
             kick = Kick(mode=KickMode.GROUND, speed=numbers[-2] * self._kick)
         return Command(answers_tick=sight.tick, drive=drive, dribble=numbers[-1] > 0.0, kick=kick, radio=radio)
 
+    def action(self, command: Command) -> NDArray[np.float32]:
+        """The action, shape (entries,), whose command is nearest to this one, for policies that imitate a brain.
+
+        A kick of any kind is one along the ground with its speed; without a kick the entry is −1, and so is `dribble`
+        where the dribbler is off. The action does not hold what the command sends by radio.
+        """
+        drive, kick = command.drive, command.kick
+        numbers = [drive.vx / self._speed, drive.vy / self._speed, drive.omega / self._turn]
+        if not self._sideways:
+            del numbers[1]
+        if self._ball:
+            numbers += [kick.speed / self._kick if kick is not None else -1.0, 1.0 if command.dribble else -1.0]
+        return np.clip(np.array(numbers, np.float32), -1.0, 1.0)
+
     def _message(self, sight: Sight) -> Radio:
         ball = sight.ball
         if ball is None or ball.age > _FRESH:

@@ -13,11 +13,13 @@ from pettingzoo.test import max_cycles_test, parallel_api_test, parallel_seed_te
 from pettingzoo.utils import parallel_to_aec
 
 from schemas.errors import TouchlineError
+from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
 from support.rover_task import write_rover_task
 from touchline.learn import TaskEnv
 from touchline.learn.registry import environment_name
-from touchline.matches.task.task import shipped_tasks
+from touchline.matches.task.task import load_task, shipped_tasks
+from touchline.play.play_match import InProcessMatch
 from touchline.verify.resimulate import verify
 
 KEEPAWAY = "keepaway_3v2"
@@ -133,6 +135,37 @@ def test_plain_sights_are_observed_where_they_are_asked_for(rovers: Callable[...
     assert env.observation_space("one") == env.observation_space("two")
     with pytest.raises(TouchlineError, match="not sampled"):
         env.observation_space("one").sample()
+
+
+def test_a_brain_whose_advice_is_followed_plays_as_in_a_match() -> None:
+    env = TaskEnv("coverage", advice=True, parameters={"decision_ticks": 1}, overrides={"duration": 4.0})
+    _, infos = env.reset(3)
+    while env.agents:
+        *_, infos = env.step({agent: infos[agent]["advice"] for agent in env.agents})
+    task = load_task("coverage", overrides={"duration": 4.0})
+    match = InProcessMatch(task.episode(3), brain_folder=task.folder)
+    while not match.simulation.over:
+        match.step()
+    match.close()
+    assert 0.01 < match.simulation.state.value == pytest.approx(infos["rover1"]["score"])
+
+
+def test_a_brain_that_advises_sees_every_sight_once(
+    rovers: Callable[..., TaskEnv], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    env, seen = rovers(advice=True, parameters={"decision_ticks": 3}), []
+
+    def act(_brain: object, sight: Sight) -> Command:
+        seen.append((sight.robot, sight.tick))
+        return Command(answers_tick=sight.tick, drive=Drive(omega=-20.0))
+
+    monkeypatch.setattr(sys.modules["rover_tally"].Still, "act", act)
+    env.reset(1)
+    *_, infos = env.step(still(env))
+    assert sorted(seen) == [(robot, tick) for robot in ("one", "two") for tick in range(4)]
+    assert infos["two"]["advice"].tolist() == [0.0, -1.0] and env.action_space("two").contains(infos["two"]["advice"])
+    _, infos = rovers().reset(1)
+    assert "advice" not in infos["one"] and len(seen) == 8
 
 
 def test_the_state_is_what_all_agents_observe(rovers: Callable[..., TaskEnv]) -> None:

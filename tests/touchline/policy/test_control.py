@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from robot_agent.sdk.contract import Briefing
-from schemas.messages.command import Command, Drive, KickMode
+from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.sight import Sight
 from schemas.messages.soccer.game import DisciplinaryRecord
 from schemas.soccer.game import OffField
@@ -59,3 +59,20 @@ def test_a_robot_that_is_off_the_field_does_nothing(keepers: InProcessMatch) -> 
     off = game.replace(robots={"cyan1": DisciplinaryRecord(off_field=OffField.RED_CARD)})
     assert commanded(keepers, "cyan1", [1.0] * 5, game=off, holding=True) == Command(answers_tick=0)
     assert commanded(keepers, "cyan2", [1.0] * 5, game=off) != Command(answers_tick=0)
+
+
+def test_the_action_of_a_command_gives_the_command_again(keepers: InProcessMatch, rovers: InProcessMatch) -> None:
+    for match, robot, action in (
+        (keepers, "cyan1", [0.5, -0.25, 0.125, 0.5, 1.0]),
+        (keepers, "cyan1", [-0.5, 1.0, -1.0, -1.0, -1.0]),
+        (rovers, "one", [0.5, -0.5]),
+    ):
+        control = Control(Briefing.of(robot, match.simulation.setup()))
+        assert control.action(commanded(match, robot, action, holding=True)).tolist() == pytest.approx(action)
+
+
+def test_the_action_of_a_command_beyond_the_limits_is_cut_off_and_knows_no_lob(keepers: InProcessMatch) -> None:
+    control = Control(Briefing.of("cyan1", keepers.simulation.setup()))
+    lob = Kick(mode=KickMode.LOB, speed=0.25 * keepers.simulation.setup().kicker.max_ground_speed)
+    command = Command(answers_tick=0, drive=Drive(vx=20.0, omega=-50.0), kick=lob)
+    assert control.action(command).tolist() == pytest.approx([1.0, 0.0, -1.0, 0.25, -1.0])
