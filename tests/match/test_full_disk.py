@@ -13,11 +13,12 @@ from recordings.reading.recording import open_recording
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-FULL = 220_000
+FULL = 200_000
 """Most bytes of a file: what a full disk does, by size."""
 MATCH = """
 name = "full"
 duration = 3
+patience.recorder = 4.0
 
 [teams.cyan]
 robots = ["cyan1"]
@@ -38,7 +39,7 @@ def worlds(recording):
 
 
 def test_a_match_whose_disk_is_full_has_its_result_and_names_what_is_left(start, tmp_path, endpoint):
-    program = play(start, tmp_path, endpoint, duration=12)  # longer than the recorder and its three successors write
+    program = play(start, tmp_path, endpoint, duration=9)  # longer than the recorder and its three successors write
     resource.prlimit(program.popen.pid, resource.RLIMIT_FSIZE, (FULL, FULL))  # before its processes, which inherit it
     assert program.status() == 1
     result = json.loads(program.out)

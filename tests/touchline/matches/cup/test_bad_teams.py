@@ -18,7 +18,7 @@ def played(tmp_path: Path, teams: dict[str, str], *, duration: float, **keys: ob
     """A cup of these teams: name → brain."""
     (tmp_path / "bad_teams.py").write_text(SOURCE)
     entries = [TeamEntry(name=name, brain=brain) for name, brain in teams.items()]
-    match = {"duration": duration, "rules": str(BRISK), "scene": "one_against_keeper"}
+    match = {"duration": duration, "rules": str(BRISK), "scene": "one_against_keeper", "patience": {"answer": 3.0}}
     cup = CupConfig(teams=entries, size=1, match=match, **keys)  # type: ignore[arg-type]
     with closing(CupRun(cup, tmp_path, tmp_path / "cup", resume=False)) as run:
         return play(run, 2)
