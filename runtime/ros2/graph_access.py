@@ -1,17 +1,18 @@
 """What the nodes of each account may do in a graph, as Zenoh's access control of its router. Pure.
 
-A team's nodes have all topics, services and tokens below the names of their own robots: they drive these and talk with
-each other there. Those of the operator have the services by which nodes control the match. Clock and transforms are
-read by all accounts. Everything else is denied.
+It follows from the topic table of the match. Who may publish a robot's commands has all topics, services and tokens
+below the name of that robot: a team's nodes drive it and talk with each other there. Who may pause the match has the
+services by which nodes control it. Clock and transforms are read by all accounts. Everything else is denied.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from runtime.access.access_rules import CACHE, access_section, rule
 from runtime.access.accounts import ACCOUNTS, Account
-from runtime.access.rights import Robots
+from runtime.access.rights import Rights, Robots
 from runtime.ros2.graph_names import CONTROL, TOKENS, Kind
+from schemas.topics import COMMAND, PACE
 
 _FOR_ALL = ("clock", "tf", "tf_static")
 """Topics that everybody reads; only the bridge publishes them."""
@@ -25,9 +26,11 @@ def graph_access(domain: int, robots: Robots) -> Mapping[str, Any]:
 
 
 def _rules_of(account: Account, domain: int, robots: Robots) -> list[dict[str, Any]]:
-    own: Sequence[str] = (CONTROL,) if account is Account.OPERATOR else ()
-    if account in (Account.CYAN, Account.MAGENTA) and account.side is not None:
-        own = robots[account.side]
+    rights = Rights(account, robots)
+    known = [robot for side in robots.values() for robot in side]
+    own = [robot for robot in known if COMMAND.fill(robot=robot) in rights.publishes]
+    if PACE.fill() in rights.queries:
+        own.append(CONTROL)
     keys = [f"{domain}/{robot}/**" for robot in own]
     read = [f"{domain}/{topic}/*/*" for topic in _FOR_ALL]
     read += [key + CACHE for key in read]
