@@ -32,6 +32,7 @@ class MatchScreen:
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._slow_agents = SlowAgents()
         self._invalid_agents = InvalidAgents()
+        self._has_waited = False
 
     def begin(self, announcement: Announcement) -> None:
         """Print where the host listens, who plays, how a remote team joins, and what teams are not isolated from."""
@@ -61,4 +62,7 @@ class MatchScreen:
                 for line in self._remote.update(message, self._clock.now()):
                     self._screen.event(line, notable=True)
         waiting = self._remote.waiting(follower.health) if follower.health is not None else ""
+        if waiting and not self._has_waited:
+            self._has_waited = True
+            self._screen.renew()  # the last status was of the host; people wait for this one
         self._screen.status(waiting or status_line(follower, self._robots, self._names))

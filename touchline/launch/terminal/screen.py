@@ -27,6 +27,10 @@ class Screen:
             self._shown_at = now
             self._write(line)
 
+    def renew(self) -> None:
+        """Have the next status printed immediately: it is of another kind than those before."""
+        self._shown_at = -STATUS_S
+
     def event(self, line: str, *, notable: bool) -> None:
         """Print every event."""
         del notable
