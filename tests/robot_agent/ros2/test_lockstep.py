@@ -46,7 +46,7 @@ class Node:
 @pytest.fixture
 def played() -> Iterator[tuple[HostRig, Node]]:
     """A small match at tick 0, whose `cyan2` the node drives."""
-    rig = HostRig(MatchConfig.model_validate({"seed": 7, "teams": TEAMS}))
+    rig = HostRig(MatchConfig.model_validate({"seed": 7, "teams": TEAMS, "patience": {"answer": 2.0}}))
     with (
         open_graph("touchline", WallClock(), 0, "tcp/127.0.0.1:0", None, 10.0) as graph,
         open_graph("team", WallClock(), 0, None, graph.endpoint, 10.0) as other,

@@ -72,7 +72,7 @@ def answered(recording: Path) -> dict[str, list[Any]]:
     return {robot: [one for _, one in opened.decoded(COMMAND.fill(robot=robot))] for robot in ROBOTS}
 
 
-@pytest.mark.parametrize(("library", "options"), [("sdk", ()), ("pyzeros", ()), ("sdk", ("--twist",))])
+@pytest.mark.parametrize(("library", "options"), [("pyzeros", ()), ("sdk", ("--twist",))])
 def test_a_team_of_nodes_of_one_foreign_process_plays_in_lockstep_and_its_recording_verifies(
     tmp_path: Path, library: str, options: tuple[str, ...]
 ) -> None:
