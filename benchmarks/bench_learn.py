@@ -59,7 +59,7 @@ def measured(env: TaskEnv) -> tuple[float, float]:
     reset_ms = 1e3 * (time.perf_counter() - begin)
     random, steps, spent = np.random.default_rng(1), 0, 0.0
     actions = [
-        {agent: random.uniform(-0.4, 0.4, 5).astype(np.float32) for agent in env.possible_agents} for _ in range(STEPS)
+        {agent: random.uniform(-0.4, 0.4, 6).astype(np.float32) for agent in env.possible_agents} for _ in range(STEPS)
     ]
     for action in actions:
         if not env.agents:

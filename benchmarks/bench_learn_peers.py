@@ -100,7 +100,7 @@ def environment_round(folder: Path, robots: int, period: float) -> Round:
 
     def go() -> float:
         actions = [
-            {agent: random.uniform(-0.4, 0.4, 5).astype(np.float32) for agent in env.possible_agents}
+            {agent: random.uniform(-0.4, 0.4, 6).astype(np.float32) for agent in env.possible_agents}
             for _ in range(round(SECONDS / period))
         ]
         return cpu_time(lambda: env.reset(1), env.step, actions)

@@ -38,7 +38,7 @@ def test_its_commands_train_a_policy_that_does_the_task_and_plays_a_match(
     small = ["--generations", "1", "--episodes", "1", "--processes", "1"]
     # in a process of its own: it forks, and a fork of one with the threads of Zenoh may hang
     subprocess.run([sys.executable, root / train[1], *train[2:], *small], check=True)
-    assert Network.load(Path("keeper.npz")).actions == 5
+    assert Network.load(Path("keeper.npz")).actions == 6
     result = CliRunner().invoke(app, [*run[1:-1], "2", "--jobs", "1"])
     assert result.exit_code == 0 and re.match(r"keepaway_3v2: [\d.]+ s \(", result.stdout), result.output
     Path("keeper.toml").write_text(match_file)

@@ -35,8 +35,11 @@ class Control:
             entries.append(signed("vy", "m/s", self._speed, self._speed, "velocity to the left"))
         entries.append(signed("omega", "rad/s", self._turn, self._turn, "turn rate, counter-clockwise"))
         if self._ball:
-            kick = "speed of a kick along the ground, once the robot holds the ball; none at 0 or below"
-            entries.append(signed("kick", "m/s", self._kick, self._kick, kick))
+            power = f"speed of a kick: from 0 at -1 to the top speed of {self._kick:g} m/s at 1"
+            entries.append(
+                signed("kick", "1", 1.0, 1.0, "above 0 the robot kicks along the ground once it holds the ball")
+            )
+            entries.append(signed("power", "1", 1.0, 1.0, power))
             entries.append(signed("dribble", "1", 1.0, 1.0, "the dribbler is on above 0"))
         self.entries: tuple[Entry, ...] = tuple(entries)
         """One for each number, in order; all are from −1 to 1."""
@@ -66,23 +69,25 @@ class Control:
         drive = Drive(vx=vx, vy=vy, omega=omega)
         if not self._ball:
             return Command(answers_tick=sight.tick, drive=drive, radio=radio)
-        kick = None
-        if numbers[-2] > 0.0 and sight.holding and sight.kicker_ready:
-            kick = Kick(mode=KickMode.GROUND, speed=numbers[-2] * self._kick)
-        return Command(answers_tick=sight.tick, drive=drive, dribble=numbers[-1] > 0.0, kick=kick, radio=radio)
+        kicks, power, dribble = numbers[-3:]
+        kick, speed = None, (power + 1.0) / 2.0 * self._kick
+        if kicks > 0.0 and speed > 0.0 and sight.holding and sight.kicker_ready:
+            kick = Kick(mode=KickMode.GROUND, speed=speed)
+        return Command(answers_tick=sight.tick, drive=drive, dribble=dribble > 0.0, kick=kick, radio=radio)
 
     def action(self, command: Command) -> NDArray[np.float32]:
         """The action, shape (entries,), whose command is nearest to this one, for policies that imitate a brain.
 
-        A kick of any kind is one along the ground with its speed; without a kick the entry is −1, and so is `dribble`
-        where the dribbler is off. The action does not hold what the command sends by radio.
+        A kick of any kind is one along the ground with its speed. `kick` is −1 without a kick, and `power` 0; `dribble`
+        is −1 where the dribbler is off. The action does not hold what the command sends by radio.
         """
         drive, kick = command.drive, command.kick
         numbers = [drive.vx / self._speed, drive.vy / self._speed, drive.omega / self._turn]
         if not self._sideways:
             del numbers[1]
         if self._ball:
-            numbers += [kick.speed / self._kick if kick is not None else -1.0, 1.0 if command.dribble else -1.0]
+            numbers += [-1.0, 0.0] if kick is None else [1.0, 2.0 * kick.speed / self._kick - 1.0]
+            numbers.append(1.0 if command.dribble else -1.0)
         return np.clip(np.array(numbers, np.float32), -1.0, 1.0)
 
     def _message(self, sight: Sight) -> Radio:

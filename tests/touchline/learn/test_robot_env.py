@@ -22,7 +22,7 @@ def test_one_robot_learns_and_its_teammates_play() -> None:
     env = RobotEnv("keepaway_3v2", robot="cyan3")
     observation, info = env.reset(seed=4)
     assert env.observation_space.contains(observation) and info["seed"] == 4
-    assert [entry.name for entry in env.action_entries] == ["vx", "vy", "omega", "kick", "dribble"]
+    assert [entry.name for entry in env.action_entries] == ["vx", "vy", "omega", "kick", "power", "dribble"]
     assert len(env.observation_entries) == len(observation)
     with pytest.raises(TouchlineError, match='did you mean "cyan3"'):
         RobotEnv("keepaway_3v2", robot="cyan33")
