@@ -1,6 +1,7 @@
-"""What a ROS 2 graph costs in lockstep: ten robots that one foreign process drives, against ten agents in one process.
+"""What a ROS 2 graph costs in lockstep: ten robots that one foreign process drives, against ten agents.
 
-`python benchmarks/bench_ros2_lockstep.py --rounds 5` plays both in turns, and prints the median of their ratios. The
+`python benchmarks/bench_ros2_lockstep.py --rounds 5` plays with agents in processes of their own, as a match does
+without other settings, with agents in one process, and with nodes, in turns; it prints the medians of the ratios. The
 nodes answer each `/clock` with a stamped command for each robot. Nothing is recorded, and nobody reads other topics.
 """
 
@@ -15,6 +16,7 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from bench_lockstep import MEASURE_S, cpu_seconds, newest, overrides
+from bench_lockstep import measure as measure_processes
 from idle_brain import act
 from running_match import HERE, PATIENCE_S, launch
 
@@ -36,6 +38,8 @@ from schemas.topics import HEALTH
 from sim_host.server.settings import HostSettings
 
 ROBOTS = 10
+KINDS = ("processes", "agents", "nodes")
+"""Agents in processes of their own, agents in one process, and nodes of one process."""
 
 
 class Cost(NamedTuple):
@@ -113,7 +117,10 @@ def ended(processes: list["subprocess.Popen[bytes]"]) -> Iterator[None]:
 
 
 def measure(kind: str, foreign: list[str]) -> Cost:
-    """Ticks per second with `agents` or with a `bridge`."""
+    """Ticks per second with one of `KINDS`."""
+    if kind == "processes":
+        cycles = measure_processes(ROBOTS, "none")
+        return Cost(cycles.rate, cycles.host, cycles.agents, 0.0)
     config = load_match(None, overrides(ROBOTS))
     endpoint, graph = with_free_port("tcp/127.0.0.1:0"), with_free_port("tcp/127.0.0.1:0")
     robots = [robot for side in Side for robot in config.robots(side)]
@@ -144,17 +151,20 @@ def main() -> None:
     parser.add_argument("--sdk", action="store_true", help="nodes of zenoh-ros2-sdk")
     options = parser.parse_args()
     foreign = [str(HERE.parent / "tests" / "support" / "ros_team.py"), "sdk"] if options.sdk else []
-    rows = []
+    rows: list[dict[str, Cost]] = []
     for _ in range(options.rounds):
-        rows.append((measure("agents", []), measure("bridge", foreign)))
-        a, b = rows[-1]
-        print(f"  agents {a.rate:.0f}, nodes {b.rate:.0f} ticks/s: {b.rate / a.rate:.3f}", flush=True)
-    for name, costs in zip(("agents", "nodes"), zip(*rows, strict=True), strict=True):
-        rate, *times = (statistics.median(column) for column in zip(*costs, strict=True))
+        rows.append({kind: measure(kind, foreign) for kind in KINDS})
+        print("  " + ", ".join(f"{kind} {cost.rate:.0f}" for kind, cost in rows[-1].items()) + " ticks/s", flush=True)
+    for kind in KINDS:
+        rate, *times = (statistics.median(column) for column in zip(*[row[kind] for row in rows], strict=True))
         host, robots, nodes = (f"{1e6 * one:.0f} us" for one in times)
-        print(f"{name:7} {rate:.0f} ticks/s; CPU time a tick: host {host}, robots {robots}, nodes {nodes}")
-    ratio = statistics.median(b.rate / a.rate for a, b in rows)
-    print(f"nodes / agents: {ratio:.3f} (at least 0.9), on {os.cpu_count()} cores")
+        print(f"{kind:9} {rate:.0f} ticks/s; CPU time a tick: host {host}, robots {robots}, nodes {nodes}")
+    for kind in KINDS[:2]:
+        ratios = [row["nodes"].rate / row[kind].rate for row in rows]
+        print(
+            f"nodes / {kind}: {statistics.median(ratios):.3f} ({min(ratios):.3f} to {max(ratios):.3f}; at least 0.9), "
+            f"on {os.cpu_count()} cores"
+        )
 
 
 if __name__ == "__main__":
