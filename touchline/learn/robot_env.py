@@ -20,7 +20,7 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     of an earlier time: `overrides={"teams.cyan.brain": "policy:FILE"}`.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 10}
 
     def __init__(
         self,
@@ -81,9 +81,9 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         return observations[robot], rewards[robot], terminated[robot], truncated[robot], infos[robot]
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture from above, shape (height, width, 3); None without a `render_mode`."""
+        """With `rgb_array` a picture from above, shape (height, width, 3), else None."""
         return self._team.render()
 
     def close(self) -> None:
-        """Free the engine, and finish a recording."""
+        """Free the engine, finish a recording, and close the window."""
         self._team.close()

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from gymnasium.spaces import Box, Space
@@ -18,6 +18,9 @@ from touchline.matches.task.task import load_task
 from touchline.policy.control import Control
 from touchline.policy.entries import Entry
 from touchline.policy.observation import Observation
+
+if TYPE_CHECKING:
+    from touchline.drawing.window import Window
 
 Observed = Any
 """A vector of shape (entries,), or a sight."""
@@ -35,7 +38,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
 
     metadata: dict[str, Any] = {
         "name": "touchline",
-        "render_modes": ["rgb_array"],
+        "render_modes": ["rgb_array", "human"],
         "render_fps": 10,
         "is_parallelizable": True,
     }
@@ -61,7 +64,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             observation: `vector`, or `sight` for a `schemas.messages.sight.Sight`, whose parts must not be changed.
             advice: infos have the action `advice`: what the brain in the match file would do now in the agent's place.
             max_cycles: steps after which an episode is truncated; None for no such limit.
-            render_mode: `rgb_array` for pictures from above by `render`.
+            render_mode: `rgb_array` for pictures from above by `render`, `human` for a window that shows each step.
 
         Raises:
             TouchlineError: there is no such task, robot or kind of observation, or the match file is invalid.
@@ -77,14 +80,16 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             raise TouchlineError(f"no robot is an agent; name some of {', '.join(self._task.robots)}")
         if observation not in OBSERVATIONS:
             raise TouchlineError(f'observation is "{observation}"; {did_you_mean(observation, OBSERVATIONS)}')
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(str(render_mode), ("rgb_array",))}')
+        modes = self.metadata["render_modes"]
+        if render_mode not in (None, *modes):
+            raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(str(render_mode), modes)}')
         self.render_mode = render_mode
         self.possible_agents: list[str] = chosen
         self.agents: list[str] = []
         self.max_cycles = max_cycles
         self._cycles = 0
         self._episode: Episode | None = None
+        self._window: Window | None = None
         self._seeds = np.random.default_rng()
         self._sights, self._advised = observation == "sight", advice
         self._lay_out()
@@ -128,8 +133,8 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         The option `record` is the path of an MCAP recording of the episode. Infos have the `seed` of the episode.
 
         Raises:
-            TouchlineError: the seed is no whole number from 0 to 2^63 - 1, a brain cannot be loaded, or the recording
-                cannot be written.
+            TouchlineError: the seed is no whole number from 0 to 2^63 - 1, a brain cannot be loaded, the recording
+                cannot be written, or no window can be opened.
         """
         if seed is None:
             seed = int(self._seeds.integers(2**31))
@@ -137,11 +142,12 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             raise TouchlineError(f"seed is {seed!r}; give a whole number from 0 to 2^63 - 1")
         else:
             self._seeds = np.random.default_rng(seed)
-        self.close()
+        self._end()
         record = (options or {}).get("record")
         self._seed = int(seed)
         self._episode = self._begin(self._seed, Path(record) if record is not None else None)
         self.agents, self._cycles = [*self.possible_agents], 0
+        self._show(self._episode)
         return self._observe(self._episode), self._infos(self._episode)
 
     def step(
@@ -165,6 +171,7 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
             if episode.state.over:
                 break
         self._cycles += 1
+        self._show(episode)
         state, agents = episode.state, self.agents
         terminated = state.over and state.ended_by != BY_TIME
         truncated = not terminated and (state.over or self._cycles == self.max_cycles)
@@ -192,19 +199,36 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         return np.concatenate([layout.observe(sights[agent]) for agent, layout in self._observations.items()])
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture from above, shape (height, width, 3); None without a `render_mode`.
+        """With `rgb_array` a picture from above, shape (height, width, 3), else None: a window shows steps by itself.
 
         Raises:
             TouchlineError: no episode was begun, or matplotlib is not installed.
         """
-        if self.render_mode is None:
+        if self.render_mode != "rgb_array":
             return None
         if self._episode is None:
             raise TouchlineError("no episode was begun; call reset() first")
         return self._episode.picture()
 
     def close(self) -> None:
-        """Free the engine, and finish a recording; `reset` begins a new episode."""
+        """Free the engine, finish a recording, and close the window; `reset` begins a new episode."""
+        self._end()
+        if self._window is not None:
+            self._window.close()
+            self._window = None
+
+    def _show(self, episode: Episode) -> None:
+        """Show the world in the window, if there is to be one."""
+        if self.render_mode != "human":
+            return
+        picture = episode.picture()
+        if self._window is None:
+            from touchline.drawing.window import Window
+
+            self._window = Window(self._task.config.name, picture)
+        self._window.show(picture)
+
+    def _end(self) -> None:
         if self._episode is not None:
             self._episode.close()
         self._episode, self.agents = None, []

@@ -7,6 +7,7 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
 from schemas.errors import TouchlineError
+from support import display
 from touchline.learn import RobotEnv
 from touchline.learn.registry import environment_name
 
@@ -15,7 +16,8 @@ KEEPAWAY = environment_name("keepaway_3v2")
 
 @pytest.mark.filterwarnings("ignore:.*disable_env_checker.*")
 def test_gymnasium_finds_its_api_kept() -> None:
-    check_env(gymnasium.make(KEEPAWAY, disable_env_checker=True).unwrapped)
+    with display.backend("module://support.display"):
+        check_env(gymnasium.make(KEEPAWAY, disable_env_checker=True).unwrapped)
 
 
 def test_one_robot_learns_and_its_teammates_play() -> None:

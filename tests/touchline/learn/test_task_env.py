@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 import pettingzoo
 import pytest
+from matplotlib import pyplot
 from pettingzoo.test import max_cycles_test, parallel_api_test, parallel_seed_test
 from pettingzoo.utils import parallel_to_aec
 
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
+from support import display
 from support.rover_task import write_rover_task
 from touchline.learn import TaskEnv
 from touchline.learn.registry import environment_name
@@ -32,6 +34,13 @@ def keepaway(**settings: Any) -> TaskEnv:
 
 def still(env: TaskEnv) -> dict[str, Any]:
     return {agent: np.zeros(env.action_space(agent).shape, np.float32) for agent in env.agents}
+
+
+@pytest.fixture
+def windows() -> Iterator[None]:
+    """Matplotlib opens windows that nobody sees."""
+    with display.backend("module://support.display"):
+        yield
 
 
 @pytest.fixture
@@ -197,6 +206,36 @@ def test_a_picture_shows_where_the_robots_are(rovers: Callable[..., TaskEnv]) ->
     assert rovers().render() is None
     with pytest.raises(TouchlineError, match='did you mean "rgb_array"'):
         rovers(render_mode="rgb_aray")
+
+
+@pytest.mark.usefixtures("windows")
+def test_a_window_shows_each_step_until_its_environment_is_closed(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers(render_mode="human")
+    env.reset(1)
+    env.step(still(env) | {"one": np.array([0.0, 1.0], np.float32)})
+    assert display.shown == ["rovers"] and len(set(display.drawn)) == 2 and env.render() is None
+    env.reset(1)
+    assert len(display.shown) == 1 and display.drawn[-1] == display.drawn[0]
+    assert len(pyplot.get_fignums()) == 1
+    env.close()
+    assert pyplot.get_fignums() == []
+
+
+@pytest.mark.usefixtures("windows")
+def test_an_episode_goes_on_when_somebody_closes_its_window(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers(render_mode="human")
+    env.reset(1)
+    pyplot.close("all")
+    env.step(still(env))
+    env.reset(2)
+    assert len(display.drawn) == 1
+
+
+def test_where_no_window_opens_an_environment_says_so(rovers: Callable[..., TaskEnv]) -> None:
+    with display.backend("agg"):
+        with pytest.raises(TouchlineError, match='opens no window here, with its backend agg; give "rgb_array"'):
+            rovers(render_mode="human").reset(1)
+        assert pyplot.get_fignums() == []
 
 
 def test_a_recording_ends_with_the_next_reset(rovers: Callable[..., TaskEnv], tmp_path: Path) -> None:
