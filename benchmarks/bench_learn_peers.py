@@ -13,6 +13,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from collections import defaultdict
 from collections.abc import Callable
 from pathlib import Path
 
@@ -161,15 +162,14 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=9)
     args = parser.parse_args()
     heads = ("robots", "peer", "period ms", "environment/s", "world/s", "peer/s", "environment / peer", "world / peer")
-    table, console, notes = Table(*heads, box=None), Console(width=150), set()
+    table, console, notes = Table(*heads, box=None), Console(width=150), defaultdict[str, list[str]](list)
     with tempfile.TemporaryDirectory() as folder:
         for robots in SIZES:
             for peer, period in PERIODS.items():
                 child = Child([*args.python, sys.executable], peer, robots)
+                notes[f"{peer} {child.version or 'does not play: ' + child.reason}"].append(str(robots))
                 if child.reason:
-                    notes.add(f"{peer} not with robots = {robots}: {child.reason}")
                     continue
-                notes.add(f"{peer} {child.version}")
                 where = Path(folder), robots, period
                 turns = environment_round(*where), world_round(*where), child.round
                 rounds = [(turns[0](), turns[1](), turns[2]()) for _ in range(args.rounds + 1)][1:]
@@ -177,8 +177,8 @@ def main() -> None:
                 table.add_row(*row(peer, robots, rounds))
     console.print(table)
     console.print(f"decisions per s of CPU time, medians of {args.rounds} rounds of {SECONDS:g} s each; ratios: range")
-    for note in sorted(notes):
-        console.print(note, highlight=False)
+    for note, sizes in sorted(notes.items()):
+        console.print(f"{note} (robots: {', '.join(sizes)})", highlight=False)
 
 
 if __name__ == "__main__":
