@@ -23,10 +23,20 @@ def rng() -> random.Random:
     return random.Random(7)
 
 
+@pytest.fixture(scope="module")
+def finished() -> dict[str, bytes]:
+    """What `several_chunks` has recorded once for all tests."""
+    return {}
+
+
 @pytest.fixture
-def several_chunks(make_rig) -> Path:
+def several_chunks(make_rig, finished, tmp_path) -> Path:
     """A finished recording of 208 ticks in 16 chunks."""
-    rig = make_rig()
+    path = tmp_path / "match.mcap"
+    if finished:
+        path.write_bytes(finished["match"])
+        return path
+    rig = make_rig(path=path)
     rig.begin()
     clock = rig.recorder_bus.clock
     for tick in range(208):
@@ -38,7 +48,8 @@ def several_chunks(make_rig) -> Path:
     rig.host.bus.clock.sim_ns += 20_000_000  # no two chunks share a log time
     rig.host.goal(208)
     rig.leave()
-    return rig.path
+    finished["match"] = path.read_bytes()
+    return path
 
 
 def told(path: Path) -> list[tuple[str, int, int, bytes]]:

@@ -55,7 +55,10 @@ def driven(brain, seconds, **numbers):
     "true",
     [
         {"max_speed": 3.0, "acceleration": 2.2, "turn_acceleration": 9.0, "latency": 0.05, "picture_delay": 0.08},
-        {"max_speed": 1.5, "acceleration": 3.5, "turn_acceleration": 15.0, "latency": 0.1, "picture_delay": 0.16},
+        pytest.param(
+            {"max_speed": 1.5, "acceleration": 3.5, "turn_acceleration": 15.0, "latency": 0.1, "picture_delay": 0.16},
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_each_number_of_the_simulated_hardware_is_found_within_five_percent(true):

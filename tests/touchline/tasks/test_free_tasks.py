@@ -12,12 +12,12 @@ from touchline.play.play_match import InProcessMatch
 from touchline.verify.resimulate import verify
 
 GAINS = {
-    "coverage": (20.0, 0.15),
-    "formation": (12.0, 2.0),
-    "pursuit": (30.0, 10.0),
+    "coverage": (12.0, 0.15),
+    "formation": (8.0, 2.0),
+    "pursuit": (20.0, 5.0),
     "push_box": (10.0, 2.0),
     "rendezvous": (10.0, 1.5),
-    "warehouse": (30.0, 4.0),
+    "warehouse": (20.0, 4.0),
 }
 """Task → s that its episodes are cut to, and by how much its baseline is better then than robots that stand."""
 

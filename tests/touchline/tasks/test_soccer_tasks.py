@@ -14,13 +14,13 @@ from touchline.play.play_match import InProcessMatch
 from touchline.verify.resimulate import verify
 
 GAINS = {
-    "dribble_slalom": (3, 5.0),
-    "free_kick": (5, 0.15),
+    "dribble_slalom": (1, 5.0),
+    "free_kick": (2, 0.15),
     "goalkeeper": (5, 0.3),
     "half_field_4v5": (10, 0.1),
-    "keepaway_3v2": (3, 3.0),
-    "pass_and_shoot": (5, 0.3),
-    "two_on_one": (5, 0.3),
+    "keepaway_3v2": (2, 3.0),
+    "pass_and_shoot": (3, 0.3),
+    "two_on_one": (2, 0.3),
 }
 """Task → number of seeds, and by how much its baseline is better on average than robots that stand."""
 LONG = ("half_field_4v5",)

@@ -78,7 +78,7 @@ def test_a_team_that_rests_may_run():
     ],
 )
 def test_a_team_that_would_harm_robots_is_rejected_with_the_tick(brain, why):
-    result = passed(brain, seconds=20.0)
+    result = passed(brain, seconds=4.0 if brain == "Slow" else 20.0)
     assert re.fullmatch(why, result.rejected), result.rejected
     assert brain != "Ahead" or result.clamped > 100
 
@@ -114,9 +114,9 @@ def test_scenes_differ_by_seed_alone_and_have_room_between_robots():
 
 def test_a_brain_that_does_not_return_is_rejected_and_the_next_scene_is_played():
     subject = Subject(load_match(None, {"teams.cyan.remote": True}), f"{__name__}:Hanging")
-    results = list(pass_scenes(subject, 2, 1.0, hang_s=4.0))
+    results = list(pass_scenes(subject, 2, 1.0, hang_s=2.0))
     assert [one.seed for one in results] == [1, 2]
-    why = r"cyan1: act at tick 11 has not returned after 4 s \(\S+test_hardware_gate.py, line \d+\)"
+    why = r"cyan1: act at tick 11 has not returned after 2 s \(\S+test_hardware_gate.py, line \d+\)"
     assert all(re.fullmatch(why, one.rejected) for one in results), results
 
 
