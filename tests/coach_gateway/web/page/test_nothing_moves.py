@@ -39,7 +39,9 @@ def moved(before: dict[str, Any], after: dict[str, Any]) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize(("width", "height"), [*SIZES[:2], pytest.param(*SIZES[2], marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    ("width", "height"), [SIZES[0], *(pytest.param(*one, marks=pytest.mark.long) for one in SIZES[1:])]
+)
 @pytest.mark.parametrize(
     "box", [pytest.param(False, marks=pytest.mark.long), True], ids=["no referee box", "a referee box"]
 )

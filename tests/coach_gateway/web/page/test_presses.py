@@ -43,7 +43,7 @@ def test_the_end_of_a_half_is_pressed_twice_and_not_by_a_double_click(match, vis
     assert button.inner_text() == "End half"  # a third press would have to be made sure of again
 
 
-@pytest.mark.parametrize("way", ["mouse", "finger", "key"])
+@pytest.mark.parametrize("way", [pytest.param("mouse", marks=pytest.mark.long), "finger", "key"])
 def test_the_end_of_a_match_is_held_for_a_second(match, visit, way: str) -> None:
     tab = visit(match, "referee", has_touch=way == "finger")
     button = tab.button("end_game")

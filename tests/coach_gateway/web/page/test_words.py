@@ -1,9 +1,8 @@
 """What the page says in words: proposals, orders in force, the phase, the result."""
 
 from collections.abc import Callable
+from itertools import product
 from typing import Any
-
-import pytest
 
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.side import Side
@@ -26,11 +25,10 @@ QUESTIONS = [
 ]
 
 
-@pytest.mark.parametrize(("width", "height"), SIZES)
 def test_a_proposal_is_a_question_whose_whole_reason_is_reached_by_keyboard(
-    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
+    staged: StagedMatch, visit: Callable[..., Any]
 ) -> None:
-    tab = visit(staged.origin, "referee", width, height)
+    tab = visit(staged.origin, "referee")
     staged.propose_goal()
     tab.until("document.getElementById('proposed').textContent === 'Goal for Lions (cyan 3)?'")
     assert tab.page.locator("#proposed-why").inner_text() == (
@@ -39,16 +37,18 @@ def test_a_proposal_is_a_question_whose_whole_reason_is_reached_by_keyboard(
     staged.propose()
     tab.until("document.getElementById('proposed').textContent === 'Foul by NuBot (magenta 4): pushing?'")
     tab.until("!document.getElementById('confirm').disabled")
-    tab.page.locator("#confirm").focus()
-    tab.page.keyboard.press("Shift+Tab")
-    assert tab.ask("document.activeElement.matches('#proposal > p')")
-    tab.page.keyboard.press("End")
-    tab.until(
-        "(({ scrollTop, scrollHeight, clientHeight }) => scrollTop + clientHeight > scrollHeight - 2)"
-        "(document.querySelector('#proposal > p'))"
-    )
-    says, confirm = (tab.page.locator(one).bounding_box() for one in ("#proposal > p", "#confirm"))
-    assert says["x"] + says["width"] <= confirm["x"] and says["height"] > 40  # beside the buttons, not behind them
+    for width, height in SIZES:
+        tab.resize(width, height)
+        tab.page.locator("#confirm").focus()
+        tab.page.keyboard.press("Shift+Tab")
+        assert tab.ask("document.activeElement.matches('#proposal > p')")
+        tab.page.keyboard.press("End")
+        tab.until(
+            "(({ scrollTop, scrollHeight, clientHeight }) => scrollTop + clientHeight > scrollHeight - 2)"
+            "(document.querySelector('#proposal > p'))"
+        )
+        says, confirm = (tab.page.locator(one).bounding_box() for one in ("#proposal > p", "#confirm"))
+        assert says["x"] + says["width"] <= confirm["x"] and says["height"] > 40  # beside the buttons, not behind them
 
 
 def test_each_kind_of_proposal_is_a_question(staged: StagedMatch, visit: Callable[..., Any]) -> None:
@@ -118,16 +118,16 @@ def test_a_spectators_phone_shows_the_result_after_full_time(staged: StagedMatch
     assert tab.page.locator("#robots").is_visible()  # once
 
 
-@pytest.mark.parametrize(("width", "height"), SIZES)
 def test_the_header_cuts_neither_the_phase_nor_the_half_nor_the_time_left(
-    staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
+    staged: StagedMatch, visit: Callable[..., Any]
 ) -> None:
-    tab = visit(staged.origin, "referee", width, height)
+    tab = visit(staged.origin, "referee")
     staged.host.say(stage=GameStage.EXTRA_TIME, half=3)
     for phase in (Phase.KICK_OFF, Phase.GOAL_KICK):
         staged.host.say(phase=phase, side=Side.MAGENTA, running=True, left=168.0)
         tab.until(f"document.getElementById('phase').textContent.startsWith({phase.value.capitalize()[:4]!r})")
-        for name in ("phase", "half", "left"):
+        for (width, height), name in product(SIZES, ("phase", "half", "left")):
+            tab.resize(width, height)
             cut = "(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)"
             assert tab.ask(f"{cut}(document.getElementById({name!r}))") <= 0, name
             place, field = (tab.page.locator(one).bounding_box() for one in (f"#{name}", ".pitch-section"))
@@ -136,4 +136,6 @@ def test_the_header_cuts_neither_the_phase_nor_the_half_nor_the_time_left(
     tab.ask(f"(() => {{ {names} teams.magenta.name = 'CAMBADA Aveiro Portugal'; }})()")
     staged.host.say(phase=Phase.KICK_OFF, side=Side.MAGENTA, running=True, left=9.0)
     tab.until("document.getElementById('phase').textContent === 'Kick off, CAMBADA Aveiro Portugal, started'")
-    assert tab.page.locator("#phase").bounding_box()["width"] > 120  # what is played is in view
+    for width, height in SIZES:
+        tab.resize(width, height)
+        assert tab.page.locator("#phase").bounding_box()["width"] > 120  # what is played is in view
