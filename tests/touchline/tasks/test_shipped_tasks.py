@@ -1,4 +1,4 @@
-"""The shipped soccer tasks: their baseline does them, and their recordings verify."""
+"""The shipped tasks: their baseline does them, and their recordings verify."""
 
 from pathlib import Path
 from statistics import mean
@@ -14,15 +14,22 @@ from touchline.play.play_match import InProcessMatch
 from touchline.verify.resimulate import verify
 
 GAINS = {
-    "dribble_slalom": (1, 5.0),
-    "free_kick": (2, 0.15),
-    "goalkeeper": (5, 0.3),
-    "half_field_4v5": (10, 0.1),
-    "keepaway_3v2": (2, 3.0),
-    "pass_and_shoot": (3, 0.3),
-    "two_on_one": (2, 0.3),
+    "coverage": (1, 12.0, 0.15),
+    "dribble_slalom": (1, None, 5.0),
+    "formation": (1, 8.0, 2.0),
+    "free_kick": (2, None, 0.15),
+    "goalkeeper": (5, None, 0.3),
+    "half_field_4v5": (10, None, 0.1),
+    "keepaway_3v2": (2, None, 3.0),
+    "pass_and_shoot": (3, None, 0.3),
+    "pursuit": (1, 20.0, 5.0),
+    "push_box": (1, 10.0, 2.0),
+    "rendezvous": (1, 10.0, 1.5),
+    "two_on_one": (2, None, 0.3),
+    "warehouse": (1, 20.0, 4.0),
 }
-"""Task → number of seeds, and by how much its baseline is better on average than robots that stand."""
+"""Task → number of seeds, s that its episodes are cut to, and by how much its baseline is better on average than robots
+that stand."""
 LONG = ("half_field_4v5",)
 """Its goals are rare, and its ten robots decide much."""
 
@@ -37,8 +44,9 @@ class Still:
 @pytest.mark.slow
 @pytest.mark.parametrize("task", [pytest.param(one, marks=[pytest.mark.long] * (one in LONG)) for one in GAINS])
 def test_the_baseline_is_much_better_than_robots_that_stand(task: str) -> None:
-    seeds, gain = GAINS[task]
-    configs = [task_config(task, seed) for seed in range(1, seeds + 1)]
+    seeds, duration, gain = GAINS[task]
+    cut = {"duration": duration} if duration else {}
+    configs = [task_config(task, seed, **cut) for seed in range(1, seeds + 1)]
     baseline = mean(final_score(InProcessMatch(config)) for config in configs)
     still = mean(final_score(InProcessMatch(config, standing(config))) for config in configs)
     assert baseline > still + gain
@@ -47,7 +55,7 @@ def test_the_baseline_is_much_better_than_robots_that_stand(task: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("task", [*GAINS, "full_match"])
 def test_the_recording_of_an_episode_verifies(task: str, tmp_path: Path) -> None:
-    match = InProcessMatch(task_config(task, duration=1.5))
+    match = InProcessMatch(task_config(task, duration=1.0))
     recording = MatchRecording(tmp_path / "task.mcap", match.simulation.config, match.simulation)
     while not match.simulation.over:
         recording.add(match.step(), match.commands)
