@@ -57,6 +57,12 @@ class ShiftedClock(WallClock):
         return WallClock.unix_ns() + self._ahead_ns
 
 
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No host will admit this client."""
+    monkeypatch.setattr("touchline.commands.diagnosis.doctor.examination.REQUEST_S", 1.0)
+
+
 @contextmanager
 def host(setup: bytes | None = None, protection: Protection | None = None) -> Iterator[ZenohBus]:
     """A host that replies with a setup and reports its health; one robot has joined."""
@@ -139,6 +145,7 @@ def test_a_machine_that_does_not_answer_points_to_the_firewall(monkeypatch: pyte
     assert "firewall" in finding.remedy
 
 
+@pytest.mark.usefixtures("impatient")
 def test_a_server_that_is_no_host_is_not_taken_for_one() -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         finding = last(f"tcp/127.0.0.1:{server.getsockname()[1]}")
@@ -171,6 +178,7 @@ def test_credentials_of_the_host_s_own_set_are_accepted(tmp_path: Path) -> None:
     assert found["robots"].status is Status.OK
 
 
+@pytest.mark.usefixtures("impatient")
 def test_a_refused_password_and_missing_credentials_fail(tmp_path: Path) -> None:
     write_credentials(tmp_path / "others", new_credentials())
     with guarded(tmp_path / "own", tls=False) as (bus, _):
