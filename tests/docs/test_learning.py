@@ -1,5 +1,6 @@
 """docs/learning.md: its commands lead from nothing to a policy that plays a match, and its pieces of Python run."""
 
+import importlib
 import re
 import shlex
 import subprocess
@@ -13,7 +14,6 @@ from typer.testing import CliRunner
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
 from touchline.commands.cli.command_line import app
-from touchline.learn import Network
 from touchline.play.play_match import play_match
 from touchline.policy.groups import OF_MATCH
 from touchline.policy.interface import GROUPS
@@ -28,23 +28,67 @@ def page(root: Path) -> str:
 
 
 @pytest.mark.slow
-@pytest.mark.processes
-def test_its_commands_train_a_policy_that_does_the_task_and_plays_a_match(
+def test_its_commands_train_policies_that_do_the_task(
     page: str, fenced: Fenced, root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (commands,), (match_file,) = fenced(page, "sh"), fenced(page, "toml")
-    _, train, run = [shlex.split(line) for line in commands.splitlines()]
+    pytest.importorskip("stable_baselines3")
+    ((_, train, run, _),) = [[shlex.split(line) for line in piece.splitlines()] for piece in fenced(page, "sh")]
     monkeypatch.chdir(tmp_path)
-    small = ["--generations", "1", "--episodes", "1", "--processes", "1"]
-    # in a process of its own: it forks, and a fork of one with the threads of Zenoh may hang
-    subprocess.run([sys.executable, root / train[1], *train[2:], *small], check=True)
-    assert Network.load(Path("keeper.npz")).actions == 6
+    said = played(root, [*train[1:], "--minutes", "0.1"])
+    assert re.search(r"^run 1: [\d.]+$", said, re.MULTILINE), said
     result = CliRunner().invoke(app, [*run[1:-1], "2", "--jobs", "1"])
-    assert result.exit_code == 0 and re.match(r"keepaway_3v2: [\d.]+ s \(", result.stdout), result.output
+    assert result.exit_code == 0 and re.match(r"coverage: [\d.]+ of the floor", result.stdout), result.output
+
+
+@pytest.mark.slow
+def test_its_commands_score_numbers_that_cma_es_has_tuned(
+    page: str, fenced: Fenced, root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    *_, tune = [shlex.split(line) for piece in fenced(page, "sh") for line in piece.splitlines()]
+    monkeypatch.chdir(tmp_path)
+    said = played(root, [*tune[1:], "--minutes", "0"])
+    found = re.search(
+        r"^baseline: (.*)\nrun 1, pressed 2.2, long 3.0, corner 4.0, arriving 3.5: (.*)$", said, re.MULTILINE
+    )
+    assert found is not None and found[1] == found[2], said
+    assert re.search(r"^more than the baseline, over 1 runs: 0$", said, re.MULTILINE), said
+    assert (tmp_path / said.splitlines()[-1]).read_bytes().startswith(b"\x89PNG")
+
+
+def played(root: Path, command: list[str]) -> str:
+    """What an example prints that trains once, and scores with one episode."""
+    small = ["--runs", "1", "--episodes", "1", "--jobs", "1"]
+    return subprocess.run(
+        [sys.executable, root / command[0], *command[1:], *small], check=True, stdout=-1, text=True
+    ).stdout
+
+
+@pytest.mark.slow
+def test_cma_es_finds_better_numbers(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(root / "examples" / "learn"))
+    example = importlib.import_module("cmaes_keepaway")
+
+    def scores(_task: str, seeds: range, _brain: None, overrides: dict[str, float]) -> list[float]:
+        return [0.01 * (seed % 3) - abs(overrides["teams.cyan.parameters.long"] - 4.0) for seed in seeds]
+
+    monkeypatch.setattr(example, "scores", scores)
+    found, curve = example.tune(1, 0.02)
+    assert found["teams.cyan.parameters.long"] == pytest.approx(4.0, abs=0.4)
+    assert curve[-1][1] > curve[0][1]
+
+
+@pytest.mark.slow
+@pytest.mark.processes
+def test_a_policy_plays_in_processes_as_in_one(
+    page: str, fenced: Fenced, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (match_file,), (make, *_) = fenced(page, "toml"), fenced(page, "python")
+    monkeypatch.chdir(tmp_path)
+    exec(make, {})
     Path("keeper.toml").write_text(match_file)
     listen = ["--listen", "tcp/127.0.0.1:0", "--duration", "1", "--record", "keeper.mcap"]
-    played = CliRunner().invoke(app, ["match", "keeper.toml", *listen])
-    assert played.exit_code == 0, played.output
+    result = CliRunner().invoke(app, ["match", "keeper.toml", *listen])
+    assert result.exit_code == 0, result.output
     assert verify(Path("keeper.mcap")).identical
     alone = play_match(load_match(Path("keeper.toml"), {"duration": 1.0}))
     *_, (_, last) = open_recording(Path("keeper.mcap")).decoded("host/applied")
@@ -59,7 +103,7 @@ def test_its_pieces_of_python_run(
     pieces = fenced(page, "python")
     for piece in pieces:
         exec(piece, {})
-    assert len(pieces) == 2
+    assert len(pieces) == 3
     assert "ball.x m 5.0" in capsys.readouterr().out
     assert verify(tmp_path / "seven.mcap", referee=True).identical
 

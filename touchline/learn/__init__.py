@@ -14,6 +14,7 @@ from touchline.policy.network import Network
 try:
     from touchline.learn.registry import register_tasks
     from touchline.learn.robot_env import RobotEnv
+    from touchline.learn.scores import scores
     from touchline.learn.task_env import TaskEnv
 except ModuleNotFoundError as error:
     if error.name not in ("gymnasium", "pettingzoo"):
@@ -22,4 +23,4 @@ except ModuleNotFoundError as error:
 
 register_tasks()
 
-__all__ = ["Network", "RobotEnv", "TaskEnv"]
+__all__ = ["Network", "RobotEnv", "TaskEnv", "scores"]

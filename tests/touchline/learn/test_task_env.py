@@ -18,10 +18,9 @@ from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
 from support import display
 from support.rover_task import write_rover_task
-from touchline.learn import TaskEnv
+from touchline.learn import TaskEnv, scores
 from touchline.learn.registry import environment_name
-from touchline.matches.task.task import load_task, shipped_tasks
-from touchline.play.play_match import InProcessMatch
+from touchline.matches.task.task import shipped_tasks
 from touchline.verify.resimulate import verify
 
 KEEPAWAY = "keepaway_3v2"
@@ -151,12 +150,8 @@ def test_a_brain_whose_advice_is_followed_plays_as_in_a_match() -> None:
     _, infos = env.reset(3)
     while env.agents:
         *_, infos = env.step({agent: infos[agent]["advice"] for agent in env.agents})
-    task = load_task("coverage", overrides={"duration": 4.0})
-    match = InProcessMatch(task.episode(3), brain_folder=task.folder)
-    while not match.simulation.over:
-        match.step()
-    match.close()
-    assert 0.01 < match.simulation.state.value == pytest.approx(infos["rover1"]["score"])
+    (score,) = scores("coverage", [3], overrides={"duration": 4.0})
+    assert 0.01 < score == pytest.approx(infos["rover1"]["score"])
 
 
 def test_a_brain_that_advises_sees_every_sight_once(
