@@ -1,6 +1,7 @@
 """What the examples of learning share: options, the scores of runs on seeds apart, and a picture of the curves."""
 
 import argparse
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
@@ -28,20 +29,24 @@ def parser_of(description: str | None) -> argparse.ArgumentParser:
 
 
 def report(pool: Executor, task: str, runs: dict[str, Team], curves: list[Curve], folder: Path, episodes: int) -> None:
-    """Print the score of the baseline and of each run, by its name, over the seeds from 1 on, and draw the curves."""
+    """Print the score of the baseline and of each run, by its name, over the seeds from 1 on, and draw the curves.
+
+    What runs have more than the baseline is uncertain by the runs, and by the seeds, which all of them play.
+    """
     seeds = range(1, episodes + 1)
     teams: dict[str, Team] = {"baseline": (None, {}), **runs}
     begun = {name: pool.submit(scores, task, seeds, *team) for name, team in teams.items()}
-    means = {name: float(np.mean(one.result())) for name, one in begun.items()}
     for name, one in begun.items():
         print(f"{name}: {text_of(one.result())}")
-    gains = [means[name] - means["baseline"] for name in runs]
-    print(f"more than the baseline, over {len(gains)} runs: {text_of(gains)}")
-    draw(folder / "curve.png", task, curves, means["baseline"])
+    baseline = np.array(begun["baseline"].result())
+    more = np.array([begun[name].result() for name in runs]) - baseline
+    print(f"more than the baseline, over {len(runs)} runs: {text_of(more.mean(axis=1))}")
+    print(f"more than the baseline, over {episodes} seeds: {text_of(more.mean(axis=0))}")
+    draw(folder / "curve.png", task, curves, float(baseline.mean()))
     print(folder / "curve.png")
 
 
-def text_of(values: list[float]) -> str:
+def text_of(values: Sequence[float] | np.ndarray) -> str:
     """A mean with its interval of 95 %."""
     mean = float(np.mean(values))
     if len(values) < 2:
