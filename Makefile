@@ -17,7 +17,8 @@ match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --durati
 	@.venv/bin/touchline match $(ARGS)
 
 # Three processes on two cores: a third of the time of the tests is waiting for real time.
-PYTEST := .venv/bin/pytest --dist loadfile
+# The files come in the mixed order of tests/conftest.py, not by their number of tests: the long ones would come last.
+PYTEST := .venv/bin/pytest --dist loadfile --no-loadscope-reorder
 
 quick: $(READY) ## run the tests without processes, browser and attacks, for example: make quick ARGS=tests/sim_host
 	$(PYTEST) -n 2 -m "not processes and not browser and not hostile and not slow and not long" $(ARGS)

@@ -8,6 +8,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
+from zlib import crc32
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -86,7 +87,10 @@ def pytest_collection_finish() -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what follows from a test's place and fixtures, so that no test can forget it."""
+    """Mark what follows from a test's place and fixtures, so that no test can forget it.
+
+    Tests in several processes come in an order that mixes the files: those that wait run beside those that compute.
+    """
     for item in items:
         place = item.path.relative_to(item.config.rootpath).as_posix()
         if place.startswith("tests/hostile/"):
@@ -95,6 +99,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("slow")
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker("browser")
+    if items and hasattr(items[0].config, "workerinput"):
+        heavy = {
+            item.path for item in items for mark in ("processes", "browser", "slow") if item.get_closest_marker(mark)
+        }
+        # the last fifth of the others comes after all heavy ones, so that all processes end at about the same time
+        items.sort(
+            key=lambda item: crc32(bytes(item.path.relative_to(item.config.rootpath))) * (4 + (item.path not in heavy))
+        )
 
 
 def pytest_unconfigure() -> None:
