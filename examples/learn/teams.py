@@ -56,7 +56,7 @@ class Teams(VecEnv):
 
     def get_attr(self, attr_name, indices=None):
         """The same attribute for each learner."""
-        return [getattr(self, attr_name, None)] * len(list(self._get_indices(indices)))
+        return [getattr(self, attr_name, None)] * self.number_of(indices)
 
     def set_attr(self, attr_name, value, indices=None):
         """Learners have no attributes of their own."""
@@ -68,4 +68,8 @@ class Teams(VecEnv):
 
     def env_is_wrapped(self, _wrapper_class, indices=None):
         """None is."""
-        return [False] * len(list(self._get_indices(indices)))
+        return [False] * self.number_of(indices)
+
+    def number_of(self, indices):
+        """How many learners are meant: None is all, a number one."""
+        return self.num_envs if indices is None else np.size(indices)
