@@ -1,4 +1,4 @@
-"""One match for all faults that end well."""
+"""A match for the faults of a file, all of which end well."""
 
 from collections.abc import Iterator
 
@@ -8,7 +8,7 @@ from support.faulty_match import CYAN, Match
 from support.machines import machines
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="module")
 def match(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Match]:
     """Five robots on the machine `cyan`, one on the machine `magenta`."""
     names = ("host", "cyan", "magenta", "coach")

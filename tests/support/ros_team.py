@@ -44,8 +44,9 @@ async def play_pyzeros(endpoint: str, robots: list[str], is_stamped: bool) -> No
     with zenoh.open(config) as session, pyzeros.auto_context("team", zenoh_session=session, namespace="/foreign"):
         clock = pyzeros.Sub(messages.Clock, "/clock")
         message_type = messages.TwistStamped if is_stamped else messages.Twist
-        message_type.deserialize(message_type().serialize())  # compiles it, which takes seconds
         messages.Clock.deserialize(messages.Clock().serialize())
+        # compiles message and attachment, which takes seconds, before a robot is driven
+        pyzeros.Pub(message_type, "compiled").publish(message_type())
         publishers = [pyzeros.Pub(message_type, f"/{robot}/cmd_vel") for robot in robots]
         async for told in clock.listen_reliable():
             twist = messages.Twist(linear=messages.Vector3(x=SPEED), angular=messages.Vector3(z=TURN))
