@@ -52,5 +52,9 @@ class BrainFolders:
     def file_of(self, module: str) -> Path | None:
         """The file of a module in these folders, by its name with dots; None if there is none."""
         stem = Path(*module.split("."))
-        found = (path / name for path in self.paths for name in (stem.with_suffix(".py"), stem / "__init__.py"))
-        return next((file for file in found if file.is_file()), None)
+        return self.find(stem.with_suffix(".py"), stem / "__init__.py")
+
+    def find(self, *names: Path | str) -> Path | None:
+        """The first of these files or folders in the first folder that has one; None if there is none."""
+        found = (path / name for path in self.paths for name in names)
+        return next((path for path in found if path.exists()), None)

@@ -21,8 +21,8 @@ def command_line(command: Sequence[str], beside_match: Path | None = None) -> tu
     program, *arguments = command
     folders = BrainFolders(beside_match)
     if os.sep in program:
-        program = _file(program, folders) or str(Path(program).absolute())
-    return (program, *(_file(word, folders) or word for word in arguments))
+        program = str(folders.find(program) or Path(program).absolute())
+    return (program, *(str((word and folders.find(word)) or word) for word in arguments))
 
 
 def check_command_line(key: str, command: Sequence[str], beside_match: Path | None = None) -> None:
@@ -42,9 +42,3 @@ def check_command_line(key: str, command: Sequence[str], beside_match: Path | No
     script = arguments[0] if arguments else ""
     if script.endswith(_SCRIPTS) and not script.startswith("-") and not Path(script).exists():
         raise TouchlineError(f'{key} names "{command[1]}", which is not {folders}; put the file there')
-
-
-def _file(word: str, folders: BrainFolders) -> str | None:
-    """The absolute path of a file or folder that a command line names; None if there is none."""
-    found = (folder / word for folder in folders.paths)
-    return next((str(path.absolute()) for path in found if word and path.exists()), None)

@@ -10,6 +10,7 @@ from robot_agent.loading.brain_folders import BrainFolders
 from robot_agent.loading.user_code import OWN_PACKAGES
 from robot_agent.process.stdio.command_line import command_line
 from schemas.config.match_config import MatchConfig
+from schemas.config.shipped_teams import policy_file
 from schemas.side import Side
 
 _INSTALLATION = Path(__file__).resolve().parents[3]
@@ -20,9 +21,9 @@ class TeamCode(NamedTuple):
     """The files of one team."""
 
     folder: Path | None
-    """The folder from which its modules or its program come; None for a brain of this library or an installed one."""
+    """Where its modules, policy or program lie; None for a brain of this library or an installed one."""
     own: tuple[Path, ...]
-    """The file, or the package, in that folder that is the team's own."""
+    """The file, or the package, in that folder that is the team's own; the file of a policy is its code."""
 
 
 def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> TeamCode:
@@ -34,14 +35,13 @@ def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> Tea
         files += [Path(word).absolute() for word in program[1:] if Path(word).exists()]
         own = tuple(file for file in files if not any(file.is_relative_to(one) for one in system_folders()))
         return TeamCode(own[-1].parent if own else None, own)
-    module = (team.brain or "").partition(":")[0].split(".")
-    if not module[0] or module[0] in OWN_PACKAGES:
+    brain = team.brain or ""
+    module = brain.partition(":")[0].partition(".")[0]
+    if not module or module in OWN_PACKAGES:
         return TeamCode(None, ())
-    for folder in BrainFolders(beside_match).paths:
-        for path in (folder / module[0], folder / f"{module[0]}.py"):
-            if path.exists():
-                return TeamCode(folder, (path,))
-    return TeamCode(None, ())
+    file = policy_file(brain)
+    found = BrainFolders(beside_match).find(*([file] if file else [module, f"{module}.py"]))
+    return TeamCode(found.parent, (found,)) if found is not None else TeamCode(None, ())
 
 
 def team_program(config: MatchConfig, side: Side, beside_match: Path | None) -> tuple[str, ...]:

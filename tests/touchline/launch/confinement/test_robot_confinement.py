@@ -18,6 +18,7 @@ from touchline.launch.confinement.robot_confinement import (
     team_isolation_note,
 )
 from touchline.launch.confinement.robot_environment import robot_environment, server_environment
+from touchline.launch.confinement.team_code import TeamCode, team_code
 
 
 @pytest.fixture
@@ -125,6 +126,13 @@ def test_for_teams_from_different_folders_one_line_names_what_does_not_separate_
 )
 def test_a_match_against_a_team_that_ships_or_lies_beside_it_gets_no_line(here: Path, cyan: str, magenta: str) -> None:
     assert note_of(match_of(cyan, magenta)) == ""
+
+
+def test_the_code_of_a_team_that_plays_a_policy_is_the_policy_s_file(here: Path) -> None:
+    (here / "lions" / "kick.npz").touch()
+    assert team_code(match_of("policy:lions/kick.npz", "simple"), Side.CYAN, None) == TeamCode(
+        here / "lions", (here / "lions" / "kick.npz",)
+    )
 
 
 def test_what_is_visible_in_bubblewrap_leaves_out_what_is_hidden_below_it(here: Path) -> None:

@@ -240,6 +240,15 @@ def test_changed_files_of_a_team_are_not_played(match_of: MatchOf, folder: Path,
     assert (outcome.kind, outcome.culprits) == (FailureKind.WORKER, ())
 
 
+def test_other_weights_give_the_team_of_a_policy_another_digest(match_of: MatchOf, tmp_path: Path) -> None:
+    config = match_of(**{"teams.cyan.brain": "policy:kick.npz"})
+    digests = []
+    for weights in (b"of yesterday", b"of today"):
+        (tmp_path / "kick.npz").write_bytes(weights)
+        digests.append(code_digest(config, Side.CYAN, tmp_path))
+    assert digests[0] != digests[1]
+
+
 def test_what_tools_leave_in_the_folder_of_a_team_is_no_part_of_its_digest(match_of: MatchOf, tmp_path: Path) -> None:
     config = match_of(**{"teams.cyan.brain": "own.team:Own"})
     (tmp_path / "own").mkdir()
