@@ -1,6 +1,6 @@
 """Tunes the numbers of the keepers of keepaway_3v2 by CMA-ES, and plays them on seeds of their own.
 
-    pip install 'touchline[sim,study]' cmaes
+    pip install 'touchline[sim,learn,study]' cmaes
     python examples/learn/cmaes_keepaway.py
 
 The candidates of a generation play the same episodes, and those of the next one others. What a run finds are parameters
