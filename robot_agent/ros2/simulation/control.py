@@ -2,6 +2,7 @@
 
 import re
 import threading
+import traceback
 from collections.abc import Callable
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -11,6 +12,7 @@ from robot_agent.ros2.simulation.match_client import MatchClient
 from robot_agent.ros2.simulation.services import PACKAGE, Fields, SimulationServices
 from robot_agent.ros2.simulation.step_action import StepAction
 from robot_agent.ros2.simulation.steps import Outcome, Steps
+from runtime.process.process_log import Level, log_line
 from runtime.process.timing import POLL_S
 from runtime.ros2.graph import Graph, Request
 from runtime.ros2.graph_names import CONTROL
@@ -67,6 +69,10 @@ class SimulationControl:
             handle(request, _decoded(request, topic_type), name)
         except RefusedError as error:
             self._reply(request, name, {"result": self._services.result(error.code, str(error))})
+        except Exception as error:  # the thread goes on: without it all services would be silent
+            log_line(traceback.format_exc(), Level.ERROR)
+            reason = f"{type(error).__name__}: {error}"
+            self._reply(request, name, {"result": self._services.result(Code.FAILED, reason)})
 
     def _reply(self, request: Request, name: str, fields: Fields) -> None:
         response = f"{PACKAGE}/srv/{name}_Response"

@@ -47,7 +47,7 @@ def chosen(entities: dict[str, Entity], filters: Any) -> list[Entity]:
         raise RefusedError(Code.UNSUPPORTED, "entities have no tags; leave tags empty")
     try:
         pattern = re.compile(filters.filter)
-    except re.error as error:
+    except (re.error, OverflowError, RecursionError) as error:
         raise RefusedError(Code.FAILED, f'filter is "{filters.filter}", no regular expression: {error}') from None
     categories = {one.category for one in filters.categories}
     found = [one for one in entities.values() if pattern.search(one.name)]

@@ -5,7 +5,6 @@ usual ones; an obstacle is `{"shape": "cylinder", "radius": 0.3, "height": 0.5}`
 a `mass` can be pushed.
 """
 
-import json
 from collections.abc import Container
 from itertools import count
 from typing import Any
@@ -14,7 +13,7 @@ from robot_agent.ros2.simulation.codes import Code, RefusedError
 from robot_agent.ros2.simulation.entities import plane_pose
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.wire.faults import FaultError
-from schemas.wire.part_faults import validated
+from schemas.wire.part_faults import decoded, validated
 
 FORMAT = "touchline"
 """Name of this format."""
@@ -36,11 +35,9 @@ def spawn_request(asked: Any, uri: str, text: str, taken: Container[str]) -> tup
     if not text:
         raise RefusedError(Code.NO_RESOURCE, 'resource_string is empty; a robot is {"side": "cyan"}')
     try:
-        body = json.loads(text)
-    except ValueError as error:
-        raise RefusedError(Code.RESOURCE_PARSE_ERROR, f"resource_string is no JSON: {error}") from None
-    if not isinstance(body, dict):
-        raise RefusedError(Code.RESOURCE_PARSE_ERROR, "resource_string is no JSON object")
+        body = decoded(dict[str, Any], text)
+    except FaultError as error:
+        raise RefusedError(Code.RESOURCE_PARSE_ERROR, f"resource_string: {error}") from None
     kind = _ROBOT if "side" in body else _OBSTACLE
     name = _name(asked, kind, taken)
     posed = asked.initial_pose

@@ -91,6 +91,8 @@ def test_entities_are_chosen_by_name_category_and_sphere(
     ("filters", "code"),
     [
         ({"filter": "("}, Code.FAILED),
+        ({"filter": "x{4294967295}"}, Code.FAILED),
+        ({"filter": "(" * 100_000}, Code.FAILED),
         ({"tags": {"tags": ["blue"]}}, Code.UNSUPPORTED),
         ({"bounds": {"type": 1, "points": [{}, {}]}}, Code.UNSUPPORTED),
     ],
@@ -185,6 +187,7 @@ def test_bodies_are_spawned_together_and_deleted(simulator: Simulator) -> None:
         (spawn("pole", ""), Code.NO_RESOURCE),
         (spawn("pole", "<sdf/>"), Code.RESOURCE_PARSE_ERROR),
         (spawn("pole", "[]"), Code.RESOURCE_PARSE_ERROR),
+        (spawn("pole", "[" * 100_000), Code.RESOURCE_PARSE_ERROR),
         (spawn("pole", '{"shape": "cylinder"}'), Code.RESOURCE_PARSE_ERROR),
         (spawn("pole", POLE, entity_namespace="a"), Code.NAMESPACE_INVALID),
         (spawn("pole", POLE, initial_pose={}), Code.INVALID_SPAWN_POSE),

@@ -36,8 +36,8 @@ GOAL = {"uuid": np.arange(16, dtype=np.uint8)}
 class Caller:
     """A client in the graph of a match that is paused."""
 
-    def __init__(self, rig: HostRig, graph: Graph, session: zenoh.Session) -> None:
-        self.rig, self.graph, self.session = rig, graph, session
+    def __init__(self, rig: HostRig, match: MatchClient, graph: Graph, session: zenoh.Session) -> None:
+        self.rig, self.match, self.graph, self.session = rig, match, graph, session
 
     def begin(self, service: str, topic_type: TopicType, payload: bytes) -> Any:
         """Send a request; the replies come later."""
@@ -88,7 +88,7 @@ def caller() -> Iterator[Caller]:
         for key, value in {"connect/endpoints": [graph.endpoint], "scouting/multicast/enabled": False}.items():
             config.insert_json5(key, json.dumps(value))
         with paused_match(rig), SimulationControl(graph, match), zenoh.open(config) as session:
-            yield Caller(rig, graph, session)
+            yield Caller(rig, match, graph, session)
     rig.host.simulation.close()
 
 
@@ -125,6 +125,17 @@ def test_what_is_refused_has_a_response_with_empty_fields(caller: Caller) -> Non
     assert "simulation_interfaces/srv/GetEntityState" in reply.result.error_message
     reply = caller.simulation("SetEntityState", "set_entity_state", OLDER, entity="wall")
     assert reply.result.result == Code.NOT_FOUND
+
+
+def test_services_go_on_after_a_request_that_fails_in_an_unforeseen_way(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with monkeypatch.context() as broken:
+        broken.setattr(caller.match, "entities", lambda: [].pop())
+        reply = caller.simulation("GetEntities", "get_entities")
+    assert (reply.result.result, reply.result.error_message) == (Code.FAILED, "IndexError: pop from empty list")
+    assert "in <lambda>" in capsys.readouterr().err
+    assert caller.simulation("GetEntities", "get_entities").result.result == Code.OK
 
 
 def test_the_action_of_steps_tells_its_progress_and_its_result(caller: Caller) -> None:
