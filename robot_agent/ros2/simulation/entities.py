@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from robot_agent.ros2.simulation.codes import Bounds, Category, Code, RefusedError
@@ -35,6 +35,17 @@ class Entity(NamedTuple):
 def entities_of(world: World, reach: float, ball_radius: float) -> dict[str, Entity]:
     """All bodies by name; `reach` is the radius of robots in m."""
     return {one.name: one for one in _entities(world, reach, ball_radius)}
+
+
+def named(entities: Mapping[str, Entity], name: str) -> Entity:
+    """The body of this name.
+
+    Raises:
+        RefusedError: there is none.
+    """
+    if name not in entities:
+        raise RefusedError(Code.NOT_FOUND, f"no entity is named {name}; there are {', '.join(entities)}")
+    return entities[name]
 
 
 def chosen(entities: dict[str, Entity], filters: Any) -> list[Entity]:

@@ -1,5 +1,6 @@
 """The match that nodes control: its newest world, and the requests of an operator to its host."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from robot_agent.ros2.simulation.codes import Code, RefusedError
@@ -28,12 +29,15 @@ class MatchClient:
         self._worlds = bus.subscribe(WORLD, newest=True)
         self._sizes = setup.robot.reach, setup.ball.radius
         self._world: World | None = None
+        self._changed: dict[str, Entity | None] = {}
+        """Bodies that were changed since the newest world; None for one that was removed."""
 
     def world(self, timeout: float = 0.0) -> World | None:
         """The newest world, waiting up to `timeout` s for a newer one; None before the first."""
         received = self._worlds.receive(timeout)
         if received is not None:
             self._world = received.message()
+            self._changed.clear()
         return self._world
 
     def entities(self) -> dict[str, Entity]:
@@ -47,16 +51,13 @@ class MatchClient:
             raise RefusedError(Code.INCORRECT_STATE, "no tick of the match has come yet; let it run, or step it")
         return entities_of(world, *self._sizes)
 
-    def entity(self, name: str) -> Entity:
-        """One body.
+    def coming(self) -> dict[str, Entity]:
+        """All bodies by name, with what was changed since the newest world.
 
         Raises:
-            RefusedError: there is none of this name.
+            RefusedError: no tick of the match has been received yet.
         """
-        entities = self.entities()
-        if name not in entities:
-            raise RefusedError(Code.NOT_FOUND, f"no entity is named {name}; there are {', '.join(entities)}")
-        return entities[name]
+        return {name: one for name, one in (self.entities() | self._changed).items() if one is not None}
 
     def pace(self, operation: PaceOperation, ticks: int = 1) -> PaceReply:
         """The state of the match after an operation on its pace, which the host may have refused.
@@ -67,8 +68,8 @@ class MatchClient:
         reply: PaceReply = self._ask(PACE, PaceRequest, operation=operation, ticks=ticks)
         return reply
 
-    def change(self, **content: Any) -> None:
-        """Change the scene, from the next tick on.
+    def change(self, changed: Mapping[str, Entity | None], **content: Any) -> None:
+        """Change the scene, from the next tick on; `changed` are the bodies after it, None for one that is removed.
 
         Raises:
             RefusedError: it is impossible, the host refuses it, or it does not reply.
@@ -76,6 +77,8 @@ class MatchClient:
         reply = self._ask(SCENE, SceneRequest, **content)
         if not reply.accepted:
             raise RefusedError(Code.FAILED, reply.reason)
+        self.world()  # one from before the reply does not show the change
+        self._changed |= changed
 
     def _ask(self, topic: Topic, kind: type[Message], **content: Any) -> Any:
         try:

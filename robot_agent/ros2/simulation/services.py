@@ -6,13 +6,14 @@ from typing import Any
 import numpy as np
 
 from robot_agent.ros2.simulation.codes import Code, Feature, RefusedError, Scope, State
-from robot_agent.ros2.simulation.entities import Entity, chosen, plane_pose
+from robot_agent.ros2.simulation.entities import Entity, chosen, named, plane_pose
 from robot_agent.ros2.simulation.match_client import MatchClient
 from robot_agent.ros2.simulation.spawning import FORMAT, spawn_request
 from runtime.ros2.message_builder import MessageBuilder
 from schemas.frames import BALL, MAP
 from schemas.messages.pace import PaceOperation
 from schemas.messages.scene import SceneOperation
+from schemas.messages.world import World
 
 PACKAGE = "simulation_interfaces"
 _ABOUT = "Touchline: changes take effect with the next tick, and simulated time is never reset"
@@ -32,10 +33,12 @@ class SimulationServices:
         self._build = MessageBuilder()
         self._spawned: set[str] = set()
         """Bodies that nodes have spawned, and not deleted again."""
+        self._reset_at: World | None = None
+        """The newest world at the newest reset, which says nothing of the state of bodies after it."""
         self.handlers: Mapping[str, Handler] = {
             "GetSimulatorFeatures": self._features,
             "GetEntities": lambda asked: {"entities": [one.name for one in self._chosen(asked)]},
-            "GetEntityState": lambda asked: {"state": self._state(match.entity(asked.entity))},
+            "GetEntityState": lambda asked: {"state": self._state(named(match.entities(), asked.entity))},
             "GetEntitiesStates": self._states,
             "SetEntityState": self._set_state,
             "SpawnEntity": lambda asked: {"entity_name": self._spawn(asked)},
@@ -72,33 +75,34 @@ class SimulationServices:
 
     def _set_state(self, asked: Any) -> Fields:
         """Set pose and velocity, or what the flags of 2.1 name; what is not set stays as it is."""
-        one, state = self._match.entity(asked.entity), asked.state
+        one, state = named(self._match.coming(), asked.entity), asked.state
         if getattr(asked, "set_acceleration", False):
             raise RefusedError(Code.UNSUPPORTED, "accelerations follow from forces; they cannot be set")
-        x, y, heading, z = one.x, one.y, one.heading, one.z
-        vx, vy, vz, omega = one.vx, one.vy, one.vz, one.omega
-        if getattr(asked, "set_pose", True):
+        sets_pose, sets_twist = getattr(asked, "set_pose", True), getattr(asked, "set_twist", True)
+        if self._match.world() is self._reset_at and not (sets_pose and sets_twist):
+            raise RefusedError(Code.INCORRECT_STATE, "after a reset, set pose and velocity together, or step first")
+        if sets_pose:
             x, y, heading = plane_pose(state.pose, state.header.frame_id, Code.INVALID_POSE)
-            z = state.pose.position.z
-        if getattr(asked, "set_twist", True):
-            speed = state.twist.linear
-            vx, vy, vz, omega = speed.x, speed.y, speed.z, state.twist.angular.z
-        place = {"body": one.name, "x": x, "y": y, "vx": vx, "vy": vy}
+            one = one._replace(x=x, y=y, z=state.pose.position.z, heading=heading)
+        if sets_twist:
+            speed, omega = state.twist.linear, state.twist.angular.z
+            one = one._replace(vx=speed.x, vy=speed.y, vz=speed.z, omega=omega)
+        place = {"body": one.name, "x": one.x, "y": one.y, "vx": one.vx, "vy": one.vy}
         if one.name == BALL:
-            place |= {"z": z if z > one.radius else None, "vz": vz}  # lower ones are those of a ball on the ground
+            # lower ones are those of a ball on the ground
+            place |= {"z": one.z if one.z > one.radius else None, "vz": one.vz}
         else:
-            place |= {"heading": heading, "omega": omega}
-        self._match.change(operation=SceneOperation.PLACE, place=[place])
+            place |= {"heading": one.heading, "omega": one.omega}
+        self._match.change({one.name: one}, operation=SceneOperation.PLACE, place=[place])
         return {}
 
     def _spawn(self, asked: Any) -> str:
         """Spawn a body; its name."""
         resource = getattr(asked, "entity_resource", asked)  # in 1.x the fields of the request itself
-        taken = {*self._match.entities(), *self._spawned}
-        name, request = spawn_request(asked, resource.uri, resource.resource_string, taken)
-        self._match.change(**request)
-        self._spawned.add(name)
-        return name
+        one, request = spawn_request(asked, resource.uri, resource.resource_string, self._match.coming())
+        self._match.change({one.name: one}, **request)
+        self._spawned.add(one.name)
+        return one.name
 
     def _spawn_all(self, asked: Any) -> Fields:
         results = []
@@ -118,9 +122,8 @@ class SimulationServices:
         name = asked.entity
         if name == BALL:
             raise RefusedError(Code.UNSUPPORTED, "the ball of a game cannot be deleted")
-        if name not in self._spawned:
-            self._match.entity(name)
-        self._match.change(operation=SceneOperation.REMOVE, remove=[name])
+        named(self._match.coming(), name)
+        self._match.change({name: None}, operation=SceneOperation.REMOVE, remove=[name])
         self._spawned.discard(name)
         return {}
 
@@ -128,11 +131,13 @@ class SimulationServices:
         """Go back to the start of the match; with the scope SPAWNED alone, remove what nodes have spawned."""
         scope = asked.scope
         if scope == Scope.SPAWNED:
-            there = sorted(self._spawned & set(self._match.entities()))
+            there = sorted(self._spawned & set(self._match.coming()))
             if there:
-                self._match.change(operation=SceneOperation.REMOVE, remove=there)
+                self._match.change(dict.fromkeys(there), operation=SceneOperation.REMOVE, remove=there)
         elif scope in (Scope.STATE, Scope.STATE | Scope.SPAWNED):
-            self._match.change(operation=SceneOperation.RESET, to_match=True)
+            changed = self._match.entities() | dict.fromkeys(self._spawned)
+            self._match.change(changed, operation=SceneOperation.RESET, to_match=True)
+            self._reset_at = self._match.world()
         else:
             raise RefusedError(Code.UNSUPPORTED, f"scope is {scope}; {_RESETS}")
         self._spawned.clear()

@@ -9,8 +9,8 @@ from collections.abc import Container
 from itertools import count
 from typing import Any
 
-from robot_agent.ros2.simulation.codes import Code, RefusedError
-from robot_agent.ros2.simulation.entities import plane_pose
+from robot_agent.ros2.simulation.codes import Category, Code, RefusedError
+from robot_agent.ros2.simulation.entities import Entity, plane_pose
 from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import decoded, validated
@@ -20,8 +20,8 @@ FORMAT = "touchline"
 _ROBOT, _OBSTACLE = "robot", "obstacle"
 
 
-def spawn_request(asked: Any, uri: str, text: str, taken: Container[str]) -> tuple[str, dict[str, Any]]:
-    """The name of the body that a `SpawnEntity` asks for, and the request to the host that adds it.
+def spawn_request(asked: Any, uri: str, text: str, taken: Container[str]) -> tuple[Entity, dict[str, Any]]:
+    """The body that a `SpawnEntity` asks for, and the request to the host that adds it.
 
     Raises:
         RefusedError: it is no such body, or its name is `taken`.
@@ -48,7 +48,8 @@ def spawn_request(asked: Any, uri: str, text: str, taken: Container[str]) -> tup
         validated(SceneRequest, request)
     except FaultError as error:
         raise RefusedError(Code.RESOURCE_PARSE_ERROR, f"resource_string: {error}") from None
-    return name, request
+    other = Category.DYNAMIC_OBJECT if "mass" in body else Category.STATIC_OBJECT
+    return Entity(name, Category.ROBOT if kind == _ROBOT else other, x, y, 0.0, heading), request
 
 
 def _name(asked: Any, kind: str, taken: Container[str]) -> str:

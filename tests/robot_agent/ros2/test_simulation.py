@@ -20,6 +20,7 @@ from support.ros_control import made
 
 WALL = {"name": "wall", "shape": "box", "place": [0.0, 5.0], "size": [1.0, 0.2, 0.5]}
 CRATE = {"name": "crate", "shape": "box", "place": [2.0, 5.0], "size": [0.4, 0.4, 0.4], "mass": 2.0}
+CART = '{"shape": "box", "size": [0.4, 0.4, 0.4], "mass": 2.0}'
 POLE = '{"shape": "cylinder", "radius": 0.2, "height": 0.5}'
 
 
@@ -129,6 +130,18 @@ def test_a_velocity_is_set_and_the_pose_stays(simulator: Simulator) -> None:
     assert ball["vy"] == pytest.approx(3.0, abs=0.1)
 
 
+def test_pose_and_velocity_are_set_one_after_the_other_in_a_pause(simulator: Simulator) -> None:
+    simulator.call("SpawnEntity", **spawn("cart", CART))
+    for name, x in (("ball", 3.0), ("cart", 5.0)):
+        simulator.call("SetEntityState", entity=name, state={"pose": pose(x, -4.0)}, set_pose=True)
+        simulator.call("SetEntityState", entity=name, state={"twist": {"linear": {"y": 1.0}}}, set_twist=True)
+    simulator.step()
+    for name, x in (("ball", 3.0), ("cart", 5.0)):
+        state = simulator.call("GetEntityState", entity=name)["state"]
+        place, speed = state.pose.position, state.twist.linear
+        assert (place.x, place.y, speed.y) == pytest.approx((x, -3.98, 1.0), abs=0.2)
+
+
 def test_in_releases_without_flags_all_of_a_state_is_set(simulator: Simulator) -> None:
     state = {"pose": pose(3.0, -4.0), "twist": {"linear": {"x": 1.0}}}
     simulator.call("SetEntityState", "1.x", entity="ball", state=state)
@@ -215,6 +228,27 @@ def test_a_reset_goes_back_to_the_start_or_removes_what_was_spawned(simulator: S
     simulator.call("ResetSimulation", scope=Scope.STATE | Scope.SPAWNED)
     simulator.step()
     assert simulator.rig.truth("cyan1")["x"] == pytest.approx(start, abs=0.1)
+
+
+def test_a_reset_removes_what_was_spawned_in_the_same_pause(simulator: Simulator) -> None:
+    simulator.call("SpawnEntity", **spawn("pole", POLE))
+    simulator.call("SpawnEntity", **spawn("post", POLE, 5.0))
+    simulator.call("DeleteEntity", entity="post")
+    simulator.call("ResetSimulation", scope=Scope.SPAWNED)
+    simulator.call("SpawnEntity", **spawn("post", POLE, 6.0))
+    simulator.step()
+    assert simulator.call("GetEntities", filters={"filter": "^po"})["entities"] == ["post"]
+
+
+def test_after_a_reset_a_state_is_set_as_a_whole_until_the_next_tick(simulator: Simulator) -> None:
+    simulator.call("DeleteEntity", entity="cyan2")
+    simulator.call("ResetSimulation", scope=Scope.STATE)
+    asked: dict[str, Any] = {"entity": "cyan2", "state": {"pose": pose(-1.0, 4.0)}, "set_pose": True}
+    assert simulator.refusal("SetEntityState", **asked)[0] == Code.INCORRECT_STATE
+    simulator.call("SetEntityState", **asked, set_twist=True)
+    simulator.step()
+    assert simulator.rig.truth("cyan2")["x"] == pytest.approx(-1.0, abs=0.01)
+    simulator.call("SetEntityState", **asked)
 
 
 @pytest.mark.parametrize("scope", [0, Scope.TIME, 255])
