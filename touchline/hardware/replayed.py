@@ -88,10 +88,12 @@ class Replayed:
 
     def _pose_at(self, time: float) -> Pose:
         """Where the robot was, between two sights; a picture is placed by it again."""
-        after = min(max(1, bisect_right(self._times, time)), len(self._times) - 1)
+        after = bisect_right(self._times, time)
+        if not 0 < after < len(self._times):
+            return pose_of(self._sights[min(after, len(self._times) - 1)])
         first, last = self._times[after - 1], self._times[after]
         one, other = pose_of(self._sights[after - 1]), pose_of(self._sights[after])
-        return one.toward(other, min(1.0, max(0.0, (time - first) / (last - first))))
+        return one.toward(other, (time - first) / (last - first))
 
 
 def _seen(pose: Pose, x: float, y: float) -> tuple[float, float]:

@@ -1,5 +1,6 @@
 """The numbers of a robot from a recording, against those of the simulated hardware; and a recording as hardware."""
 
+import cmath
 import json
 import math
 import random
@@ -176,3 +177,14 @@ def test_a_recording_as_hardware_shows_a_brain_the_sights_of_the_recording(recor
         assert again.ball.x == approx(before.ball.x, abs=0.002) and again.ball.age == approx(before.ball.age, abs=1e-6)
         places = [(one.x, one.y) for one in again.obstacles]
         assert all(min(math.dist((one.x, one.y), place) for place in places) < 0.002 for one in before.obstacles)
+
+
+def test_a_recording_of_one_sight_is_hardware_for_its_time(recorded, tmp_path):
+    track, _ = recorded
+    one = track._replace(sights=track.sights[50:51], commands=track.commands[50:51])
+    hardware = Replayed(MODEL, recording=str(written(one, tmp_path / "one.mcap")), robot="cyan2")
+    ball, robot = hardware.sense(0.0).picture.ball, track.sights[50].self
+    turned = complex(ball.x, ball.y) * cmath.exp(1j * robot.heading) + complex(robot.x, robot.y)
+    assert (turned.real, turned.imag) == approx((track.sights[50].ball.x, track.sights[50].ball.y), abs=1e-9)
+    with pytest.raises(EOFError):
+        hardware.sense(0.02)
