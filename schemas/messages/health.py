@@ -87,7 +87,7 @@ class Health(Message):
     time: float
     """Simulated time in s: tick × control tick."""
     pace: str
-    """`lockstep`, `realtime`, or `x4` for four times real time."""
+    """`lockstep`, `realtime`, `x4` for four times real time, or `no host`."""
     real_time_factor: float
     """Simulated seconds per wall second, over the last second."""
     paused: bool = False

@@ -1,6 +1,6 @@
 """The score of a task: a user's function of the true state, called once a tick.
 
-    from sim_host.task.score import Moment, Score
+    from touchline import Moment, Score
 
     def score(now: Moment) -> Score:
         done = now.zones["dock"].contains(now.obstacles["box"].x, now.obstacles["box"].y)

@@ -7,9 +7,9 @@ _DRIFT = 1e-4
 class DeviceClock:
     """By how much the driver's clock is ahead of the device's.
 
-    A device takes a demand as soon as it comes, which is after it was sent: the most by which any was ahead is close to
-    the truth. A measurement waits for the driver's next look, up to a period. It tells more than nothing, and counts
-    before the first demand.
+    A device takes a demand as soon as it comes, which is after the look that led to it: the most by which any was ahead
+    is too little by the quickest decision. A measurement waits for the driver's next look, up to a period. It tells
+    more than nothing, and counts before the first demand.
     """
 
     def __init__(self) -> None:
@@ -20,8 +20,8 @@ class DeviceClock:
     def look(self, now: float, measured: float, ahead: float | None) -> None:
         """What was measured at `measured` on the device's clock is read `now`, both in s.
 
-        `ahead` is by how much the driver's clock was ahead when it sent a demand, of the device's when that arrived;
-        None before the first.
+        `ahead` is by how much the driver's clock at the look before a demand was ahead of the device's when that
+        arrived; None before the first.
         """
         parted, self._looked = _DRIFT * (now - self._looked), now
         before = self._ahead

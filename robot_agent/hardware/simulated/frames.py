@@ -26,8 +26,8 @@ class Kind(IntEnum):
     POWER = 1
     """1 powers the motors, 0 takes the power away."""
     DEMAND = 2
-    """Time of sending in µs on the driver's clock; flags (1: roll freely, 2: dribbler on), then per wheel its rim speed
-    in mm/s, as in `Wheels.rim_speeds`."""
+    """Time of the driver's last look at the line before it, in µs on its clock; flags (1: roll freely, 2: dribbler on),
+    then per wheel its rim speed in mm/s, as in `Wheels.rim_speeds`."""
     KICK = 3
     """Number of the mode, then speed in cm/s."""
     MOTION = 16
@@ -86,14 +86,14 @@ def power(on: bool) -> bytes:
 
 
 def demand(time: float, rim_speeds: Sequence[float] | None, dribble: bool) -> bytes:
-    """The frame of `Kind.DEMAND`, sent at a time in s: rim speeds in m/s; None to roll freely."""
+    """The frame of `Kind.DEMAND` after a look at a time in s: rim speeds in m/s; None to roll freely."""
     rims = [_clipped(1e3 * speed, 15) for speed in rim_speeds or ()]
     flags = (rim_speeds is None) + 2 * dribble
     return frame(Kind.DEMAND, struct.pack(f"<QB{len(rims)}h", round(1e6 * time), flags, *rims))
 
 
 def read_demand(content: bytes) -> tuple[float, list[float] | None, bool]:
-    """When it was sent in s; rim speeds in m/s, None to roll freely; whether the dribbler is on.
+    """The time of the driver in s; rim speeds in m/s, None to roll freely; whether the dribbler is on.
 
     Raises:
         struct.error: the content is too short.
