@@ -4,7 +4,6 @@ import socket
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
@@ -17,7 +16,7 @@ from coach_gateway.soccer.refbox.audience_feed import AudienceFeed
 from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.soccer.refbox.identity import SENT
 from coach_gateway.soccer.refbox.server import RefBoxServer, ServerAddress
-from coach_gateway.soccer.without_host.service import OpenMatch
+from coach_gateway.soccer.without_host.service import ServiceWithoutHost
 from coach_gateway.udp.server import UdpServer
 from runtime.bus.contract import Bus
 from runtime.bus.zenoh.bus import ZenohBus
@@ -128,15 +127,8 @@ def services_of(
     return services
 
 
-class OpenedMatch(NamedTuple):
-    """A match of robots on hardware, without a host."""
-
-    bus: ZenohBus
-    game: Service
-
-
-def open_match(settings: GatewaySettings) -> OpenedMatch:
-    """Open the network of robots without a host, whose game is published there.
+def open_without_host(settings: GatewaySettings) -> tuple[ZenohBus, Service]:
+    """Open the network of robots without a host; its bus, and the service that publishes the game there.
 
     Raises:
         TouchlineError: as `WithoutHost.open`, or the referee of a host would decide the game.
@@ -149,7 +141,7 @@ def open_match(settings: GatewaySettings) -> OpenedMatch:
             'write mode = "manual" in [referee], also for the robots'
         )
     bus = alone.open(settings.match or setup.match, settings.connect, WallClock(), RECONNECT_S)
-    return OpenedMatch(bus, OpenMatch(bus, setup))
+    return bus, ServiceWithoutHost(bus, setup)
 
 
 def _side_of(tokens: Tokens, token: str) -> Side | None:

@@ -6,7 +6,7 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from coach_gateway.access.tokens import Tokens, tokens_of
-from coach_gateway.bridges import bridges_of, open_match, services_of
+from coach_gateway.bridges import bridges_of, open_without_host, services_of
 from coach_gateway.match.team_names import printable
 from coach_gateway.ports import InheritedSockets
 from coach_gateway.service import Service
@@ -45,11 +45,11 @@ def run(settings: GatewaySettings) -> int:
     others: list[Service] = [page] if page is not None else []
     with ExitStack() as stack:
         if settings.alone.match_file is not None:
-            match = open_match(settings)
-            bus = stack.enter_context(match.bus)
+            bus, game = open_without_host(settings)
+            stack.enter_context(bus)
             say(f"match {bus.match} without a host, at {bus.endpoint}")
             settings = settings.model_copy(update={"connect": bus.endpoint, "match": bus.match})
-            others.append(match.game)
+            others.append(game)
         run_services(settings, services, say, others)
     return 0
 

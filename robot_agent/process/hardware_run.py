@@ -12,7 +12,7 @@ from robot_agent.hardware.settings import hardware_settings
 from robot_agent.loading.brain_error import RobotError
 from robot_agent.loading.brain_loader import load_object
 from robot_agent.loading.user_code import sentence_of
-from robot_agent.process.hardware_runner import OpenRunner
+from robot_agent.process.hardware_runner import RunnerWithoutHost
 from robot_agent.process.settings import FIRST_SIGHT_FAILED, AgentSettings, BodyOptions
 from robot_agent.process.timing import IDLE_S
 from robot_agent.sdk.contract import Brain
@@ -102,7 +102,7 @@ def open_free_network(settings: AgentSettings, clock: Clock, patience: float) ->
     return bus
 
 
-def serve_open(
+def serve_without_host(
     bus: Bus,
     setup: Setup,
     settings: AgentSettings,
@@ -116,7 +116,7 @@ def serve_open(
     """
     brain = build(setup)
     with guarded_hardware(settings, setup, bus.clock) as guard:
-        runner = OpenRunner(guard, setup, bus, brain, settings.robot)
+        runner = RunnerWithoutHost(guard, setup, bus, brain, settings.robot)
         while True:
             sight = runner.next_sight(None)
             if sight is None:

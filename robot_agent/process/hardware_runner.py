@@ -146,7 +146,7 @@ class HardwareRunner(BrainRunner):
                 self._game, self._game_at = state, now
 
 
-class OpenRunner(HardwareRunner):
+class RunnerWithoutHost(HardwareRunner):
     """A robot on hardware without a host, whose teammates hear each other's commands.
 
     The game is free. Under manual officiating it is what a gateway publishes; without news of it the game is stopped.

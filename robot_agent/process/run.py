@@ -12,7 +12,7 @@ from robot_agent.process.hardware_run import (
     check_body,
     guarded_hardware,
     open_free_network,
-    serve_open,
+    serve_without_host,
 )
 from robot_agent.process.hardware_runner import HardwareRunner
 from robot_agent.process.robot_code import end_robot, start_robot
@@ -65,7 +65,7 @@ def run(settings: AgentSettings) -> int:
             return brains[robot]
 
         if settings.body.match_file is not None:
-            return serve_open(bus, settings.body.setup(), settings, build)
+            return serve_without_host(bus, settings.body.setup(), settings, build)
 
         def on_hardware(bus: Bus, brain: Brain, robot: str) -> Runner:
             guard = hardware.enter_context(guarded_hardware(settings, setups[robot], clock))

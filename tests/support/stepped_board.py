@@ -10,7 +10,7 @@ from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings
 from robot_agent.hardware.simulated.board import Board, BoardNumbers
 from robot_agent.hardware.simulated.driver import Simulated
-from robot_agent.process.hardware_runner import OpenRunner
+from robot_agent.process.hardware_runner import RunnerWithoutHost
 from robot_agent.sdk.contract import Brain
 from schemas.config.robot_model import RobotModel
 from schemas.messages.setup import Setup
@@ -62,7 +62,7 @@ def track_on_board(
     settings = HardwareSettings(hardware="simulated")
     guard = HardwareGuard(stepped.hardware, settings, model, robot, stepped.clock, armed=True)
     guard.start()
-    runner, track = OpenRunner(guard, setup, bus, brain, robot), RobotTrack(robot, [], [])
+    runner, track = RunnerWithoutHost(guard, setup, bus, brain, robot), RobotTrack(robot, [], [])
     while stepped.clock.now() < seconds:
         sight = runner.next_sight(None)
         if sight is not None:

@@ -27,7 +27,7 @@ _RECORDS: Mapping[ActionName, _Record] = {
 _ENDED = (Phase.HALF_TIME, Phase.FULL_TIME)
 
 
-class OpenGame:
+class GameWithoutHost:
     """Follows the actions.
 
     START lets play begin, as the box's START does. A restart becomes play when the time is up that the rules give the

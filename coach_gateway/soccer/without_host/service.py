@@ -3,7 +3,7 @@
 import asyncio
 
 from coach_gateway.service import pause
-from coach_gateway.soccer.without_host.game import OpenGame
+from coach_gateway.soccer.without_host.game import GameWithoutHost
 from coach_gateway.timing import POLL_S
 from runtime.bus.contract import Bus, PresenceKind
 from schemas.messages.health import Health
@@ -18,12 +18,12 @@ _STATE_S = 1.0
 _BOX_DECIDES = "a league's referee box is connected and officiates; only stop is accepted"
 
 
-class OpenMatch:
+class ServiceWithoutHost:
     """The game of robots on hardware, on a bus of their network."""
 
     def __init__(self, bus: Bus, setup: Setup) -> None:
         self._bus, self._setup = bus, setup
-        self._game = OpenGame(setup)
+        self._game = GameWithoutHost(setup)
         self._began = bus.clock.now()
         self._due = 0.0
         self._boxes: set[str] = set()

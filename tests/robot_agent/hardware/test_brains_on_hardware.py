@@ -9,7 +9,7 @@ import pytest
 
 from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings
-from robot_agent.process.hardware_runner import OpenRunner
+from robot_agent.process.hardware_runner import RunnerWithoutHost
 from robot_agent.process.robot_code import end_robot, start_robot
 from robot_agent.sdk.contract import Briefing
 from support.in_process_bus import SharedState
@@ -39,7 +39,7 @@ def test_each_brain_drives_the_simulated_hardware_to_the_ball_and_moves_it(brain
     started = start_robot("" if stdio else brain, stdio, Briefing.of("cyan2", setup))
     guard.start()
     bus = SharedState().open_bus("friendly", stepped.clock)
-    runner = OpenRunner(guard, setup, bus, started, "cyan2")
+    runner = RunnerWithoutHost(guard, setup, bus, started, "cyan2")
     way = 0.0
     try:
         while stepped.clock.now() < 12.0:

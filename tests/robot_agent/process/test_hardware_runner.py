@@ -9,7 +9,7 @@ from pytest import approx
 from robot_agent.hardware.dummy import Dummy
 from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings
-from robot_agent.process.hardware_runner import HardwareRunner, OpenRunner
+from robot_agent.process.hardware_runner import HardwareRunner, RunnerWithoutHost
 from schemas.messages.command import Command, Drive
 from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
@@ -54,7 +54,7 @@ class Field:
             hardware, HardwareSettings(hardware="dummy", clearance=clearance), model, name, self.clock, armed=True
         )
         guard.start()
-        return (HardwareRunner if host else OpenRunner)(guard, self.setup, self.bus(), ToThePost(), name)
+        return (HardwareRunner if host else RunnerWithoutHost)(guard, self.setup, self.bus(), ToThePost(), name)
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 from recordings.container.mcap_writer import mcap_writer
 from robot_agent.hardware.guard import HardwareError, HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings
-from robot_agent.process.hardware_runner import OpenRunner
+from robot_agent.process.hardware_runner import RunnerWithoutHost
 from robot_agent.sdk.contract import Briefing
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
@@ -164,7 +164,7 @@ def test_a_recording_as_hardware_shows_a_brain_the_sights_of_the_recording(recor
     guard = HardwareGuard(hardware, HardwareSettings(hardware="replayed"), MODEL, "cyan2", clock, armed=True)
     guard.start()
     bus = SharedState().open_bus("friendly", clock)
-    runner = OpenRunner(guard, SETUP, bus, Watching(), "cyan2")
+    runner = RunnerWithoutHost(guard, SETUP, bus, Watching(), "cyan2")
     with pytest.raises(HardwareError, match=r"the recording has ended after 12\.00 s"):
         while True:
             sight = runner.next_sight(None)

@@ -10,7 +10,7 @@ from touchline.matches.task.task import Task
 
 
 @dataclass(frozen=True, slots=True)
-class Episode:
+class PlayedEpisode:
     """How an episode ended."""
 
     seed: int
@@ -43,7 +43,7 @@ class TaskResult:
     most: float | None
     time: float | None
     """Simulated time of an episode in s, on average."""
-    episodes: list[Episode]
+    episodes: list[PlayedEpisode]
     """By seed."""
     failed: list[FailedEpisode]
 
@@ -61,7 +61,7 @@ def result_of(task: Task, planned: Sequence[PlannedMatch], outcomes: Mapping[str
     for one in planned:
         outcome, seed = outcomes.get(one.identity), one.config.seed
         if isinstance(outcome, Played) and outcome.value is not None:
-            episodes.append(Episode(seed, outcome.value, outcome.playing_time, outcome.chain))
+            episodes.append(PlayedEpisode(seed, outcome.value, outcome.playing_time, outcome.chain))
         elif isinstance(outcome, Failed):
             failed.append(FailedEpisode(seed, outcome.reason))
     scores = [one.score for one in episodes]

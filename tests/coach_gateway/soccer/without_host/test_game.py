@@ -2,7 +2,7 @@
 
 import pytest
 
-from coach_gateway.soccer.without_host.game import OpenGame
+from coach_gateway.soccer.without_host.game import GameWithoutHost
 from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import ActionName, GameStage, OffField, Phase, Score
@@ -13,7 +13,7 @@ class Played:
     """A game, acted on with one word after the other."""
 
     def __init__(self, **match):
-        self.game = OpenGame(make_setup(rules="msl", **match))
+        self.game = GameWithoutHost(make_setup(rules="msl", **match))
 
     def act(self, *words):
         """Carry out `action`, `action side` or `action robot`; what was refused."""

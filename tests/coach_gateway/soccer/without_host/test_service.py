@@ -9,11 +9,11 @@ import pytest
 
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.soccer.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.soccer.without_host.service import OpenMatch
+from coach_gateway.soccer.without_host.service import ServiceWithoutHost
 from robot_agent.hardware.dummy import Dummy
 from robot_agent.hardware.guard import HardwareGuard
 from robot_agent.hardware.settings import HardwareSettings
-from robot_agent.process.hardware_runner import OpenRunner
+from robot_agent.process.hardware_runner import RunnerWithoutHost
 from runtime.process.clock import WallClock
 from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
@@ -48,7 +48,7 @@ class Robot:
         self.hardware = Dummy(model, start=(-2.0, 0.5, 0.0))
         guard = HardwareGuard(self.hardware, HardwareSettings(hardware="dummy"), model, "cyan2", self.clock, armed=True)
         guard.start()
-        self.runner = OpenRunner(guard, SETUP, medium.open_bus(SETUP.match, self.clock), Circling(), "cyan2")
+        self.runner = RunnerWithoutHost(guard, SETUP, medium.open_bus(SETUP.match, self.clock), Circling(), "cyan2")
         self.sight = None
 
     async def serve(self, stop: asyncio.Event) -> None:
@@ -81,7 +81,7 @@ async def lab() -> AsyncIterator[tuple[Bench, Box, Robot]]:
     try:
         bench.start(robot)
         await until(lambda: robot.sees(TeamPhase.STOPPED, running=False), "no game without news of it")
-        for one in (OpenMatch(medium.open_bus(SETUP.match, robot.clock), SETUP), bench.live, station):
+        for one in (ServiceWithoutHost(medium.open_bus(SETUP.match, robot.clock), SETUP), bench.live, station):
             bench.start(one)
         await until(lambda: box.links and bench.live.state is not None and bench.live.state.refbox, "the box")
         yield bench, box, robot
@@ -155,7 +155,7 @@ def test_the_state_is_published_on_change_and_once_a_second_with_a_report_for_he
     medium, clock = SharedState(), SteppedClock()
     reader = medium.open_bus(SETUP.match, SteppedClock())
     states, healths = reader.subscribe(STATE), reader.subscribe(HEALTH)
-    match = OpenMatch(medium.open_bus(SETUP.match, clock), SETUP)
+    match = ServiceWithoutHost(medium.open_bus(SETUP.match, clock), SETUP)
     for _ in range(311):
         match.update()
         clock.sleep_until(clock.now() + 0.01)
