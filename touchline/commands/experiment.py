@@ -108,7 +108,8 @@ def run(
     stored = read_study(folder)
     kept = None
     if failures:
-        worths = dict(zip(stored.table["identity"], stored.table[study.primary], strict=True))
+        measured = stored.table.reindex(columns=["identity", study.primary]).dropna()
+        worths = dict(zip(measured["identity"], measured[study.primary], strict=True))
         planned = [one.planned for one in plan.matches(result.seeds)]
         with closing(RunStore(folder, read_only=True)) as store:
             outcomes = store.outcomes()
@@ -132,7 +133,9 @@ def run(
         typer.echo(f"{len(failed)} matches failed: {failed[0].reason}", err=True)
     for sentence in result.disturbed:
         typer.echo(f"match {sentence}", err=True)
-    if failed or result.disturbed:
+    if kept is not None and kept.is_interrupted:
+        raise typer.Exit(128 + signal.SIGINT)
+    if failed or result.disturbed or (kept is not None and kept.missing):
         raise typer.Exit(FAILED)
 
 

@@ -94,9 +94,9 @@ def series(
         folder = record or Path("runs") / f"{config.name}-failures"
         kept = keep_failures(planned, played.outcomes, lead, failures, folder, jobs, json=json)
     failed = _print(plan, rows_of(plan, played.outcomes), kept, json=json)
-    if played.is_interrupted:
+    if played.is_interrupted or (kept is not None and kept.is_interrupted):
         raise typer.Exit(128 + signal.SIGINT)
-    if failed:
+    if failed or (kept is not None and kept.missing):
         raise typer.Exit(FAILED)
 
 

@@ -4,9 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from schemas.errors import TouchlineError
-from touchline.matches.engine.outcome import Outcome, Played
-from touchline.matches.engine.planned_match import PlannedMatch, Way
+from touchline.matches.engine.outcome import Failed, Outcome, Played
+from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play_list import play_list
 
 _TELLING = 0.25
@@ -46,6 +45,10 @@ class Failures:
     """Matches that they are compared with."""
     shared: list[Shared]
     """What most tells them from the others first."""
+    missing: list[str]
+    """Sentences on matches that are not kept, because they were others when they were played again."""
+    is_interrupted: bool
+    """Whether Ctrl-C or SIGTERM came before the last one was played again."""
 
     @property
     def lines(self) -> list[str]:
@@ -56,7 +59,8 @@ class Failures:
             f"  {one.event}: in {one.failures} of {count} of them, in {one.others} of the {self.others} others"
             for one in self.shared
         ]
-        return [f"{count} failures, the worst first:", *lines] if self.kept else ["no failures"]
+        failures = f"{count} failure{'s' if count > 1 else ''}, the worst first:" if self.kept else "no failures"
+        return [failures, *lines, *self.missing]
 
 
 def keep_failures(
@@ -72,49 +76,44 @@ def keep_failures(
 ) -> Failures:
     """Play the `most` matches of least worth again, each with a recording in `folder`.
 
-    Equal seeds give equal matches: a recording is of the very match that failed. Failed outcomes, in which a brain
-    raised, count as the worst, and are not played again: their traceback is known.
+    Equal seeds give equal matches: a recording is of the very match that failed. Matches that were not played to their
+    end, as where a brain raised, are left out: their traceback is known.
 
     Args:
         worth_of: what a match is judged by; None for one that shows no such figure.
         bound: a match of at least this worth is no failure; None for no bound.
-
-    Raises:
-        TouchlineError: a match was another when it was played again.
     """
     played = {one.identity: outcome for one in planned if isinstance(outcome := outcomes.get(one.identity), Played)}
     worths = {identity: worth for identity, one in played.items() if (worth := worth_of(one)) is not None}
-    order = sorted(
-        (one for one in planned if one.identity in worths), key=lambda one: (worths[one.identity], one.config.seed)
-    )
+    matches = {one.identity: one for one in planned if one.identity in worths}
+    order = sorted(matches.values(), key=lambda one: (worths[one.identity], one.config.seed))
     chosen = [one for one in order if bound is None or worths[one.identity] < bound][:most]
-    again = [replace(one, recording=folder / f"{_file_name(one.label)}.mcap", way=Way.IN_PROCESS) for one in chosen]
-    repeated = play_list(again, jobs, "failures again, recorded", lambda one, _: one.label, json=json).outcomes
-    kept = []
+    again = [replace(one, recording=folder / f"{_file_name(one.label)}.mcap") for one in chosen]
+    repeated = play_list(again, jobs, "failures again, recorded", lambda one, _: one.label, json=json)
+    kept, failures, missing = [], [], []
     for one in again:
-        outcome = repeated.get(one.identity)
-        if outcome is None:
-            continue  # interrupted
-        if not isinstance(outcome, Played) or outcome.chain != played[one.identity].chain:
-            raise TouchlineError(f"{one.label} was another match when it was played again; does its brain use a clock?")
-        assert one.recording is not None
-        kept.append(Failure(one.label, worths[one.identity], one.recording))
+        outcome, before = repeated.outcomes.get(one.identity), played[one.identity]
+        if isinstance(outcome, Failed):
+            missing.append(f"{one.label} failed when it was played again: {outcome.reason}")
+        elif outcome is not None and outcome.chain != before.chain:
+            missing.append(f"{one.label} was another match when it was played again; does its brain use a clock?")
+        elif outcome is not None and one.recording is not None:
+            kept.append(Failure(one.label, worths[one.identity], one.recording))
+            failures.append(before)
     rest = [played[one.identity] for one in order if one not in chosen]
-    return Failures(kept, len(rest), in_common([played[one.identity] for one in chosen], rest))
+    return Failures(kept, len(rest), in_common(failures, rest), missing, repeated.is_interrupted)
 
 
 def in_common(failures: Sequence[Played], others: Sequence[Played]) -> list[Shared]:
-    """The events that happen in a clearly greater share of the failures than of the other matches."""
-    if not failures:
+    """The events that happen in a clearly greater share of the failures than of the other matches; none without any."""
+    if not failures or not others:
         return []
-    events = sorted({event for one in failures for event in one.events})
     found = []
-    for event in events:
+    for event in sorted({event for one in failures for event in one.events}):
         failed, passed = (sum(event in each.events for each in group) for group in (failures, others))
-        one = Shared(event, failed, passed)
-        difference = one.failures / len(failures) - (one.others / len(others) if others else 0.0)
+        difference = failed / len(failures) - passed / len(others)
         if difference >= _TELLING:
-            found.append((-difference, one))
+            found.append((-difference, Shared(event, failed, passed)))
     return [one for _, one in sorted(found, key=lambda pair: (pair[0], pair[1].event))][:_MOST]
 
 

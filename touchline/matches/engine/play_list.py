@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from touchline.matches.engine.outcome import Outcome
 from touchline.matches.engine.plan import ListPlan
-from touchline.matches.engine.planned_match import PlannedMatch
+from touchline.matches.engine.planned_match import PlannedMatch, Way
 from touchline.matches.engine.run import run_plan
 from touchline.matches.engine.session import session_of
 from touchline.play.play_match import InProcessMatch
@@ -31,13 +31,15 @@ def play_list(
 ) -> PlayedList:
     """Play matches on this machine, `jobs` at a time; 0 for one per core. `sentence_of` is shown for each.
 
-    Each pair of teams is built once before, so that an error in a team is reported before the first match.
+    Each pair of teams that plays in one process is built once before, so that an error in a team is reported before
+    the first match.
 
     Raises:
         TouchlineError: two matches are the same, a team cannot be built, or `jobs` is negative.
     """
     plan = ListPlan(tuple(matches))
-    for one in {one.config.teams.model_dump_json(): one for one in reversed(matches)}.values():
+    in_process = [one for one in reversed(matches) if one.way is Way.IN_PROCESS]
+    for one in {one.config.teams.model_dump_json(): one for one in in_process}.values():
         InProcessMatch(one.config, brain_folder=one.brain_folder).close()
     outcomes: dict[str, Outcome] = {}
 

@@ -46,6 +46,13 @@ def test_a_response_that_no_match_has_is_named_where_the_answers_are(tmp_path: P
     assert 'No match has a figure goal; did you mean "goals"?' in text.splitlines()
 
 
+def test_no_match_fails_by_a_first_response_that_no_match_has(tmp_path: Path) -> None:
+    (tmp_path / "try.toml").write_text(STUDY.replace('"distance"', '"goal"'))
+    status, text = run(tmp_path / "try.toml", "--out", tmp_path / "out", "--jobs", "1", "--failures", "1")
+    assert status == 0, text
+    assert "no failures" in text.splitlines()
+
+
 def test_matplotlib_does_not_say_that_it_builds_a_cache_of_fonts() -> None:
     pytest.importorskip("touchline.matches.study.plots")
     assert not logging.getLogger("matplotlib.font_manager").isEnabledFor(logging.WARNING)
