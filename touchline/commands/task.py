@@ -1,8 +1,6 @@
 """`touchline task`: tasks for teams of robots, and the score of a brain over many seeds."""
 
-import os
 import signal
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -98,14 +96,22 @@ def run(
         worth = (planned, played.outcomes, lambda one: one.value)
         kept = keep_failures(*worth, failures, folder, jobs, below, json=json)
     _print(loaded, result, kept, json=json)
-    if played.is_interrupted:
+    if played.is_interrupted or (kept is not None and kept.is_interrupted):
         raise typer.Exit(128 + signal.SIGINT)
+    has_failed = _is_below(result, at_least) or result.failed or (kept is not None and kept.missing)
     if show and kept is not None and kept.kept:
-        sys.stdout.flush()
-        arguments = [sys.executable, "-m", "touchline", "replay", str(kept.kept[0].recording), "--web"]
-        os.execv(sys.executable, arguments)
-    if result.failed or _is_below(result, at_least):
+        _show(kept.kept[0].recording)
+    if has_failed:
         raise typer.Exit(FAILED)
+
+
+def _show(recording: Path) -> None:
+    """Do as `touchline replay RECORDING --web`."""
+    from touchline.commands.replay import replay
+
+    command = typer.Typer(add_completion=False)
+    command.command()(replay)
+    command([str(recording), "--web"], standalone_mode=False)
 
 
 def _seeds(episodes: int | None, seeds: str | None) -> list[int]:

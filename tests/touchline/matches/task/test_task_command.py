@@ -2,8 +2,10 @@
 
 import json
 from pathlib import Path
+from typing import Annotated
 
 import pytest
+import typer
 from typer.testing import CliRunner, Result
 
 from recordings.reading.recording import open_recording
@@ -26,6 +28,7 @@ robots = [{ name = "one", side = "cyan", x = 0.0, y = 0.0 }]
 vary = [{ body = "one", heading = 0.6 }]
 """
 CODE = """
+import time
 from touchline import Command, Drive, Score
 
 def way(now):
@@ -43,6 +46,10 @@ class Ahead:
 class Raises(Ahead):
     def act(self, sight):
         raise ValueError("no idea")
+
+class ReadsAClock(Ahead):
+    def act(self, sight):
+        return Command(answers_tick=sight.tick, drive=Drive(vx=time.time() % 1.0))
 """
 
 
@@ -107,16 +114,41 @@ def test_failures_leave_recordings_that_verify_and_the_events_that_they_share(ow
     assert len(list((tmp_path / "kept").glob("*.mcap"))) == 3
 
 
+def test_the_worst_episode_is_shown_and_the_status_is_that_of_the_task(
+    own: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: dict[str, object] = {}
+
+    def replay(files: list[Path], rate: float = 1.0, web: Annotated[bool, typer.Option("--web")] = False) -> None:
+        shown.update(files=files, rate=rate, web=web)
+
+    monkeypatch.setattr("touchline.commands.replay.replay", replay)
+    words = ("--episodes", "2", "--at-least", "5", "--failures", "1", "--out", tmp_path / "kept", "--show")
+    result = task("run", own, *words)
+    assert (result.exit_code, type(result.exception)) == (1, SystemExit)
+    assert shown == {"files": [*(tmp_path / "kept").glob("*.mcap")], "rate": 1.0, "web": True}
+
+
 def test_only_episodes_below_the_bound_are_failures(own: str, tmp_path: Path) -> None:
     result = task("run", own, "--episodes", "2", "--failures", "2", "--below", "0.1", "--out", tmp_path / "kept")
     assert "no failures" in result.stdout
     assert not (tmp_path / "kept").exists()
 
 
+def test_the_score_is_printed_also_if_a_failure_was_another_episode_when_it_was_played_again(
+    own: str, tmp_path: Path
+) -> None:
+    words = ("--brain", "own_task:ReadsAClock", "--episodes", "1", "--failures", "1", "--out", tmp_path / "kept")
+    result = task("run", own, *words)
+    assert result.exit_code == 1, result.output
+    score, *_, said = result.stdout.splitlines()
+    assert score.startswith("get_there: ") and said.startswith("get_there, seed 1 was another match")
+
+
 def test_a_brain_that_raises_is_named_and_its_episode_has_no_score(own: str) -> None:
     result = task("run", own, "--brain", "own_task:Raises", "--episodes", "1")
     assert result.exit_code == 1
-    assert "seed 1: not played: one, tick 0: ValueError: no idea (own_task.py, line 18)" in result.stderr
+    assert "seed 1: not played: one, tick 0: ValueError: no idea (own_task.py, line 19)" in result.stderr
 
 
 @pytest.mark.parametrize(
