@@ -1,6 +1,5 @@
 """A small network of NumPy, for policies that evolution finds: layers with tanh, in a file without other libraries."""
 
-import zipfile
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -78,6 +77,8 @@ class Network:
             chained = all(before.shape[0] == after.shape[1] for (before, _), (after, _) in pairwise(layers))
             if not layers or not fit or not chained:
                 raise ValueError("its layers do not fit")
-        except (KeyError, OSError, ValueError, zipfile.BadZipFile) as error:
+            if not all(np.isfinite(array).all() for layer in layers for array in layer):
+                raise ValueError("it has numbers that are not finite")
+        except Exception as error:  # whatever NumPy and zipfile raise at bytes of another form
             raise TouchlineError(f"{path} is no saved network ({' '.join(str(error).split())})") from None
         return cls(layers)

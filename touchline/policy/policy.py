@@ -45,11 +45,11 @@ class StableBaselinesPolicy:
             spaces = data["observation_space"], data["action_space"]
             self._policy: Any = make(*spaces, lr_schedule=lambda _: 0.0, **settings)
             self._policy.load_state_dict(parameters["policy"])
+            (self.observations,), (self.actions,) = (space.shape for space in spaces)
         except Exception as error:
             reason = " ".join(f"{type(error).__name__}: {error}".split())
-            raise TouchlineError(f"{path} is no model of Stable-Baselines3 ({reason})") from None
+            raise TouchlineError(f"{path} is no model of Stable-Baselines3 of vectors ({reason})") from None
         self._policy.set_training_mode(False)
-        self.observations, self.actions = spaces[0].shape[0], spaces[1].shape[0]
 
     def action(self, observation: NDArray[np.float32]) -> NDArray[np.float32]:
         """The most likely action."""

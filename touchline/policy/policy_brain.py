@@ -46,9 +46,15 @@ class PolicyBrain:
         return cls(briefing, load_policy(path))
 
     def act(self, sight: Sight) -> Command:
-        """The command for one tick; a new action is decided every `decision_ticks`, and after a sight was missed."""
+        """The command for one tick; a new action is decided every `decision_ticks`, and after a sight was missed.
+
+        Raises:
+            ValueError: the policy's action is not finite.
+        """
         period = sight.tick // self._control.decision_ticks
         if period != self._decided:
             self._decided = period
             self._action = self._policy.action(self._observation.observe(sight))
+            if not np.isfinite(self._action).all():
+                raise ValueError(f"the policy's action is {self._action.tolist()}; robots move by finite numbers")
         return self._control.command(self._action, sight)

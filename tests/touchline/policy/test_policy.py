@@ -1,9 +1,13 @@
 """Policies in files, and the brain that plays them: exactly what the environment did."""
 
+import io
+import math
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from robot_agent.loading.brain_loader import load_brain
 from robot_agent.sdk.contract import Briefing
@@ -12,6 +16,7 @@ from touchline.play.play_match import InProcessMatch
 from touchline.policy.network import Network
 from touchline.policy.observation import Observation
 from touchline.policy.policy import load_policy
+from touchline.policy.policy_brain import PolicyBrain
 
 
 def network_for(match: InProcessMatch, robot: str, actions: int, hidden: int = 8) -> Network:
@@ -35,11 +40,34 @@ def test_a_network_is_what_its_parameters_say() -> None:
         Network.of(np.zeros(5), (2, 2))
 
 
+def saved(array: NDArray[np.floating]) -> bytes:
+    """The bytes of a file `.npy`."""
+    file = io.BytesIO()
+    np.save(file, array.astype(np.float32))
+    return file.getvalue()
+
+
+def zipped(files: dict[str, bytes]) -> bytes:
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w") as written:
+        for name, content in files.items():
+            written.writestr(name, content)
+    return archive.getvalue()
+
+
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
         ("none.npz", None, "there is no policy"),
         ("text.npz", b"weights", "is no saved network"),
+        ("empty.npz", b"", "is no saved network"),
+        ("array.npz", saved(np.zeros(3)), "is no saved network"),
+        ("bytes.npz", zipped({"weights0.npy": b"0", "offsets0.npy": b"0"}), "is no saved network"),
+        (
+            "nan.npz",
+            zipped({"weights0.npy": saved(np.full((1, 2), np.nan)), "offsets0.npy": saved(np.zeros(1))}),
+            "finite",
+        ),
         ("brain.py", b"", "its name ends in .npz or .zip"),
         ("text.zip", b"weights", "stable-baselines3|no model of Stable-Baselines3"),
     ],
@@ -62,6 +90,25 @@ def test_layers_that_do_not_fit_are_one_clear_error(tmp_path: Path) -> None:
     np.savez(tmp_path / "torn.npz", allow_pickle=False, **dict(zip(names, layers, strict=True)))
     with pytest.raises(TouchlineError, match="its layers do not fit"):
         load_policy(tmp_path / "torn.npz")
+
+
+@pytest.mark.parametrize("space", ["observation", "action"])
+def test_a_model_of_other_than_vectors_is_one_clear_error(tmp_path: Path, space: str) -> None:
+    models, gymnasium = pytest.importorskip("stable_baselines3"), pytest.importorskip("gymnasium")
+    spaces = dict.fromkeys(("observation", "action"), gymnasium.spaces.Box(-1.0, 1.0, (2,)))
+    env = type("Env", (gymnasium.Env,), {f"{name}_space": one for name, one in spaces.items()})
+    setattr(env, f"{space}_space", gymnasium.spaces.Discrete(3))
+    models.PPO("MlpPolicy", env(), n_steps=2, batch_size=2, device="cpu").save(tmp_path / "other.zip")
+    with pytest.raises(TouchlineError, match="is no model of Stable-Baselines3 of vectors"):
+        load_policy(tmp_path / "other.zip")
+
+
+def test_an_action_that_is_not_finite_moves_no_robot(rovers: InProcessMatch) -> None:
+    briefing = Briefing.of("one", rovers.simulation.setup())
+    sizes = len(Observation(briefing).names), 2
+    brain = PolicyBrain(briefing, Network.of(np.full(Network.size(sizes), math.nan), sizes))
+    with pytest.raises(ValueError, match=r"the policy's action is \[nan, nan\]"):
+        brain.act(rovers.simulation.now.sights.perceived["one"])
 
 
 def test_a_policy_for_another_robot_is_one_clear_error(rovers: InProcessMatch, tmp_path: Path) -> None:
