@@ -10,7 +10,6 @@ from schemas.config.sensors.contact import Bumper, ContactReading
 from schemas.config.sensors.range import RangeFinder, RangeReading
 from schemas.config.task import GameName
 from schemas.messages.sight import Sight
-from schemas.side import Side
 from touchline.policy.entries import (
     FAST,
     OLD,
@@ -182,16 +181,17 @@ class Zones:
     """The middles of the task's zones."""
 
     def __init__(self, briefing: Briefing) -> None:
-        task, sign, reach = briefing.setup.task, 1.0 if briefing.side is Side.CYAN else -1.0, reach_of(briefing)
+        self._side, task, reach = briefing.side, briefing.setup.task, reach_of(briefing)
         zones = task.zones if task is not None else []
-        self._places = [(sign * zone.place[0], sign * zone.place[1]) for zone in zones]
+        self._places = [zone.place for zone in zones]
         self.entries = tuple(
             entry for zone in zones for entry in place(f"zone.{zone.name}", reach, f"zone {zone.name}")
         )
 
-    def numbers(self, _sight: Sight, frame: BodyFrame) -> list[float]:
-        """All zones."""
-        return [number for x, y in self._places for number in frame.place(x, y)]
+    def numbers(self, sight: Sight, frame: BodyFrame) -> list[float]:
+        """All zones; teams change ends with each half, and cyan attacks +x of the field in the first."""
+        sign = self._side.attack(1 if sight.game.half % 2 else -1)
+        return [number for x, y in self._places for number in frame.place(sign * x, sign * y)]
 
 
 class Time:

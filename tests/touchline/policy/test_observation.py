@@ -69,6 +69,19 @@ def test_both_sides_observe_the_same_from_mirrored_places(keepers: InProcessMatc
     assert cyan["goal.x"] > 0 > cyan["own_goal.x"]
 
 
+def test_zones_stay_where_they_are_when_teams_change_ends(keepers: InProcessMatch) -> None:
+    setup = keepers.simulation.setup()
+    assert setup.task is not None
+    zone = setup.task.zones[0].model_copy(update={"place": (2.0, 1.0)})
+    moved = setup.replace(task=setup.task.replace(zones=[zone]))
+    for robot, half, sign in (("cyan1", 1, 1), ("cyan1", 2, -1), ("magenta1", 2, 1), ("magenta1", 3, -1)):
+        sight = keepers.simulation.now.sights.perceived[robot]
+        there = sight.replace(game=sight.game.replace(half=half), self=Motion(x=0.0, y=0.0, heading=0.0))
+        layout = Observation(Briefing.of(robot, moved))
+        seen = dict(zip(layout.names, layout.observe(there).tolist(), strict=True))
+        assert (seen["zone.square.x"], seen["zone.square.y"]) == pytest.approx((sign * 0.4, sign * 0.2))
+
+
 def test_what_is_beyond_the_limits_is_cut_off(keepers: InProcessMatch) -> None:
     seen = observed(keepers, "cyan1", self=Motion(x=1e6, y=0.0, heading=0.0, omega=1e6))
     assert seen["me.x"] < 2.0 and seen["me.omega"] == 2.0
