@@ -25,9 +25,9 @@ from touchline.matches.series.table import figure_rows, longest_line
 
 LADDER = ("reference", "simple", "nubot", "random")
 """From the strongest team to the weakest."""
-SPARRING = {"early": "early:Early", "press": "press:Press", "deep": "deep:Deep"}
+SPARRING = {"early": "sparring.early:Early", "press": "sparring.press:Press", "deep": "sparring.deep:Deep"}
 """Teams of other styles, against which `reference` is tuned, too: brains in `examples/sparring`."""
-SPARRING_FOLDER = Path(__file__).parents[1] / "examples" / "sparring"
+EXAMPLES = Path(__file__).parents[1] / "examples"
 WITHOUT_RADIO = "robot_agent.teams.reference:WithoutRadio"
 POOR_RADIO = {"loss": 0.2, "delay": 0.1}
 """Share of messages lost; s of delay."""
@@ -63,7 +63,7 @@ def plan_of(pairing: Pairing, options: argparse.Namespace) -> SeriesPlan:
     config = load_match(None, {"rules": RULES, "duration": options.duration, "teams": teams, **pairing.settings})
     count = options.matches // 2 if pairing.both_sides else options.matches
     seeds = range(options.first_seed, options.first_seed + count)
-    return plan_series(config, seeds, both_sides=pairing.both_sides, brain_folder=SPARRING_FOLDER)
+    return plan_series(config, seeds, both_sides=pairing.both_sides, brain_folder=EXAMPLES)
 
 
 def tables_of(name: str, pairing: Pairing, rows: list[MatchRow]) -> str:

@@ -2,8 +2,7 @@
 
 import math
 
-from sparring import Point, Sparring
-
+from sparring.team import Point, Sparring
 from touchline import Action, KickMode, WorldBelief, skills
 
 LOB_RANGE, LOB_NEAREST = 8.0, 3.4

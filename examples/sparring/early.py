@@ -3,8 +3,7 @@
 import itertools
 import math
 
-from sparring import Point, Sparring
-
+from sparring.team import Point, Sparring
 from touchline import Action, WorldBelief, skills
 
 SHOT_RANGE, OPEN, RUNS = 6.5, 0.4, 2.0

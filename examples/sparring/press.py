@@ -2,8 +2,7 @@
 
 import math
 
-from sparring import Point, Sparring
-
+from sparring.team import Point, Sparring
 from touchline import Action, KickMode, WorldBelief, skills
 
 SHOT_RANGE, OPEN = 5.5, 0.35

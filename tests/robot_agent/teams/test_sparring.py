@@ -16,7 +16,7 @@ from schemas.soccer.game import EventKind
 from touchline import skills
 from touchline.play.play_match import play_match
 
-FOLDER = Path(__file__).parents[3] / "examples" / "sparring"
+FOLDER = Path(__file__).parents[3] / "examples"
 POSES = {
     "cyan1": (-10.5, 0.0, 0.0),
     "cyan2": (-2.0, 1.0, 0.0),
@@ -47,7 +47,7 @@ def acts(setup, sight_of) -> Acts:
 
 
 def test_early_shoots_on_the_run(setup, sight_of):
-    brain = load_brain("early:Early", Briefing.of("cyan2", setup), FOLDER)
+    brain = load_brain("sparring.early:Early", Briefing.of("cyan2", setup), FOLDER)
     command = brain.act(aimed(setup, sight_of, 5.2, (2.0, 0.0, 0.0)))
     assert command.kick is not None
     assert command.drive.vx > 1.0
@@ -55,24 +55,24 @@ def test_early_shoots_on_the_run(setup, sight_of):
 
 def test_press_closes_the_ball_in_with_three_robots(acts):
     ball = (0.0, 0.0)
-    commands = acts("press:Press", ball, ((0.35, 0.0), (4.0, 3.0)))
+    commands = acts("sparring.press:Press", ball, ((0.35, 0.0), (4.0, 3.0)))
     toward = [name for name in POSES if _nears(commands[name], POSES[name], ball) > 1.0]
     assert toward == ["cyan2", "cyan3", "cyan4"]
 
 
 def test_deep_leaves_the_ball_to_opponents_that_are_far_from_its_goal(acts):
-    commands = acts("deep:Deep", (4.0, 0.0), ((4.35, 0.0),))
+    commands = acts("sparring.deep:Deep", (4.0, 0.0), ((4.35, 0.0),))
     assert not any(command.dribble for name, command in commands.items() if name != "cyan1")
 
 
 def test_deep_lobs_at_the_goal(setup, sight_of):
-    kick = load_brain("deep:Deep", Briefing.of("cyan2", setup), FOLDER).act(aimed(setup, sight_of, 4.0)).kick
+    kick = load_brain("sparring.deep:Deep", Briefing.of("cyan2", setup), FOLDER).act(aimed(setup, sight_of, 4.0)).kick
     assert kick is not None
     assert kick.mode is KickMode.LOB
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("brain", ["early:Early", "press:Press", "deep:Deep"])
+@pytest.mark.parametrize("brain", ["sparring.early:Early", "sparring.press:Press", "sparring.deep:Deep"])
 def test_a_sparring_team_takes_its_kick_off(brain):
     team = {"name": brain, "brain": brain}
     config = load_match(None, {"rules": "msl", "teams": {"cyan": team, "magenta": team}})

@@ -1,0 +1,1 @@
+"""Teams of other styles than those that ship, to play against."""
