@@ -163,10 +163,10 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         if episode is None or not self.agents:
             raise TouchlineError("no episode is going on; call reset() first")
         checked = self._checked(actions)
-        reward = 0.0
-        for _ in range(self._controls[self.agents[0]].decision_ticks):
-            sights = episode.sights
-            episode.step({agent: self._controls[agent].command(action, sights[agent]) for agent, action in checked})
+        reward, controls = 0.0, self._controls
+        for tick in range(controls[self.agents[0]].decision_ticks):
+            sights, is_new = episode.sights, tick == 0
+            episode.step({one: controls[one].command(action, sights[one], is_new=is_new) for one, action in checked})
             reward += episode.state.reward
             if episode.state.over:
                 break

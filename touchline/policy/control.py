@@ -49,15 +49,11 @@ class Control:
         """Names of the entries, in order."""
         return [entry.name for entry in self.entries]
 
-    def decides(self, sight: Sight) -> bool:
-        """Whether a new action is due at this tick."""
-        return sight.tick % self.decision_ticks == 0
-
-    def command(self, action: NDArray[np.floating], sight: Sight) -> Command:
+    def command(self, action: NDArray[np.floating], sight: Sight, *, is_new: bool) -> Command:
         """The command for one tick while an action of shape (entries,) is in force; values beyond ±1 are cut off.
 
-        With each decision the robot tells its teammates where it is, and where it has just seen the ball. A robot that
-        is off the field does nothing.
+        With an action that is new the robot tells its teammates where it is, and where it has just seen the ball. A
+        robot that is off the field does nothing.
         """
         record = sight.game.robots.get(self._robot)
         if record is not None and record.off_field is not None:
@@ -65,7 +61,7 @@ class Control:
         numbers = [min(1.0, max(-1.0, number)) for number in action.tolist()]
         vx, omega = numbers[0] * self._speed, numbers[1 + self._sideways] * self._turn
         vy = numbers[1] * self._speed if self._sideways else 0.0
-        radio = self._message(sight) if self.decides(sight) else None
+        radio = self._message(sight) if is_new else None
         drive = Drive(vx=vx, vy=vy, omega=omega)
         if not self._ball:
             return Command(answers_tick=sight.tick, drive=drive, radio=radio)

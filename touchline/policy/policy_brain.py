@@ -52,9 +52,10 @@ class PolicyBrain:
             ValueError: the policy's action is not finite.
         """
         period = sight.tick // self._control.decision_ticks
-        if period != self._decided:
+        is_new = period != self._decided
+        if is_new:
             self._decided = period
             self._action = self._policy.action(self._observation.observe(sight))
             if not np.isfinite(self._action).all():
                 raise ValueError(f"the policy's action is {self._action.tolist()}; robots move by finite numbers")
-        return self._control.command(self._action, sight)
+        return self._control.command(self._action, sight, is_new=is_new)

@@ -14,10 +14,13 @@ from touchline.play.play_match import InProcessMatch
 from touchline.policy.control import Control
 
 
-def commanded(match: InProcessMatch, robot: str, action: list[float], **changes: Any) -> Command:
+def commanded(
+    match: InProcessMatch, robot: str, action: list[float], *, is_new: bool = False, **changes: Any
+) -> Command:
     """The command for an action; `changes` are of the robot's sight."""
     sight: Sight = match.simulation.now.sights.perceived[robot].replace(**changes)
-    return Control(Briefing.of(robot, match.simulation.setup())).command(np.array(action, np.float32), sight)
+    control = Control(Briefing.of(robot, match.simulation.setup()))
+    return control.command(np.array(action, np.float32), sight, is_new=is_new)
 
 
 def test_full_speed_is_that_of_the_robot(keepers: InProcessMatch, rovers: InProcessMatch) -> None:
@@ -51,10 +54,10 @@ def test_a_robot_kicks_once_it_holds_the_ball_and_its_kicker_is_charged(keepers:
 
 def test_with_each_decision_the_team_hears_where_the_robot_and_the_ball_are(keepers: InProcessMatch) -> None:
     now = keepers.simulation.now.sights.perceived["cyan1"]
-    told = commanded(keepers, "cyan1", [0.0] * 6).radio
+    told = commanded(keepers, "cyan1", [0.0] * 6, is_new=True).radio
     assert told is not None and told.self == now.self and told.ball is not None and told.ball.x == now.ball.x
-    assert commanded(keepers, "cyan1", [0.0] * 6, tick=now.tick + 1).radio is None
-    blind = commanded(keepers, "cyan1", [0.0] * 6, ball=None).radio
+    assert commanded(keepers, "cyan1", [0.0] * 6).radio is None
+    blind = commanded(keepers, "cyan1", [0.0] * 6, is_new=True, ball=None).radio
     assert blind is not None and blind.ball is None
 
 

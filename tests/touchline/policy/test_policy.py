@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from robot_agent.loading.brain_loader import load_brain
 from robot_agent.sdk.contract import Briefing
 from schemas.errors import TouchlineError
+from schemas.messages.radio import Motion
 from touchline.play.play_match import InProcessMatch
 from touchline.policy.network import Network
 from touchline.policy.observation import Observation
@@ -101,6 +102,16 @@ def test_a_model_of_other_than_vectors_is_one_clear_error(tmp_path: Path, space:
     models.PPO("MlpPolicy", env(), n_steps=2, batch_size=2, device="cpu").save(tmp_path / "other.zip")
     with pytest.raises(TouchlineError, match="is no model of Stable-Baselines3 of vectors"):
         load_policy(tmp_path / "other.zip")
+
+
+def test_after_a_missed_sight_the_next_one_is_decided_on_and_told(rovers: InProcessMatch) -> None:
+    sight = rovers.simulation.now.sights.perceived["one"]
+    brain = PolicyBrain(Briefing.of("one", rovers.simulation.setup()), network_for(rovers, "one", 2))
+    answers = [
+        brain.act(sight.replace(tick=tick, self=Motion(x=tick / 10, y=0.0, heading=0.0))) for tick in (0, 1, 6, 7)
+    ]
+    assert [answer.radio is not None for answer in answers] == [True, False, True, False]
+    assert answers[0].drive == answers[1].drive != answers[2].drive == answers[3].drive
 
 
 def test_an_action_that_is_not_finite_moves_no_robot(rovers: InProcessMatch) -> None:
