@@ -1,5 +1,6 @@
 """A task as a parallel environment of PettingZoo: an agent for each robot of the side that does the task."""
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -257,18 +258,19 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         for agent in self.agents:
             if agent not in actions:
                 raise TouchlineError(f"{agent} has no action; give one for each of {', '.join(self.agents)}")
-            names = self._controls[agent].names
+            entries = self._controls[agent].entries
             try:
                 action = np.asarray(actions[agent], np.float32)
             except (TypeError, ValueError):
                 raise TouchlineError(
-                    f"the action of {agent} is {actions[agent]!r}; give {len(names)} numbers"
+                    f"the action of {agent} is {actions[agent]!r}; give {len(entries)} numbers"
                 ) from None
-            if action.shape != (len(names),):
+            if action.shape != (len(entries),):
+                names = ", ".join(self._controls[agent].names)
                 raise TouchlineError(
-                    f"the action of {agent} has the shape {action.shape}; it is ({len(names)},): {', '.join(names)}"
+                    f"the action of {agent} has the shape {action.shape}; it is ({len(entries)},): {names}"
                 )
-            if not np.isfinite(action).all():
+            if not all(map(math.isfinite, action.tolist())):
                 raise TouchlineError(f"the action of {agent} is {action.tolist()}; give finite numbers")
             checked.append((agent, action))
         return checked

@@ -1,6 +1,7 @@
 """The actions of a robot: a vector of numbers from −1 to 1 that becomes a command."""
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from robot_agent.sdk.contract import Briefing
@@ -13,6 +14,9 @@ from touchline.policy.interface import Interface
 
 _FRESH = 0.1
 """s; a ball that was seen no longer ago is told to teammates."""
+_COMMAND, _DRIVE, _KICK = Command(answers_tick=0), Drive(), Kick(mode=KickMode.GROUND, speed=1.0)
+_RADIO, _BALL = Radio(), BallBelief(x=0.0, y=0.0)
+"""What commands are made of by `replace`, which does not check them: numbers are cut off at the robot's limits."""
 
 
 class Control:
@@ -57,19 +61,19 @@ class Control:
         """
         record = sight.game.robots.get(self._robot)
         if record is not None and record.off_field is not None:
-            return Command(answers_tick=sight.tick)
+            return replace(_COMMAND, answers_tick=sight.tick)
         numbers = [min(1.0, max(-1.0, number)) for number in action.tolist()]
         vx, omega = numbers[0] * self._speed, numbers[1 + self._sideways] * self._turn
         vy = numbers[1] * self._speed if self._sideways else 0.0
         radio = self._message(sight) if is_new else None
-        drive = Drive(vx=vx, vy=vy, omega=omega)
+        drive = replace(_DRIVE, vx=vx, vy=vy, omega=omega)
         if not self._ball:
-            return Command(answers_tick=sight.tick, drive=drive, radio=radio)
+            return replace(_COMMAND, answers_tick=sight.tick, drive=drive, radio=radio)
         kicks, power, dribble = numbers[-3:]
         kick, speed = None, (power + 1.0) / 2.0 * self._kick
         if kicks > 0.0 and speed > 0.0 and sight.holding and sight.kicker_ready:
-            kick = Kick(mode=KickMode.GROUND, speed=speed)
-        return Command(answers_tick=sight.tick, drive=drive, dribble=dribble > 0.0, kick=kick, radio=radio)
+            kick = replace(_KICK, speed=speed)
+        return replace(_COMMAND, answers_tick=sight.tick, drive=drive, dribble=dribble > 0.0, kick=kick, radio=radio)
 
     def action(self, command: Command) -> NDArray[np.float32]:
         """The action, shape (entries,), whose command is nearest to this one, for policies that imitate a brain.
@@ -89,5 +93,6 @@ class Control:
     def _message(self, sight: Sight) -> Radio:
         ball = sight.ball
         if ball is None or ball.age > _FRESH:
-            return Radio(self=sight.self)
-        return Radio(self=sight.self, ball=BallBelief(x=ball.x, y=ball.y, vx=ball.vx, vy=ball.vy, age=ball.age))
+            return replace(_RADIO, self=sight.self)
+        seen = replace(_BALL, x=ball.x, y=ball.y, vx=ball.vx, vy=ball.vy, age=ball.age)
+        return replace(_RADIO, self=sight.self, ball=seen)
