@@ -109,7 +109,7 @@ class PartsRig(TickRig):
         self.radio.send(tick, dict.fromkeys(senders, self.content))
 
     def _write_messages(self) -> list[bytes]:
-        world = world_fields(self.snapshot, self.advance.stuck, self.state, 1)
+        world = world_fields(self.snapshot, self.advance.stuck, self.state, 1, {})
         return [encode({"version": VERSION, **world}), encode(self.inputs)]
 
     def _record(self, payloads: list[bytes]) -> None:

@@ -3,8 +3,9 @@
 The host steps it for agents on the bus; tests and learning step it with brains in the same process.
 """
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from typing import Any
 
 from msgspec import Raw
@@ -15,6 +16,7 @@ from schemas.messages.applied import AppliedInput, chained_part
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.radio import Belief
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.messages.setup import Setup, TeamSetup
 from schemas.messages.soccer.game import ActionReply, GameEvent, RefereeAction
@@ -36,34 +38,39 @@ from sim_host.physics.fingerprint import fingerprint
 from sim_host.snapshot import Roster, Snapshot
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class TickResult:
     """The result of one tick, as messages or as their plain fields."""
 
     tick: int
     time: float
-    world: Fields
-    """`schemas.messages.world.World`."""
+    make_world: Callable[[], Fields]
     sights: TickSights
     """Robot → `schemas.messages.sight.Sight`, encoded when it is read; `sights.perceived` has the messages."""
-    applied: Fields
-    """`schemas.messages.applied.Applied`."""
-    applied_encoded: bytes
+    applied: Fields = field(default_factory=dict)
+    """`schemas.messages.applied.Applied`; empty without a hash chain."""
+    applied_encoded: bytes = b""
     """The same as it is published, and as it enters the hash chain."""
-    beliefs: Sequence[tuple[Side, str, bytes]] = ()
-    """Side, robot and encoded `schemas.messages.radio.Belief` of each radio message sent."""
+    beliefs: Sequence[tuple[Side, Belief]] = ()
+    """Side and content of each radio message sent."""
     events: tuple[GameEvent, ...] = ()
     replies: tuple[ActionReply, ...] = ()
     """One for each action, in order."""
     refused: Mapping[str, int] = field(default_factory=dict)
     """Robot → number of parts of its command that could not be carried out."""
 
+    @cached_property
+    def world(self) -> Fields:
+        """`schemas.messages.world.World`, made when it is first read."""
+        return self.make_world()
+
 
 class Simulation:
     """World, game, sensors and radio of one match, stepped by the caller."""
 
-    def __init__(self, config: MatchConfig) -> None:
-        self.config = config
+    def __init__(self, config: MatchConfig, *, chained: bool = True) -> None:
+        """`chained`: ticks extend a hash chain over all states and inputs, which whatever is recorded needs."""
+        self.config, self._chained = config, chained
         live_parameters = LiveParameters.of(config)
         self._game = game_of_match(config)
         start, began = opening_layout(config, live_parameters, self._game)
@@ -154,7 +161,7 @@ class Simulation:
         self.now = TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=world_fields(snapshot, world_tick.stuck, self.state, self.episode) | self._subsystems.sights.readings,
+            make_world=self._world_of(snapshot, world_tick.stuck),
             sights=sights,
             **self._applied(snapshot, inputs, changes, officiated),
             beliefs=beliefs,
@@ -216,10 +223,14 @@ class Simulation:
         return TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=world_fields(snapshot, stuck, self.state, self.episode) | self._subsystems.sights.readings,
+            make_world=self._world_of(snapshot, stuck),
             sights=sights,
             **self._applied(snapshot, {}, changes, self._officiating_inputs(changes, (), ())),
         )
+
+    def _world_of(self, snapshot: Snapshot, stuck: list[bool]) -> Callable[[], Fields]:
+        """What makes the world of this tick, also in a later one."""
+        return partial(world_fields, snapshot, stuck, self.state, self.episode, self._subsystems.sights.readings)
 
     def _apply_pending(self) -> PendingChanges:
         """Apply the pending changes in this order: rebuild the world, place bodies, make a checkpoint; returns them."""
@@ -237,7 +248,7 @@ class Simulation:
 
     def _send_radio(
         self, snapshot: Snapshot, commands: Mapping[str, Command], refusals: dict[str, list[str]]
-    ) -> list[tuple[Side, str, bytes]]:
+    ) -> list[tuple[Side, Belief]]:
         """Send the radio messages of this tick; the beliefs to publish."""
         messages = {
             name: command.radio
@@ -250,8 +261,8 @@ class Simulation:
             if name in refused:
                 refusals.setdefault(name, []).append(refused[name])
                 continue
-            belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": message}
-            beliefs.append((self.roster.side_of(name), name, encode(belief)))
+            belief = Belief(tick=snapshot.tick, time=snapshot.time, robot=name, radio=message)
+            beliefs.append((self.roster.side_of(name), belief))
         return beliefs
 
     def _officiating_inputs(
@@ -272,7 +283,9 @@ class Simulation:
     def _applied(
         self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], changes: PendingChanges, officiated: Fields
     ) -> dict[str, Any]:
-        """The fields of a `TickResult` on what was applied."""
+        """The fields of a `TickResult` on what was applied; extends the hash chain."""
+        if not self._chained:
+            return {}
         fields: Fields = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, **changes.applied_fields()}
         if changes.roster_changed:
             fields["robots"] = self._operator.layout.robots

@@ -9,12 +9,12 @@ Fields = dict[str, Any]
 """The fields of a message as plain values, as its model defines them."""
 
 
-def world_fields(snapshot: Snapshot, stuck: list[bool], state: PlayState, episode: int) -> Fields:
-    """The whole message: the bodies, and the fields that the game and the operator determine."""
+def world_fields(snapshot: Snapshot, stuck: list[bool], state: PlayState, episode: int, readings: Fields) -> Fields:
+    """The whole message: the bodies, the fields that the game and the operator determine, and `Sights.readings`."""
     fields, away = bodies_fields(snapshot, stuck), state.absences
     for name, robot in fields["robots"].items():
         robot["off_field"] = away[name].why if name in away else None
-    return {**fields, "clock": state.clock, "episode": episode}
+    return {**fields, "clock": state.clock, "episode": episode, **readings}
 
 
 def bodies_fields(snapshot: Snapshot, stuck: list[bool]) -> Fields:

@@ -48,7 +48,8 @@ class Episode:
         Raises:
             TouchlineError: a brain cannot be loaded, or the recording cannot be written.
         """
-        self._match = InProcessMatch(config, {} if advised else dict.fromkeys(controlled, _Seat()), folder)
+        seats = {} if advised else dict.fromkeys(controlled, _Seat())
+        self._match = InProcessMatch(config, seats, folder, chained=recording is not None)
         self._simulation, brains = self._match.simulation, self._match.brains
         self._brains = {name: brain for name, brain in brains.items() if name not in controlled}
         self._advisers = {name: brains[name] for name in controlled} if advised else {}

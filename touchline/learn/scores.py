@@ -24,7 +24,7 @@ def scores(
     """
     loaded, found = load_task(task, brain, overrides), []
     for seed in seeds:
-        match = InProcessMatch(loaded.episode(seed), brain_folder=loaded.folder)
+        match = InProcessMatch(loaded.episode(seed), brain_folder=loaded.folder, chained=False)
         try:
             while not match.simulation.over:
                 match.step()

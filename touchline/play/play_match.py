@@ -50,9 +50,16 @@ class InProcessMatch:
     """One match laid out in one process: brains around a simulation, stepped by hand."""
 
     def __init__(
-        self, config: MatchConfig, brains: Mapping[str, BrainSource] | None = None, brain_folder: Path | None = None
+        self,
+        config: MatchConfig,
+        brains: Mapping[str, BrainSource] | None = None,
+        brain_folder: Path | None = None,
+        *,
+        chained: bool = True,
     ) -> None:
         """Brains by robot; the others are the match file's, looked for in `brain_folder` first.
+
+        `chained` is that of `sim_host.match.simulation.Simulation`.
 
         Raises:
             RobotNotStartedError: a brain cannot be loaded.
@@ -62,7 +69,7 @@ class InProcessMatch:
         """The robot whose brain is built or acts; after an exception, the robot whose brain raised it."""
         self.commands: dict[str, Command] = {}
         """Robot → its newest command; empty before the first."""
-        self.simulation = Simulation(config)
+        self.simulation = Simulation(config, chained=chained)
         setup = self.simulation.setup()
         self._given = given = brains or {}
         for robot in (robot for side in config.remote_sides for robot in config.robots(side)):

@@ -70,8 +70,8 @@ class Outbox:
         if self._state_schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
             published = state.game_state(tick.tick, tick.time, episode)
             self._newest_state = (published, self._state.put(published))
-        for side, robot, belief in tick.beliefs:
-            self._beliefs[robot, side].put_payload(belief)
+        for side, belief in tick.beliefs:
+            self._beliefs[belief.robot, side].put(belief)
         self._world.put_fields(tick.world)
         self._applied.put_payload(tick.applied_encoded)
         self._publish_bodies(tick)

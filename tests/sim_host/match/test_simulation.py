@@ -84,7 +84,7 @@ def test_a_sight_holds_what_the_robot_needs_and_nothing_of_the_others_names(simu
 
 def test_a_word_on_the_radio_reaches_teammates_and_the_coach(simulation: Simulation) -> None:
     tick = simulation.step({"cyan2": command(simulation, radio=Radio(role="striker", intention="shoot"))})
-    assert [(side, robot) for side, robot, _ in tick.beliefs] == [(Side.CYAN, "cyan2")]
+    assert [(side, belief.robot) for side, belief in tick.beliefs] == [(Side.CYAN, "cyan2")]
     for _ in range(5):
         tick = simulation.step({})
     assert sight(tick, "cyan3").radio["cyan2"].role == "striker"
@@ -97,8 +97,8 @@ def test_a_radio_message_is_delivered_and_published_unchanged() -> None:
     one = simulate(radio__delay=0.0, radio__jitter=0.0, radio__loss=0.0)
     tick = one.step({"cyan2": Command.decode(Command(answers_tick=0, radio=word).encode())})
     one.close()
-    [(_, _, belief)] = tick.beliefs
-    assert Belief.decode(belief) == Belief(tick=1, time=tick.time, robot="cyan2", radio=word)
+    [(_, belief)] = tick.beliefs
+    assert Belief.decode(belief.encode()) == Belief(tick=1, time=tick.time, robot="cyan2", radio=word)
     heard = sight(tick, "cyan3").radio
     assert heard == {"cyan2": ReceivedRadio.of(word, heard["cyan2"].age)}
 
@@ -138,6 +138,27 @@ def test_the_order_in_which_answers_arrive_changes_nothing() -> None:
         sights.append(one.now.sights)
         one.close()
     assert sights[0] == sights[1]
+
+
+def test_without_a_hash_chain_a_match_is_the_same_and_its_inputs_are_not_reported() -> None:
+    config = load_match(None, {"duration": 8.0})
+    chained, plain = Simulation(config), Simulation(config, chained=False)
+    for _ in range(60):
+        said = {name: command(chained, drive=Drive(vx=1.0), dribble=True) for name in chained.roster.names}
+        one, other = chained.step(said), plain.step(said)
+    assert one.world == other.world and dict(one.sights) == dict(other.sights)
+    assert one.applied["chain"] and not other.applied and not other.applied_encoded
+    chained.close()
+    plain.close()
+
+
+def test_the_world_of_a_tick_stays_what_it_was_when_it_is_read_later(simulation: Simulation) -> None:
+    before = simulation.now
+    simulation.step({"cyan2": command(simulation, drive=Drive(vx=1.0))})
+    at_once = simulation.now.world
+    simulation.step({"cyan2": command(simulation, drive=Drive(vx=1.0))})
+    assert (before.world["tick"], at_once["tick"], simulation.now.world["tick"]) == (0, 1, 2)
+    assert before.world["robots"]["cyan2"]["vx"] == 0.0 < at_once["robots"]["cyan2"]["vx"]
 
 
 def test_a_checkpoint_is_made_at_every_kick_off_and_recorded() -> None:
