@@ -35,6 +35,9 @@ _OBSTACLE = struct.Struct("<7d")
 
 _ZERO: Vector = (0.0, 0.0, 0.0)
 
+_idle: list[int] = []
+"""The client of an engine that was closed; its 35 MB take longer to get than the bodies of a world to make."""
+
 
 class Engine:
     """One physical world; bodies are addressed by their index in the roster."""
@@ -47,8 +50,8 @@ class Engine:
         self.restitution = max([surface_restitution(model.body, profile) for model in roster.models], default=0.0)
         """Of the robots' surfaces, the largest: see `surface_restitution`."""
         self._heights = [model.body.height / 2 for model in roster.models]
-        self.client = pybullet.connect(pybullet.DIRECT)
-        self._free = weakref.finalize(self, pybullet.disconnect, self.client)
+        self.client = _client()
+        self._free = weakref.finalize(self, _release, self.client)
         self._free.atexit = False  # the process frees its memory by itself
         self._make = BodyMaker(self.client, profile)
         self._lift = GRAVITY * profile.time.physics_step
@@ -61,7 +64,7 @@ class Engine:
         self._build()
 
     def close(self) -> None:
-        """Free the engine's memory, 35 MB, without waiting until Python collects this object."""
+        """Leave the engine's memory to the next engine, without waiting until Python collects this object."""
         self._free()
 
     def _build(self) -> None:
@@ -322,6 +325,23 @@ class Engine:
     def _robot_contacts(self) -> set[tuple[int, int]]:
         """Pairs of robots that touched each other in the last step, the smaller index first."""
         return contacts.of_robots(self.client, self._robot_of)
+
+
+def _client() -> int:
+    """A client of PyBullet, in the memory of an engine that was closed if there is one."""
+    try:
+        return _idle.pop()
+    except IndexError:
+        client: int = pybullet.connect(pybullet.DIRECT)
+        return client
+
+
+def _release(client: int) -> None:
+    """Keep a client for the next engine; of several, the others free their memory."""
+    if _idle:
+        pybullet.disconnect(client)
+    else:
+        _idle.append(client)
 
 
 def _pack(obstacle: ObstacleState) -> bytes:

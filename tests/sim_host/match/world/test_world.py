@@ -63,3 +63,20 @@ def test_the_snapshot_has_the_spin_of_a_ball_that_rolls(rig: WorldRig) -> None:
     snapshot = rig.tick()
     ball = snapshot.ball
     assert snapshot.ball_spin == approx((-ball.vy / radius, ball.vx / radius), rel=0.02)
+
+
+def test_a_world_in_the_memory_of_a_closed_one_has_the_same_history() -> None:
+    """A used engine has had other bodies and contacts; of two that are open, one at least had memory of its own."""
+    profile = load_profile("msl")
+    histories, clients = [], []
+    other = WorldRig(profile)
+    for _ in range(2):
+        rig = WorldRig(profile)
+        rig.place(cyan1=(-0.5, 0, 0), cyan2=(0, 0.6, -1.5), magenta1=(0.9, 0.1, math.pi), ball=(0.2, 0, 0))
+        told = {name: drive(vx=2.0, omega=0.5, dribble=True) for name in rig.roster.names}
+        histories.append([(rig.tick(**told).contacts, rig.world.chain()) for _ in range(60)])
+        clients.append(rig.engine.client)
+        rig.world.close()
+    other.world.close()
+    assert clients[0] == clients[1] and histories[0] == histories[1]
+    assert any(touching for touching, _ in histories[0])
