@@ -39,8 +39,10 @@ class BrainFolders:
 
     def add_to_module_path(self) -> None:
         """Append the folders to Python's module path; those that are on it stay where they are."""
-        known = {Path(entry).resolve() for entry in sys.path}
-        new = [str(path) for path in self.paths if path not in known]
+        new = [str(path) for path in self.paths if str(path) not in sys.path]
+        if new:  # unless they are there by another name
+            known = {Path(entry).resolve() for entry in sys.path}
+            new = [path for path in new if Path(path) not in known]
         sys.path.extend(new)
         _added.extend(new)
 

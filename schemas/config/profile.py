@@ -93,10 +93,8 @@ class Profile:
     def robot_of_type(self, name: str) -> dict[str, Any]:
         """Section of `TYPE_SECTIONS` → its numbers for a type of robot."""
         changes = self.types[name] if name != STANDARD else {}
-        return {
-            section: dataclasses.replace(getattr(self, section), **changes.get(section, {}))
-            for section in TYPE_SECTIONS
-        }
+        own = {section: getattr(self, section) for section in TYPE_SECTIONS}
+        return own | {section: dataclasses.replace(own[section], **numbers) for section, numbers in changes.items()}
 
     def with_types(self, tables: Mapping[str, Any], where: str) -> "Profile":
         """The same profile with the types of a match file: new ones, or other numbers for existing ones.

@@ -160,6 +160,8 @@ class LiveParameters:
 
     def changes_since(self, before: "LiveParameters") -> dict[str, Setting]:
         """Differences from an earlier state: name → its setting now."""
+        if (self.profile, self.preset) == (before.profile, before.preset):
+            return {}
         now, then = self._settings(), before._settings()
         return {name: setting for name, setting in now.items() if setting != then[name]}
 
