@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from touchline.drawing.bodies import draw_bodies
-from touchline.drawing.pitch import draw_floor, draw_pitch
+from touchline.drawing.pitch import draw_floor, draw_pitch, draw_zones
 
 DPI = 100
 
@@ -23,10 +23,9 @@ def drawn(setup: Setup, worlds: Sequence[World], width: float, dpi: int = DPI) -
     """
     figure = Figure(dpi=dpi)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    if setup.free is None:
-        draw_pitch(axes, setup.pitch)
-    else:
-        draw_floor(axes, setup.pitch, setup.free.zones)
+    draw_ground = draw_pitch if setup.free is None else draw_floor
+    draw_ground(axes, setup.pitch)
+    draw_zones(axes, setup.task.zones if setup.task is not None else ())
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     scale = width / (right - left)
     figure.set_size_inches(width, scale * (high - low))

@@ -1,7 +1,7 @@
-"""Draws the pitch of soccer, or the floor of a free game, in m in the field frame."""
+"""Draws the pitch of soccer, or the floor of a free game, and zones, in m in the field frame."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Rectangle
@@ -20,7 +20,7 @@ _ZONE = {"facecolor": "#7fe3fa26", "edgecolor": "#c7d8cf", "lw": 1.3, "zorder": 
 
 def draw_pitch(axes: Axes, pitch: Pitch) -> None:
     """Draw the pitch below everything else, x to the right and y up, and set the limits of the axes to it."""
-    draw_floor(axes, pitch, ())
+    draw_floor(axes, pitch)
     axes.plot([0, 0], [-pitch.touch_line, pitch.touch_line], color=_LINE, lw=1.3, zorder=1)
     _arc(axes, 0, 0, pitch.centre_circle_radius, 0, 360)
     for x, y in pitch.restart_spots:
@@ -29,8 +29,8 @@ def draw_pitch(axes: Axes, pitch: Pitch) -> None:
         _end(axes, pitch, sign)
 
 
-def draw_floor(axes: Axes, pitch: Pitch, zones: Sequence[Zone]) -> None:
-    """Draw the floor of a free game, with its zones and their names, and set the limits of the axes to it."""
+def draw_floor(axes: Axes, pitch: Pitch) -> None:
+    """Draw the floor of a free game, and set the limits of the axes to it."""
     _ground(axes, pitch)
     margin_x = pitch.border + pitch.goal_depth * 0.2
     axes.set_xlim(-pitch.goal_line - margin_x, pitch.goal_line + margin_x)
@@ -38,6 +38,10 @@ def draw_floor(axes: Axes, pitch: Pitch, zones: Sequence[Zone]) -> None:
     axes.set_aspect("equal")
     axes.set_axis_off()
     _box(axes, -pitch.goal_line, -pitch.touch_line, pitch.length, pitch.width)
+
+
+def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
+    """Draw zones with their names."""
     for zone in zones:
         x, y = zone.place
         if zone.size is None:

@@ -3,7 +3,7 @@
 import { drawBeliefs, drawPasses } from "./beliefs.js";
 import { drawDrawings } from "./drawings.js";
 import { drawDistances } from "./distances.js";
-import { drawFloor } from "./floor.js";
+import { drawFloor, drawZones } from "./floor.js";
 import { fillGoals, writeTeams } from "./goals.js";
 import { drawGhost, drawMarkedRobot, drawObstacle, drawVelocity } from "./marked_bodies.js";
 import { Readings } from "./readings.js";
@@ -70,10 +70,13 @@ export class PitchCanvas {
     document.documentElement.style.setProperty("--ratio", String(projection.ratio));
     const context = projection.resize(this.ground);
     drawGrass(context, projection, pitch, match.free !== null);
-    if (match.free) return drawFloor(context, projection, pitch, match.free.zones);
-    fillGoals(context, projection, pitch, defends);
-    drawLines(context, projection, pitch);
-    writeTeams(context, projection, pitch, teams, defends);
+    if (match.free) drawFloor(context, projection, pitch);
+    else {
+      fillGoals(context, projection, pitch, defends);
+      drawLines(context, projection, pitch);
+      writeTeams(context, projection, pitch, teams, defends);
+    }
+    drawZones(context, projection, match.setup.task?.zones ?? []);
   }
 
   #drawWorld(context, world) {
