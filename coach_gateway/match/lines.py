@@ -54,7 +54,7 @@ def waiting_phrases(state: GameState, names: TeamNames = SIDES_ALONE) -> list[st
 
 def state_line(state: GameState, names: TeamNames = SIDES_ALONE) -> str:
     """Clock, half, score and phase, robots with cards or off the field, and what is proposed."""
-    half = [half_text(state)] if names.unit is None else []
+    half = [half_text(state)] if names.has_goals else []
     score = names.score(state.score, state.value)
     parts = [f"{clock_text(state.clock):>7}", *half, score, phase_text(state, names)]
     discipline = discipline_phrases(state)

@@ -26,12 +26,14 @@ class TeamNames:
     magenta: str = Side.MAGENTA.value
     playing: tuple[Side, ...] = tuple(Side)
     """The sides that have robots."""
-    unit: str | None = None
-    """Unit of the score of a game without goals; None for a game with goals."""
+    unit: str = ""
+    """Unit of the score of a task."""
+    has_goals: bool = True
+    """Whether the game has goals; one without has only the score of its task."""
 
     @classmethod
     def of(
-        cls, names: Mapping[Side, str], playing: Collection[Side] = tuple(Side), unit: str | None = None
+        cls, names: Mapping[Side, str], playing: Collection[Side] = tuple(Side), unit: str = "", *, goals: bool = True
     ) -> "TeamNames":
         """Two different names: a name that both teams have, or that is the other side's, gets its side."""
         shown = {side: printable(names[side]).strip() or side.value for side in Side}
@@ -39,21 +41,22 @@ class TeamNames:
         for side in Side:
             if is_same or shown[side].casefold() == side.opponent.value:
                 shown[side] = f"{shown[side]} ({side.value})"
-        return cls(shown[Side.CYAN], shown[Side.MAGENTA], tuple(side for side in Side if side in playing), unit)
+        sides = tuple(side for side in Side if side in playing)
+        return cls(shown[Side.CYAN], shown[Side.MAGENTA], sides, printable(unit), goals)
 
     @classmethod
     def of_match(cls, config: MatchConfig) -> "TeamNames":
         """The names in a match file."""
         playing = [side for side in Side if config.robots(side)]
-        unit = config.free.unit if config.free is not None else None
-        return cls.of({side: config.team(side).name for side in Side}, playing, unit)
+        unit = config.task.unit if config.task is not None else ""
+        return cls.of({side: config.team(side).name for side in Side}, playing, unit, goals=config.free is None)
 
     @classmethod
     def of_setup(cls, setup: Setup) -> "TeamNames":
         """The names that a host publishes."""
         playing = [side for side in Side if setup.teams[side].robots]
-        unit = printable(setup.free.unit) if setup.free is not None else None
-        return cls.of({side: setup.teams[side].name for side in Side}, playing, unit)
+        unit = setup.task.unit if setup.task is not None else ""
+        return cls.of({side: setup.teams[side].name for side in Side}, playing, unit, goals=setup.free is None)
 
     def __getitem__(self, side: Side) -> str:
         return self.cyan if side is Side.CYAN else self.magenta
@@ -65,10 +68,10 @@ class TeamNames:
         return name if name == side.value else name + suffix
 
     def score(self, score: Score, value: float | None = None) -> str:
-        """`Lions 2 : 0 NuBot`; the `value` of a game without goals as `score 0.25 m`."""
-        if value is not None or self.unit is not None:
-            return f"score {score_text(value, self.unit or '')}"
-        return f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}"
+        """`Lions 2 : 0 NuBot`; the `value` of a task as `score 0.25 m`, after the goals where the game has any."""
+        goals = [f"{self.cyan} {score.cyan} : {score.magenta} {self.magenta}"] if self.has_goals else []
+        task = [] if value is None and self.has_goals else [f"score {score_text(value, self.unit)}"]
+        return ", ".join([*goals, *task])
 
     def in_text(self, text: str) -> str:
         """The text of an event with the teams' names in place of the sides'; names of robots stay."""

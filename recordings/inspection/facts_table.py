@@ -18,13 +18,12 @@ def key_rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
 
 def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
     """Name and value of each fact, without unknown ones."""
-    score = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
-    if facts.value is not None:
-        score = score_text(facts.value, facts.unit)
+    goals = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
+    task = score_text(facts.value, facts.unit) if facts.value is not None else None
     values: dict[str, str | None] = {
         "match": facts.match,
         "teams": " – ".join(facts.teams.values()) or None,
-        "score": score,
+        "score": ", of the task ".join(part for part in (goals, task) if part is not None) or None,
         "phase": facts.phase,
         "ended": facts.ended,
         "pace": facts.pace,

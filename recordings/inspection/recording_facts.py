@@ -61,8 +61,9 @@ class RecordingFacts:
     """Simulated time of that tick, in s."""
     phase: str | None
     score: dict[str, int] | None
+    """Side → its goals; None for a game without goals."""
     value: float | None
-    """Score of a game without goals."""
+    """Score of a task."""
     unit: str
     """Unit of that score; empty without one."""
     ended: str
@@ -100,7 +101,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         for side, team in (setup.teams if setup is not None else {}).items()
         if team.robots or setup is None or setup.free is None
     }
-    free = described.free if described is not None else None
+    task, has_goals = (described.task, described.free is None) if described is not None else (None, True)
     return RecordingFacts(
         path=str(recording.path),
         complete=recording.complete,
@@ -108,7 +109,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         pace=described.pace if described is not None else None,
         profile=described.profile if described is not None else None,
         profile_version=setup.profile_version if setup is not None else UNVERSIONED,
-        rules=described.rules if described is not None and free is None else None,
+        rules=described.rules if described is not None and has_goals else None,
         rules_version=setup.rules_version if setup is not None else UNVERSIONED,
         seed=config.seed if config is not None else None,
         teams=teams,
@@ -119,9 +120,9 @@ def facts_of(recording: Recording) -> RecordingFacts:
         tick=ending.tick,
         time=ending.time,
         phase=ending.phase.value if ending.phase is not None else None,
-        score=ending.score.plain() if ending.score is not None else None,
+        score=ending.score.plain() if ending.score is not None and has_goals else None,
         value=ending.value,
-        unit=free.unit if free is not None else "",
+        unit=task.unit if task is not None else "",
         ended=ended,
         events=ending.events,
         messages=ending.messages,

@@ -60,11 +60,13 @@ def log_entry(event: GameEvent, log_ns: int) -> bytes:
 
 
 def _score_text(state: GameState, setup: Setup) -> str:
-    """The score, in the order of the teams' names on the board; that of a free game with its unit."""
+    """The goals, in the order of the teams' names on the board; the score of a task with its unit."""
+    task = score_text(state.value, setup.task.unit) if setup.task is not None else ""
     if setup.free is not None:
-        return score_text(state.value, setup.free.unit)
+        return task
     sides = (Side.CYAN, Side.MAGENTA) if state.cyan_attacks > 0 else (Side.MAGENTA, Side.CYAN)
-    return " : ".join(str(state.score.of(side)) for side in sides)
+    goals = " : ".join(str(state.score.of(side)) for side in sides)
+    return f"{goals}, {task}" if task else goals
 
 
 def _phase_text(state: GameState) -> str:

@@ -105,7 +105,7 @@ class MatchResult:
     def _summary(self) -> str:
         """Score by halves, penalties, ball in play, and each robot's cards at the end."""
         parts = [str(self.names)] if self.names != SIDES_ALONE else []
-        if self.state.value is not None:
+        if not self.names.has_goals:
             return "; ".join(parts)
         parts += ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
         if self.state.shoot_out is not None:

@@ -3,6 +3,10 @@ import pytest
 from coach_gateway.match.lines import event_line, state_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.soccer.rule_book import load_rule_book
+from schemas.config.task import GameName, TaskConfig
+from schemas.messages.setup import Setup
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.side import Side
 from schemas.soccer.game import EventKind, Phase, Score
@@ -29,6 +33,25 @@ def named(cyan: str, magenta: str) -> TeamNames:
 )
 def test_a_score_names_two_different_teams(cyan: str, magenta: str, score: str) -> None:
     assert named(cyan, magenta).score(Score(cyan=2, magenta=0)) == score
+
+
+@pytest.mark.parametrize(
+    ("game", "value", "score"),
+    [
+        (GameName.SOCCER, 6.74, "Simple 0 : 0 NuBot, score 6.74 s"),
+        (GameName.SOCCER, None, "Simple 0 : 0 NuBot"),
+        (GameName.FREE, 6.74, "score 6.74 s"),
+        (GameName.FREE, None, "score –"),
+    ],
+)
+def test_the_score_of_a_task_has_its_unit_and_stands_after_goals(
+    game: GameName, value: float | None, score: str
+) -> None:
+    task = TaskConfig(score="a:b", unit="s")
+    config = load_match(None).model_copy(update={"game": game, "task": task, "duration": 9.0})
+    setup = Setup.of(config, load_profile(config.profile), load_rule_book(config.rules))
+    for names in (TeamNames.of_match(config), TeamNames.of_setup(setup)):
+        assert names.score(Score(), value) == score
 
 
 @pytest.mark.parametrize(

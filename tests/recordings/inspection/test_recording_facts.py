@@ -7,6 +7,9 @@ from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
 from recordings.inspection.recording_facts import CUT_OFF, facts_of
 from recordings.reading.recording import open_recording
 from schemas.soccer.game import Phase, Score
+from support.task_match import task_match
+from touchline.play.match_recording import MatchRecording
+from touchline.play.play_match import InProcessMatch
 
 
 def test_the_facts_are_those_that_were_written(recorded):
@@ -90,7 +93,21 @@ def test_the_summary_has_all_facts_in_words_and_leaves_unknown_ones_out(recorded
     ).keys()
     assert names == {"match", "ended", "started", "duration", "messages", "events", "size"}
     assert dict(summary_lines(replace(unknown, tick=0)))["last tick"] == f"0 at {facts.time:.2f} s"
-    assert dict(summary_lines(replace(facts, value=0.25, unit="m")))["score"] == "0.25 m"
+    scored = replace(facts, score={"cyan": 2, "magenta": 1}, value=0.25, unit="m")
+    assert dict(summary_lines(scored))["score"] == "2 : 1, of the task 0.25 m"
+    assert dict(summary_lines(replace(scored, score=None)))["score"] == "0.25 m"
+
+
+def test_the_facts_of_a_task_in_soccer_are_goals_and_its_score_with_the_unit(tmp_path):
+    match = InProcessMatch(task_match(tmp_path, duration=0.1, **{"task.unit": "m"}))
+    recording = MatchRecording(tmp_path / "task.mcap", match.simulation.config, match.simulation)
+    while not match.simulation.over:
+        recording.add(match.step(), match.commands)
+    recording.close()
+    match.close()
+    facts = facts_of(open_recording(tmp_path / "task.mcap"))
+    assert (facts.score, facts.unit, facts.rules) == ({"cyan": 0, "magenta": 0}, "m", "friendly")
+    assert dict(summary_lines(facts))["score"] == f"0 : 0, of the task {facts.value:.6g} m"
 
 
 def test_the_summary_names_match_teams_numbers_and_losses(recorded):

@@ -19,7 +19,7 @@ from schemas.config.sensors.compass import CompassReading
 from schemas.config.sensors.range import RangeReading
 from schemas.config.soccer.rule_book import load_rule_book
 from schemas.messages.applied import Applied
-from schemas.messages.setup import Setup
+from schemas.messages.setup import Setup, TaskSetup
 from schemas.messages.soccer.game import GameEvent, GameState
 from schemas.messages.world import BallTruth, ObstacleTruth, PushedTruth, RobotTruth, World
 from schemas.side import Side
@@ -273,6 +273,8 @@ def test_the_board_has_each_team_at_the_half_that_it_defends(board, setup):
     places = {text.text: text.pose.position.x for text in turned}
     assert places["Water"] > 0 > places["NuBot"]
     assert "1 : 2" in places, "in the order of the names"
+    scored = Board(setup.replace(task=TaskSetup(score="a:b", unit="s")))
+    assert scored.scene(GAME, state.replace(value=6.74), topic=STATE)["board"].texts[1].text == "2 : 1, 6.74 s"
 
 
 @pytest.mark.parametrize(("kind", "level"), [(EventKind.GOAL, 2), (EventKind.FOUL, 3), (EventKind.FORFEIT, 4)])

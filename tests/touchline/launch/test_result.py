@@ -127,5 +127,6 @@ def test_what_people_have_written_into_an_event_is_shown_as_it_is() -> None:
 
 
 def test_the_score_of_a_game_without_goals_is_shown_in_their_place() -> None:
-    shown = render(replace(result(), state=result().state.replace(value=0.953)))
+    names = TeamNames(has_goals=False)
+    shown = render(replace(result(), names=names, state=result().state.replace(value=0.953)))
     assert "score 0.953   120.0 s played" in shown and "2 : 1" not in shown and "halves" not in shown

@@ -10,6 +10,7 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, waiting_phrases
 from coach_gateway.match.orders import OrderBook
 from coach_gateway.match.team_names import TeamNames, printable
+from schemas.config.task import score_text
 from schemas.messages.coach import CoachOrder
 from schemas.messages.debug import RobotDebug
 from schemas.messages.health import Health
@@ -77,13 +78,14 @@ def head(setup: Setup, state: GameState | None) -> Text:
     if state is None:
         return Text(f"{' – '.join(names[side] for side in names.playing)}  waiting for the robots")
     phase = (phase_text(state, names), Style(bold=True))
-    if names.unit is not None:
+    if not names.has_goals:
         score = (f" {names.score(state.score, state.value)} ", Style(bold=True))
         return Text.assemble(score, f"  {clock_text(state.clock)}  ", phase)
     line = Text.assemble(
         (f" {names[Side.CYAN]} ", SIDES[Side.CYAN]),
         (f" {state.score.cyan} : {state.score.magenta} ", Style(bold=True)),
         (f" {names[Side.MAGENTA]} ", SIDES[Side.MAGENTA]),
+        f"  score {score_text(state.value, names.unit)}" if state.value is not None else "",
         f"  {clock_text(state.clock)}  {half_text(state)}  ",
         phase,
     )

@@ -1,6 +1,6 @@
 // The match as the gateway sends it: what is known, and handlers for changes.
 
-import { freeScore } from "../parts/text.js";
+import { taskScore } from "../parts/text.js";
 import { FrameBuffer } from "./frame_buffer.js";
 
 const MOST_EVENTS = 5000;
@@ -93,7 +93,7 @@ export class Match {
     return [...listed, ...Object.keys(there).filter((name) => !listed.includes(name))];
   }
 
-  /** The game `free`: its unit and zones; null in soccer. */
+  /** The task of the game `free`: its unit and zones; null in soccer. */
   get free() {
     return this.setup?.game === "free" ? this.setup.task : null;
   }
@@ -107,7 +107,7 @@ export class Match {
   get scoreText() {
     const { state, free } = this;
     if (state === null) return free ? "–" : "– : –";
-    return free ? freeScore(state.value, free.unit) : `${state.score.cyan} : ${state.score.magenta}`;
+    return free ? taskScore(state.value, free.unit) : `${state.score.cyan} : ${state.score.magenta}`;
   }
 
   /** Whether this role may do a deed; `side` is the side it is for, or null. */

@@ -2,7 +2,7 @@
 
 import { byId, mark, setText, show } from "../shared/elements.js";
 import { proposalOf } from "../parts/proposal.js";
-import { capitalized, clockText, halfText, orderText, phaseText, readable } from "../parts/text.js";
+import { capitalized, clockText, halfText, orderText, phaseText, readable, taskScore } from "../parts/text.js";
 
 export class Scoreboard {
   #score = null;
@@ -31,7 +31,8 @@ export class Scoreboard {
     setText(byId("phase"), state ? phaseText(state, teams) : "Not begun");
     byId("phase").dataset.side = state?.side ?? "";
     mark(byId("phase"), "running", this.#heard && state?.running === true);
-    setText(byId("half"), state ? halfText(state) : "");
+    const { task } = match.setup;
+    setText(byId("half"), state ? (task ? `Score ${taskScore(state.value, task.unit)}` : halfText(state)) : "");
     setText(byId("left"), typeof state?.left === "number" && state.phase !== "full_time" ? `${Math.ceil(state.left)} s left` : "");
     setText(byId("people"), state ? disciplineLine(state) : "");
     setText(byId("in-force"), inForce(match));

@@ -44,8 +44,8 @@ export function orderText(order) {
   return order?.mode === "play" ? (order.tactic ?? "") : (order?.mode ?? "");
 }
 
-/** A score of a free game with six digits and its unit; a dash before the first tick. */
-export const freeScore = (value, unit) => (typeof value === "number" ? `${Number(value.toPrecision(6))} ${unit}`.trim() : "–");
+/** The score of a task with six digits and its unit; a dash before the first tick. */
+export const taskScore = (value, unit) => (typeof value === "number" ? `${Number(value.toPrecision(6))} ${unit}`.trim() : "–");
 
 /** `Half 1`, `Extra time, half 3`, or `Penalties 4 : 3`. */
 export function halfText(state) {

@@ -11,6 +11,11 @@ ZONES = [
     {"name": "dock", "place": [5.0, 5.0], "radius": 1.0},
     {"name": "lane", "place": [-6.0, 2.0], "size": [3.0, 1.0]},
 ]
+SOCCER = {
+    "description": "A test.",
+    "ball": {"x": 1.0, "y": 0.0},
+    "robots": [{"name": "cyan1", "side": "cyan", "x": 0.0, "y": 0.0}],
+}
 SHADES = """([x, y, layer]) => {
     const { projection } = window.touchline.pitchCanvas, canvas = document.getElementById(layer);
     const at = [projection.x(x), projection.y(y)].map((pixel) => Math.round(pixel * projection.density));
@@ -58,6 +63,15 @@ def test_zones_are_on_the_floor_and_the_box_is_lighter_where_it_has_been_pushed_
     request = "{ operation: 'place', place: [{ body: 'box', x: -2, y: 3 }] }"
     tab.ask(f"window.touchline.connection.ask('scene', {{ request: {request} }})")
     tab.until(f"({SHADES})([-2, 3, 'moving']) === {box} && ({SHADES})([1, 0, 'moving']) !== {box}")
+
+
+def test_the_pitch_of_soccer_has_the_zones_of_a_task_and_its_score_beside_the_goals(match_of, visit) -> None:
+    task = {"score": "tally:plain", "program": SCORE, "unit": "s", "zones": ZONES}
+    tab = visit(match_of(still=True, task=task, scene=SOCCER))
+    tab.until(r"/^Score \d[.\d]* s$/.test(document.getElementById('half').textContent)")
+    assert tab.page.locator("#score").inner_text() == "0 : 0"
+    grass = tab.page.evaluate(SHADES, [5.2, -5.0, "ground"])
+    assert tab.page.evaluate(SHADES, [5.2, 5.0, "ground"]) > grass
 
 
 def test_the_result_has_the_score_at_the_end(match_of, visit, tmp_path: Path) -> None:

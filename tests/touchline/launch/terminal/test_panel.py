@@ -8,7 +8,7 @@ from runtime.bus.contract import Bus
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.radio import Belief, Radio
-from schemas.messages.setup import Setup
+from schemas.messages.setup import Setup, TaskSetup
 from schemas.messages.soccer.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
@@ -98,6 +98,11 @@ def test_a_panel_has_score_phase_events_and_the_health_of_the_host(setup: Setup)
     for words in ("Simple  2 : 1  NuBot", "1:01.0", "throw in, NuBot", "goal for Simple by cyan3", "×1.98 x2  late 3"):
         assert words in text
     assert "striker: shoot" in text
+
+
+def test_the_score_of_a_task_stands_beside_the_goals(setup: Setup) -> None:
+    of_task = setup.replace(task=TaskSetup(score="a:b", unit="s"))
+    assert "Simple  0 : 0  NuBot   score 6.74 s  " in head(of_task, state(value=6.74)).plain
 
 
 def test_control_characters_of_a_robot_do_not_reach_the_terminal(setup: Setup) -> None:
