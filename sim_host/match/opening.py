@@ -28,16 +28,16 @@ def opening_layout(config: MatchConfig, live_parameters: LiveParameters, game: G
     furniture = game.arena.furniture
     specs = Specs(profile.field, profile.ball, live_parameters.types, game.check_team_sizes, furniture)
     is_drawn = config.task is not None and bool(scene.vary)
+    check_layout(scene_layout(scene, furniture, "").layout, specs, ())  # what no draw changes
     for attempt in range(_MOST_DRAWS if is_drawn else 1):
         start = varied(scene, config.seed, attempt) if is_drawn else scene
         began = scene_layout(start, furniture, "")
         try:
             check_layout(began.layout, specs, began.layout.names)
+            return start, began
         except TouchlineError as error:
             fault = error
-            continue
-        return start, began
-    raise fault
+    raise TouchlineError(f"none of {_MOST_DRAWS} starts fits: {fault}") if is_drawn else fault
 
 
 def opening_state(config: MatchConfig, game: Game) -> Any:

@@ -88,5 +88,12 @@ def test_a_start_whose_bodies_overlap_is_drawn_again(play) -> None:
 
 def test_a_scene_without_room_is_refused(play) -> None:
     full = SCENE | {"obstacles": [SCENE["obstacles"][0] | {"place": [0.0, 0.0]}], "vary": [{"body": "post", "x": 0.01}]}
-    with pytest.raises(TouchlineError, match="post"):
+    with pytest.raises(TouchlineError, match=r"none of 100 starts fits: .*post"):
         play(scene=full)
+
+
+def test_no_start_is_drawn_for_more_robots_than_the_game_allows(play, monkeypatch: pytest.MonkeyPatch) -> None:
+    robots = [{"name": f"cyan{number}", "side": "cyan", "x": -number, "y": 2.0} for number in range(1, 9)]
+    monkeypatch.setattr("sim_host.match.opening.varied", lambda *_: pytest.fail("a start was drawn"))
+    with pytest.raises(TouchlineError, match=r"cyan .*8"):
+        play(rules="msl", scene=SCENE | {"robots": robots, "vary": [{"body": "ball", "y": 3.0}]})
