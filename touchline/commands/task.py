@@ -10,7 +10,7 @@ from schemas.config.shipped_teams import brain_of
 from schemas.errors import TouchlineError
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
-from touchline.launch.terminal.aligned import aligned
+from touchline.launch.terminal.aligned import aligned, counted
 from touchline.launch.terminal.json_text import json_text
 from touchline.matches.series.seeds import seeds_of
 
@@ -41,7 +41,7 @@ def list_tasks(json: options.Json = False) -> None:
     if json:
         typer.echo(json_text({"tasks": [_described(task) for task in tasks]}))
         return
-    rows = [(one["task"], one["game"], f"{one['robots']} robots", one["unit"]) for one in map(_described, tasks)]
+    rows = [(one["task"], one["game"], counted(one["robots"], "robot"), one["unit"]) for one in map(_described, tasks)]
     for line, task in zip(aligned(rows), tasks, strict=True):
         typer.echo(f"{line}  {task.description}")
 
@@ -51,7 +51,9 @@ def run(
     task: Annotated[str, typer.Argument(metavar="TASK", help="A task by name, or the path of its match file.")],
     brain: Annotated[
         str | None,
-        typer.Option(metavar="TEAM", help="Who does it: a shipped team, or module:Class; by default the baseline."),
+        typer.Option(
+            metavar="TEAM", help="Who does it: a shipped team, module:Class or policy:FILE; by default the baseline."
+        ),
     ] = None,
     episodes: Annotated[int | None, typer.Option(min=1, help="Number of episodes, with the seeds from 1 on.")] = None,
     seeds: Annotated[str | None, typer.Option(metavar="SEEDS", help=f"Seeds; by default {DEFAULT_SEEDS}.")] = None,
@@ -148,7 +150,7 @@ def _print(task: "Task", result: "TaskResult", kept: "Failures | None", *, json:
     if score is not None and result.time is not None:
         unit = f" {task.unit}".rstrip()
         interval = "" if score.low is None else f" ({score.low:.4g} to {score.high:.4g})"
-        line = f"{task.name}: {score.value:.4g}{unit}{interval} in {len(result.episodes)} episodes"
+        line = f"{task.name}: {score.value:.4g}{unit}{interval} in {counted(len(result.episodes), 'episode')}"
         typer.echo(f"{line}; from {result.least:.4g} to {result.most:.4g}, {result.time:.1f} s each")
     if len(result.episodes) + len(result.failed) < result.planned:
         typer.echo(f"{result.planned - len(result.episodes) - len(result.failed)} not played")

@@ -12,6 +12,7 @@ from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
 from touchline.launch.confinement.team_code import team_code
+from touchline.launch.terminal.aligned import counted
 from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
@@ -142,7 +143,7 @@ def _verify(folder: Path, jobs: int, sample: int | None, brains: Path | None, *,
     else:
         for line in (*verdict.notes, *verdict.faults):
             typer.echo(line)
-        faults = f"{len(verdict.faults) or 'no'} fault{'s' if len(verdict.faults) != 1 else ''}"
+        faults = counted(len(verdict.faults), "fault") if verdict.faults else "no faults"
         typer.echo(f"{verdict.simulated} matches simulated again, {verdict.ticks} ticks, {faults}")
     if verdict.faults:
         raise typer.Exit(FAILED)

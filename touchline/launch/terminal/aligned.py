@@ -1,4 +1,4 @@
-"""Tables of plain text: what a command prints for people, and programs may read line by line."""
+"""Plain text that a command prints for people, and programs may read line by line: tables and counts."""
 
 from collections.abc import Sequence
 
@@ -7,3 +7,8 @@ def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     """One line for each row, in which the columns of all rows are aligned."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+def counted(number: int, noun: str) -> str:
+    """`1 robot`, `2 robots`."""
+    return f"{number} {noun}{'s' if number != 1 else ''}"

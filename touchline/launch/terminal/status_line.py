@@ -7,6 +7,7 @@ from coach_gateway.match.lines import state_line
 from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.messages.health import Health, RobotHealth
 from touchline.launch.terminal.agent_faults import agent_faults
+from touchline.launch.terminal.aligned import counted
 
 _NAMED = 4
 """Maximum number of silent robots that are named; the rest is counted."""
@@ -51,7 +52,7 @@ def robots_text(health: Health, total: int) -> str:
 def _silence(robot: RobotHealth) -> str:
     """How long a robot has been silent; empty where the host does not report it."""
     count = robot.missed_in_a_row
-    return f" {count} tick{'s' if count > 1 else ''}" if count else ""
+    return f" {counted(count, 'tick')}" if count else ""
 
 
 def losses_text(follower: MatchFollower) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from touchline.launch.terminal.aligned import counted
 from touchline.matches.engine.outcome import Failed, Outcome, Played
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.play_list import play_list
@@ -59,7 +60,7 @@ class Failures:
             f"  {one.event}: in {one.failures} of {count} of them, in {one.others} of the {self.others} others"
             for one in self.shared
         ]
-        failures = f"{count} failure{'s' if count > 1 else ''}, the worst first:" if self.kept else "no failures"
+        failures = f"{counted(count, 'failure')}, the worst first:" if self.kept else "no failures"
         return [failures, *lines, *self.missing]
 
 

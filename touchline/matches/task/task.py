@@ -68,7 +68,7 @@ def load_task(name: str, brain: str | None = None, overrides: Mapping[str, Any] 
 
     Args:
         name: the name, or a path that ends in `.toml`.
-        brain: who does it, in place of the brain in its file: `module:Class`.
+        brain: who does it, in place of the brain in its file: `module:Class` or `policy:FILE`.
         overrides: keys of its match file, with dots.
 
     Raises:

@@ -76,6 +76,7 @@ def test_the_list_has_every_task_with_what_its_score_is() -> None:
     lines = task("list").stdout.splitlines()
     assert [line.split()[0] for line in lines] == shipped_tasks()
     assert all(line.endswith(".") for line in lines)
+    assert [line.split()[2:4] for line in lines if line.startswith("goalkeeper ")] == [["1", "robot"]]
     listed = json.loads(task("list", "--json").stdout)["tasks"]
     assert listed[0].keys() == {"task", "game", "robots", "unit", "seconds", "description"}
 
@@ -142,7 +143,11 @@ def test_the_score_is_printed_also_if_a_failure_was_another_episode_when_it_was_
     result = task("run", own, *words)
     assert result.exit_code == 1, result.output
     score, *_, said = result.stdout.splitlines()
-    assert score.startswith("get_there: ") and said.startswith("get_there, seed 1 was another match")
+    assert (
+        score.startswith("get_there: ")
+        and " in 1 episode;" in score
+        and said.startswith("get_there, seed 1 was another match")
+    )
 
 
 def test_a_brain_that_raises_is_named_and_its_episode_has_no_score(own: str) -> None:
