@@ -20,7 +20,9 @@ from runtime.process.settings_file import WRONG
 from runtime.process.timing import PARTING_S
 from schemas.config.confinement import Isolation
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.messages.recorder import RecorderProgress
 from schemas.side import Side
+from schemas.topics import RECORDER_PROGRESS
 from touchline.launch.match_screen import MatchScreen
 from touchline.launch.page import address_lines
 from touchline.launch.processes.child_process import ChildProcess
@@ -62,7 +64,7 @@ class MatchRun:
         self._screen = screen
         self._clock = clock
         self._check = check
-        self._has_clients = False
+        self._has_clients = self._is_recorder_dismissed = False
         self._names = TeamNames.of_match(plan.config)
         self._remote = RemoteTeams(plan.config)
         self._match_screen = MatchScreen(plan, screen, self._remote, clock)
@@ -178,7 +180,22 @@ class MatchRun:
             self._log_watch.update(log)
         for notice in self._supervisor.check():
             self._log_watch.show(notice)
+        if self._supervisor.ended.get("recorder") and self._supervisor.host_status is None:
+            self._dismiss_recorder()
         return self._supervisor.host_status is None and self._empty_side() is None
+
+    def _dismiss_recorder(self) -> None:
+        """Tell the host that the recorder has failed for good: it would wait for its return, and again at the end."""
+        if self._is_recorder_dismissed:
+            return
+        credentials = self._plan.credentials_of(Account.RECORDER)
+        with (
+            suppress(BusError),  # the host is busy or about to end; asked again at the next look
+            open_client(self._plan.config.name, self._clock, self._plan.connect, 0.0, credentials) as bus,
+        ):
+            last = RecorderProgress(tick=-1, messages=0, lost=0, leaving=True)
+            bus.publisher(RECORDER_PROGRESS, name="recorder").put(last)
+            self._is_recorder_dismissed = True
 
     def _is_ending(self, stop: StopSignals) -> bool:
         """Whether the host has ended by itself, so that its last messages are on their way."""

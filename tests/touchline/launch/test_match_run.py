@@ -30,7 +30,7 @@ from runtime.bus.zenoh.bus import open_host
 from runtime.process.clock import WallClock
 from schemas.soccer.game import EventKind, Phase, Score
 from schemas.messages.soccer.game import GameEvent, GameState
-from schemas.topics import EVENT, STATE
+from schemas.topics import EVENT, RECORDER_PROGRESS, STATE
 
 def play(announcement, seen, phase):
     clock = WallClock()
@@ -38,13 +38,13 @@ def play(announcement, seen, phase):
         open_host("friendly", clock, "tcp/127.0.0.1:0") as bus,
         announced(Announcement(endpoint=bus.endpoint, match="friendly", pid=1, folder="."), pathlib.Path(announcement)),
     ):
-        states, events = bus.publisher(STATE), bus.publisher(EVENT)
+        states, events, progress = bus.publisher(STATE), bus.publisher(EVENT), bus.subscribe(RECORDER_PROGRESS)
         while not pathlib.Path(seen).exists():
             states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY, clock=0.02))
             clock.sleep_until(clock.now() + 0.02)
         events.put(GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3"))
         states.put(GameState(tick=21, time=0.42, phase=phase, clock=0.4, score=Score(cyan=1)))
-        yield
+        yield progress
 """
 FULL_TIME = HOST + "\nfor _ in play(*sys.argv[1:], Phase.FULL_TIME): pass\n"
 CUT_SHORT = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): pass\n"
@@ -52,6 +52,12 @@ DIES = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): sys.exit('the roof ca
 INTERRUPTED = (
     HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY):\n    os.kill(os.getppid(), signal.SIGINT)\n    signal.pause()\n"
 )
+WAITS_FOR_ITS_RECORDER = f"""{HOST}
+for progress in play(*sys.argv[1:], Phase.FULL_TIME):
+    while not (received := progress.receive(1.0)) or not received.message().leaving:
+        pass
+    print(received.chunks["name"], "leaves", file=sys.stderr)
+"""
 WRONG = "import sys; sys.stderr.write('pybullet says hello\\ntouchline: profile is odd; mend it\\n'); sys.exit(2)"
 RESTS = "import signal; signal.pause()"
 CRASHES = "import sys; sys.exit('brain raised')"
@@ -127,6 +133,13 @@ def test_a_match_that_reaches_full_time_has_score_events_and_recording(
     assert result.recording.losses == {"world": 2}
     assert "misses 2 messages" in result.recording.fault
     assert " 0:00.4  goal: goal by cyan3" in match.words.getvalue()
+
+
+def test_a_host_learns_that_its_recorder_will_not_come_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    match = stage(tmp_path, monkeypatch, WAITS_FOR_ITS_RECORDER, recorder="import sys; sys.exit('disk full')")
+    assert "disk full" in match.play().recording.fault
+    assert "recorder ended with status 1; not started again" in match.words.getvalue()
+    assert (tmp_path / "host.log").read_text().splitlines()[-1] == "recorder leaves"
 
 
 def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(
