@@ -8,6 +8,7 @@ import sys
 import time
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -33,10 +34,10 @@ def commands_below(heading: str) -> list[list[str]]:
     return [shlex.split(line, comments=True)[1:] for line in block[1].splitlines()]
 
 
-def listed(at: str, last: str) -> dict[str, dict[str, list[str]]]:
+def listed(at: str, last: str) -> dict[str, Any]:
     """The graph, as the SDK lists it, once the topic or service that comes last is there."""
     words = [sys.executable, "-W", "ignore", str(TEAM), "list", at]
-    found: dict[str, dict[str, list[str]]] = {"topics": {}, "services": {}}
+    found: dict[str, Any] = {"topics": {}, "services": {}}
     deadline = time.monotonic() + LIMIT_S
     while last not in found["topics"] | found["services"]:
         assert time.monotonic() < deadline, found
@@ -99,7 +100,11 @@ def test_the_commands_for_a_recording_show_it(tmp_path: Path) -> None:
         words = touchline(*ros2, "--match", "page_replay", *FREE)
         at = graph_at(stack.enter_context(started(words, tmp_path, "ros2")))
         found = listed(at, "/cyan1/odom")
-    assert found["topics"]["/cyan1/odom"] == ["nav_msgs/msg/Odometry"]
+    kinds = {"/clock": "rosgraph_msgs/msg/Clock", "/tf": "tf2_msgs/msg/TFMessage", "/game/state": "std_msgs/msg/String"}
+    for topic, kind in (kinds | {"/cyan1/odom": "nav_msgs/msg/Odometry"}).items():
+        assert found["topics"][topic] == [kind]
+    (clock_publisher,) = found["clock"]
+    assert (clock_publisher["node_name"], clock_publisher["qos"]) == ("touchline", "2::,1:,:,:,,")
 
 
 def test_the_commands_for_accounts_open_a_graph_for_them(tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
 """`touchline ros2` with nodes of two libraries that this project did not write, each in a process of its own."""
 
-import json
 import shutil
 import subprocess
 import sys
@@ -11,10 +10,7 @@ from typing import Any
 import pytest
 
 from recordings.reading.recording import open_recording
-from runtime.process.clock import WallClock
-from schemas.config.match_config import load_match
 from schemas.topics import COMMAND
-from support.recorded_match import record_match
 from support.ros_match import LIMIT_S, TEAM, graph_at, said_in, started, touchline
 
 pytest.importorskip("xxhash")
@@ -23,7 +19,6 @@ pytest.importorskip("pyzeros")
 
 pytestmark = [pytest.mark.processes, pytest.mark.slow]
 
-SIMPLE = {"size": 2, "brain": "robot_agent.teams.simple:Simple"}
 ROBOTS = [f"cyan{number}" for number in range(1, 6)]
 MATCH = """
 name = "{name}"
@@ -31,6 +26,7 @@ seed = 5
 pace = "{pace}"
 duration = 2.0
 rules = "friendly"
+patience.answer = 60
 
 [teams.cyan]
 remote = true
@@ -97,26 +93,3 @@ def test_in_real_time_the_nodes_drive_at_their_own_pace(tmp_path: Path) -> None:
     for commands in answered(recording).values():
         driven = [one for one in commands if (one.drive.vx, one.drive.omega) == (1.0, 0.5)]
         assert len(driven) > 50
-
-
-def test_a_match_and_a_replay_are_graphs_that_others_list(tmp_path: Path) -> None:
-    played = tmp_path / "played.mcap"
-    record_match(played, load_match(None, {"seed": 5, "teams.cyan": SIMPLE, "teams.magenta": SIMPLE}), until=2.0)
-    with ExitStack() as stack:
-        words = touchline("replay", str(played), "--name", "shown", "--listen", "tcp/127.0.0.1:0", "--loop")
-        said_in(stack.enter_context(started(words, tmp_path, "replay")), r'(match "shown" on)')
-        words = touchline("ros2", "--match", "shown", "--listen", "tcp/127.0.0.1:0", "--patience", "60")
-        at = graph_at(stack.enter_context(started(words, tmp_path, "ros2")))
-        clock = WallClock()
-        deadline = clock.now() + LIMIT_S
-        found: dict[str, Any] = {"topics": {}}
-        while "/cyan1/odom" not in found["topics"] and clock.now() < deadline:
-            words = [sys.executable, "-W", "ignore", str(TEAM), "list", at]
-            listed = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=True)
-            found = json.loads(listed.stdout)
-    assert found["topics"]["/clock"] == ["rosgraph_msgs/msg/Clock"]
-    assert found["topics"]["/tf"] == ["tf2_msgs/msg/TFMessage"]
-    assert found["topics"]["/cyan1/odom"] == ["nav_msgs/msg/Odometry"]
-    assert found["topics"]["/game/state"] == ["std_msgs/msg/String"]
-    (clock_publisher,) = found["clock"]
-    assert (clock_publisher["node_name"], clock_publisher["qos"]) == ("touchline", "2::,1:,:,:,,")
