@@ -12,8 +12,16 @@ from schemas.topics import ACTION, RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRE
 from sim_host.server.admission.admitted_recorders import MOST_UNNAMED
 from support.host_rig import TEAMS, HostRig
 
-PATIENCE_S = MatchConfig().patience.recorder
-"""How long the host waits for a recorder that stands still; the match file's default."""
+PATIENCE_S = 6.0
+"""How long the host waits for a recorder that stands still."""
+
+
+@pytest.fixture
+def rig(rig_of):
+    rig = rig_of(patience={"recorder": PATIENCE_S})
+    rig.join_all()
+    rig.begin()
+    return rig
 
 
 @pytest.fixture
@@ -119,7 +127,7 @@ def ending(rig):
 
 def test_at_the_end_the_recorders_get_their_patience_for_the_last_tick(rig_of, monkeypatch):
     """They got 5 s, in which a recorder on a busy machine lost the last batches."""
-    rig = ending(rig_of())
+    rig = ending(rig_of(patience={"recorder": PATIENCE_S}))
     recorder = rig.record()
     recorder.stands = True
     update, looks = rig.host.presence.update, []
@@ -209,7 +217,8 @@ def test_if_the_match_file_demands_it_sights_are_in_the_batches_from_tick_0(rig_
 
 
 def test_with_credentials_the_host_waits_for_the_first_few_recorders_that_nobody_named_and_for_named_ones():
-    config = MatchConfig.model_validate({"seed": 7, "teams": TEAMS, "record": {"admit": ["tape"]}})
+    match = {"seed": 7, "teams": TEAMS, "record": {"admit": ["tape"]}, "patience": {"recorder": PATIENCE_S}}
+    config = MatchConfig.model_validate(match)
     rig = HostRig(config, settings={"has_accounts": True})
     rig.join_all()
     rig.begin()
