@@ -1,5 +1,5 @@
 """The page's server and bridges for attacks on their ports."""
 
-from support.page_fixtures import gateway_of, host, host_of, medium, tokens, visit
+from support.page_fixtures import ending_gateways, gateway_of, host, host_of, medium, tokens, visit
 
-__all__ = ["gateway_of", "host", "host_of", "medium", "tokens", "visit"]
+__all__ = ["ending_gateways", "gateway_of", "host", "host_of", "medium", "tokens", "visit"]

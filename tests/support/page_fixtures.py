@@ -81,8 +81,17 @@ def host(host_of: Callable[..., FakeHost]) -> FakeHost:
     return host_of()
 
 
+@pytest.fixture(scope="module")
+def ending_gateways() -> Iterator[list[Gateway]]:
+    """Servers that were told to end after their test: that takes each 0.15 s, for which no other test waits."""
+    ending: list[Gateway] = []
+    yield ending
+    for gateway in ending:
+        gateway.close()
+
+
 @pytest.fixture
-def gateway_of(medium: SharedState, tokens: Path) -> Iterator[Callable[..., Gateway]]:
+def gateway_of(medium: SharedState, tokens: Path, ending_gateways: list[Gateway]) -> Iterator[Callable[..., Gateway]]:
     """Makes servers of pages; the words are those of their settings."""
     made: list[Gateway] = []
 
@@ -97,7 +106,8 @@ def gateway_of(medium: SharedState, tokens: Path) -> Iterator[Callable[..., Gate
 
     yield make
     for gateway in made:
-        gateway.close()
+        gateway.stop()
+    ending_gateways += made
 
 
 @pytest.fixture

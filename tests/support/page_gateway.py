@@ -3,6 +3,7 @@
 import asyncio
 import json
 import threading
+from contextlib import suppress
 from pathlib import Path
 
 from coach_gateway.access.tokens import tokens_of
@@ -85,10 +86,14 @@ class Gateway:
         self._thread.join(SOON)
         return not self.runs
 
+    def stop(self) -> None:
+        """Tell it to end, unless it has."""
+        if self._thread.is_alive():
+            with suppress(RuntimeError):  # it has ended meanwhile
+                self._loop.call_soon_threadsafe(self._stop.set)
+
     def close(self) -> None:
-        if not self._thread.is_alive():
-            return
-        self._loop.call_soon_threadsafe(self._stop.set)
+        self.stop()
         self._thread.join(SOON)
         assert not self._thread.is_alive()
         self.binding.listener.close()

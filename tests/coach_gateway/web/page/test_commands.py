@@ -11,9 +11,11 @@ from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import ActionName, Phase
 from schemas.topics import MANUAL
+from support.brisk import BRISK
 
 
-def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> None:
+def test_the_space_bar_stops_the_match_wherever_the_focus_is(officiated, visit) -> None:
+    match = officiated(rules=str(BRISK))
     tab = visit(match, "referee")
     places = ["#moving", "[data-action=corner][data-side=cyan]", "#to-log", "#layer-roles", "#place-x"]
     tab.open("settings")
@@ -47,7 +49,8 @@ def test_buttons_show_why_the_referee_has_refused(match, visit) -> None:
 
 
 @pytest.mark.parametrize("side", [Side.CYAN, pytest.param(Side.MAGENTA, marks=pytest.mark.long)])
-def test_every_restart_can_be_given_to_either_side(match, visit, side: Side) -> None:
+def test_every_restart_can_be_given_to_either_side(officiated, visit, side: Side) -> None:
+    match = officiated(rules=str(BRISK))
     tab = visit(match, "referee")
     for phase in (Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW_IN, Phase.CORNER, Phase.PENALTY):
         tab.press(phase.value, side.value)

@@ -1,5 +1,7 @@
 """The page on a phone, by keyboard, with other colour vision, in light and in dark."""
 
+from support.brisk import BRISK
+
 TABS = ("robots", "events", "match", "coach", "drive", "settings", "host", "log")
 
 UNNAMED = """[...document.querySelectorAll("button, input, select, canvas, [role=tab], [tabindex='0']")]
@@ -38,8 +40,10 @@ CONTRASTS = """() => {
 }"""
 
 
-def test_a_phone_shows_everything_without_scrolling_sideways(match, visit) -> None:
-    tab = visit(match, "referee", width=320, height=780, has_touch=True)
+def test_a_phone_shows_everything_without_scrolling_sideways(officiated, visit, tmp_path) -> None:
+    rules = tmp_path / "the_rules_of_our_own_league.toml"  # whose whole path the page shows
+    rules.write_text(BRISK.read_text("utf-8"), "utf-8")
+    tab = visit(officiated(rules=str(rules)), "referee", width=320, height=780, has_touch=True)
     for width in (320, 360, 768):
         tab.resize(width, 780)
         for name in TABS:
