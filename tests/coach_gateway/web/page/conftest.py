@@ -8,13 +8,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser
 
+from coach_gateway.web.settings import WebSettings
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from runtime.process.clock import WallClock
 from schemas.config.match_config import MatchConfig
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from support.in_process_bus import SharedState
-from support.page_gateway import SOON, Gateway
+from support.page_gateway import SOON, Gateway, tokens_in
 from support.page_match import TEAMS, Match
 from support.recorded_match import record_match
 from support.staged_match import StagedMatch
@@ -87,6 +88,20 @@ def visit(browser: Browser, gateway_of: Callable[..., Gateway]) -> Iterator[Call
     for tab in made:
         tab.context.close()
     assert faults == []
+
+
+@pytest.fixture(scope="module")
+def watched(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Match, Tab]]:
+    """A match before its kick-off and the referee's page of it, for tests that change neither."""
+    match = Match(referee={"mode": "manual"})
+    match.signal_kick_off()
+    gateway = Gateway(match.medium, WebSettings(port=0), tokens_in(tmp_path_factory.mktemp("watched")))
+    tab = Tab(browser.new_context(viewport={"width": 1360, "height": 900}), gateway.origin, "referee")
+    yield match, tab
+    tab.context.close()
+    gateway.close()
+    match.close()
+    assert tab.faults == []
 
 
 @pytest.fixture(scope="session")

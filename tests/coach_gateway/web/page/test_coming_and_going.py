@@ -45,6 +45,7 @@ def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, 
     tunnel.block()
     tab.until("document.getElementById('notice').textContent.includes('Nothing arrives any more')")  # before it breaks
     assert not tab.ask("document.getElementById('phase').classList.contains('running')")  # no green that is not known
+    tab.ask("window.touchline.connection.patience = 2000")  # not 5 s, for which the test would wait
     tab.until("document.getElementById('notice').textContent.includes('The connection is broken')")
     tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
     tick = tab.ask("window.touchline.match.frames.newest?.tick ?? 0")

@@ -88,8 +88,8 @@ def test_every_text_stands_out_from_what_is_behind_it(match, visit) -> None:
         assert tab.ask(CONTRASTS) == [], scheme
 
 
-def test_every_control_has_a_name(match, visit) -> None:
-    tab = visit(match, "referee")
+def test_every_control_has_a_name(watched) -> None:
+    _, tab = watched
     for name in TABS[2:]:
         tab.open(name)
     tab.until("document.querySelectorAll('.parameter').length > 0")
@@ -98,15 +98,15 @@ def test_every_control_has_a_name(match, visit) -> None:
     assert len(ids) == len(set(ids))
 
 
-def test_a_page_has_one_main_heading_and_names_only_what_may_have_a_name(match, visit) -> None:
-    tab = visit(match)
+def test_a_page_has_one_main_heading_and_names_only_what_may_have_a_name(watched) -> None:
+    _, tab = watched
     assert tab.ask("[...document.querySelectorAll('h1')].map((one) => one.textContent)") == ["Blues – Reds"]
     nameless = "p:not([role]), span:not([role]), div:not([role])"  # ARIA allows these no name
     assert tab.ask(f"[...document.querySelectorAll({nameless!r})].filter((one) => one.ariaLabel).length") == 0
 
 
-def test_sides_differ_in_shape_as_well_as_in_colour(match, visit) -> None:
-    tab = visit(match)
+def test_sides_differ_in_shape_as_well_as_in_colour(watched) -> None:
+    _, tab = watched
     radii = [
         tab.ask(f"getComputedStyle(document.querySelector('.mark.{side}')).borderRadius")
         for side in ("cyan", "magenta")

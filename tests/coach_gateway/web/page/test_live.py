@@ -63,8 +63,8 @@ def test_score_clock_phase_and_half_are_those_of_the_match(match, visit) -> None
     tab.until(f"document.getElementById('clock').textContent !== {before!r}")
 
 
-def test_each_robot_has_a_panel(match, visit) -> None:
-    tab = visit(match)
+def test_each_robot_has_a_panel(watched) -> None:
+    _, tab = watched
     tab.until("document.querySelectorAll('.panel').length === 4")
     panels = tab.page.locator(".panel")
     assert [panels.nth(number).get_attribute("data-robot") for number in range(panels.count())] == [
@@ -160,8 +160,8 @@ def test_what_a_robot_believes_is_drawn_beside_what_is_true(match, visit) -> Non
     assert others < own - 20
 
 
-def test_restart_distances_are_those_of_the_rules_while_they_matter(match, visit) -> None:
-    tab = visit(match)
+def test_restart_distances_are_those_of_the_rules_while_they_matter(watched) -> None:
+    match, tab = watched
     circles = """async () => {
         const { circlesOf } = await import("/field/distances.js"), { setup } = window.touchline.match;
         const of = (phase, side) => circlesOf({ phase, side }, setup);
@@ -175,7 +175,7 @@ def test_restart_distances_are_those_of_the_rules_while_they_matter(match, visit
     assert shown["play"] == []
 
 
-def test_between_two_pictures_bodies_move_evenly_and_those_set_down_jump(match, visit) -> None:
+def test_between_two_pictures_bodies_move_evenly_and_those_set_down_jump(watched) -> None:
     script = """async () => {
         const { FrameBuffer } = await import("/link/frame_buffer.js"), frames = new FrameBuffer();
         const wrapped = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
@@ -189,7 +189,7 @@ def test_between_two_pictures_bodies_move_evenly_and_those_set_down_jump(match, 
         const off = ({ x, heading }) => wrapped(heading - 2.5 * x);
         return shown.slice(-50).map(({ robots: { a }, ball }) => [a.x, off(a), ball.x]);
     }"""
-    shown = visit(match).ask(script)
+    shown = watched[1].ask(script)
     steps = [after[0] - before[0] for before, after in itertools.pairwise(shown)]
     assert all(0.01 < step < 0.08 for step in steps)  # 0.08 m are one picture
     assert all(abs(off) < 0.01 for _, off, _ in shown)  # a heading goes the short way round

@@ -28,9 +28,10 @@ def over(colour: str, ground: str, opacity: float) -> str:
     return "#" + "".join(f"{part:02x}" for part in mixed)
 
 
-@pytest.fixture
-def palette(visit: Any, resting: Any) -> dict[str, Any]:
-    colours: dict[str, Any] = visit(resting).page.evaluate('async () => ({ ...await import("/shared/palette.js") })')
+@pytest.fixture(scope="module")
+def palette(watched: Any) -> dict[str, Any]:
+    _, tab = watched
+    colours: dict[str, Any] = tab.page.evaluate('async () => ({ ...await import("/shared/palette.js") })')
     return colours
 
 
