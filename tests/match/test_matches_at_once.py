@@ -89,16 +89,6 @@ def test_a_client_finds_the_running_match_whatever_its_port_and_name(start, fold
     assert json.loads(asked.out)["tick"] >= 0
 
 
-def test_an_agent_without_credentials_is_refused_in_one_line(start, folder, running):
-    _, environment = running
-    brain = ("--brain", "robot_agent.teams.nubot:NuBot")
-    refused = command(start, folder, "foreign", "agent", "--robot", "cyan1", *brain, "--patience", "0", **environment)
-    assert refused.status() == 2
-    (line,) = refused.err.splitlines()
-    assert "does not admit a client without credentials" in line
-    assert "add --credentials FILE, or set TOUCHLINE_CREDENTIALS" in line
-
-
 def test_an_agent_with_the_credentials_of_the_other_side_is_refused(start, folder, running):
     program, environment = running
     (credentials,) = program.folder.glob("runs/*/credentials/magenta.json")
@@ -109,26 +99,6 @@ def test_an_agent_with_the_credentials_of_the_other_side_is_refused(start, folde
     assert refused.err == f"touchline: cyan1: refused by the host: {reason}\n"
     event = "that claimed cyan1 was refused: cyan1 is a robot of Simple, and the agent plays for NuBot"
     wait_for(lambda: event in program.out, event)
-
-
-def test_of_two_running_matches_a_client_lists_both(start, folder, running):
-    _, environment = running
-    endpoint = folder / "second.json"
-    second = start(
-        *("touchline", "host", "--announcement", str(endpoint), "--listen", "tcp/127.0.0.1:0"),
-        folder=folder,
-        name="second",
-        **environment,
-    )
-    announcement = wait_for(lambda: announcement_in(endpoint), f"announcement; {second.err}")
-    watched = command(start, folder, "watched", "watch", **environment)
-    assert watched.status() == 2
-    first, *lines = watched.err.splitlines()
-    assert first == "touchline: 2 matches run on this machine; choose one by --connect:"
-    assert sorted(re.findall(r'--connect \S+   match "(\w+)", process \d+', "\n".join(lines))) == ["cup", "friendly"]
-    assert f'--connect {announcement.endpoint}   match "friendly"' in watched.err
-    second.popen.terminate()
-    second.status()
 
 
 def typed(page, beginning):
