@@ -159,11 +159,3 @@ def browser() -> "Iterator[Browser]":
         browser = playwright.chromium.launch(executable_path=chromium, args=[*root, "--disable-gpu"])
         yield browser
         browser.close()
-
-
-@pytest.fixture
-def free_alarm() -> Iterator[None]:
-    """SIGALRM is nobody's, as in a process of Touchline; pytest-timeout has it otherwise."""
-    before = signal.signal(signal.SIGALRM, signal.SIG_DFL)
-    yield
-    signal.signal(signal.SIGALRM, before)

@@ -5,18 +5,15 @@ of five processes. A brain that raises ends the process, and with it its teammat
 one that returned from Zenoh into an interpreter that shuts down would abort it.
 """
 
-import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import partial
-from queue import Empty, SimpleQueue
-from typing import NamedTuple
+from queue import SimpleQueue
 
 from robot_agent.loading.brain_error import RobotError
-from robot_agent.process.brain_runner import report_hang
+from robot_agent.process.brain_runner import BrainRunner
 from robot_agent.process.runner import Runner
-from robot_agent.process.timing import HANG_S, PROGRAM_ENDS_S
+from robot_agent.process.timing import PROGRAM_ENDS_S
 from robot_agent.sdk.contract import Brain
 from runtime.bus.contract import Bus
 from runtime.process.clock import Clock
@@ -26,49 +23,16 @@ from schemas.messages.sight import Sight
 MakeRunner = Callable[[Bus, Brain, str], Runner]
 
 
-class _Turn(NamedTuple):
-    """A robot that answers a sight."""
+class TurnRunner(BrainRunner):
+    """Answers each sight of one robot when it is its turn: brains may share what their modules hold."""
 
-    thread: int
-    sight: Sight
-
-
-class Turns:
-    """Lets the robots of a process answer one at a time, whose brains may share what their modules hold."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._turn: _Turn | None = None
-        self._seen: _Turn | None = None
-
-    @contextmanager
-    def of(self, sight: Sight) -> Iterator[None]:
-        """The turn of the robot of this thread, which waits for that of others."""
-        with self._lock:
-            self._turn = _Turn(threading.get_ident(), sight)
-            try:
-                yield
-            finally:
-                self._turn = None
-
-    def look(self) -> None:
-        """Report a robot that has its turn since the last look, once."""
-        before, self._seen = self._seen, self._turn
-        if before is not None and before is self._seen:
-            report_hang(before.sight, sys._current_frames().get(before.thread))
-            self._seen = None
-
-
-class TurnRunner(Runner):
-    """Answers each sight of one robot when it is its turn."""
-
-    def __init__(self, turns: Turns, bus: Bus, brain: Brain, robot: str) -> None:
+    def __init__(self, turn: threading.Lock, bus: Bus, brain: Brain, robot: str) -> None:
         super().__init__(bus, brain, robot)
-        self._turns = turns
+        self._turn = turn
 
     def answer(self, sight: Sight) -> None:
         """Send the brain's command, as in `Runner`."""
-        with self._turns.of(sight):
+        with self._turn:
             try:
                 super().answer(sight)
             except RobotError:
@@ -86,11 +50,11 @@ def serve_team(
     Raises:
         TouchlineError: what `serve_robot` raises.
     """
-    turns, ended = Turns(), SimpleQueue[int | BaseException]()
+    turn, ended = threading.Lock(), SimpleQueue[int | BaseException]()
 
     def run(robot: str) -> None:
         try:
-            ended.put(serve_robot(robot, partial(TurnRunner, turns)))
+            ended.put(serve_robot(robot, partial(TurnRunner, turn)))
         except BaseException as error:  # for the thread that waits
             ended.put(error)
 
@@ -98,7 +62,7 @@ def serve_team(
     try:
         for thread in threads:
             thread.start()
-        end = _first_end(ended, turns)
+        end = ended.get()
     finally:
         stop()
         deadline = clock.now() + PROGRAM_ENDS_S
@@ -107,12 +71,3 @@ def serve_team(
     if isinstance(end, BaseException):
         raise end
     return end
-
-
-def _first_end(ended: "SimpleQueue[int | BaseException]", turns: Turns) -> int | BaseException:
-    """Wait for the first robot that ends; a brain that hangs meanwhile is reported."""
-    while True:
-        try:
-            return ended.get(timeout=HANG_S)
-        except Empty:
-            turns.look()

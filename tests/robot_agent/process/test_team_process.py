@@ -7,12 +7,11 @@ import time
 
 import pytest
 
-from robot_agent.process import brain_runner, team_process
-from robot_agent.process.team_process import MakeRunner, Turns, serve_team
+from robot_agent.process import team_process
+from robot_agent.process.team_process import MakeRunner, serve_team
 from runtime.bus.endpoint import with_free_port
 from runtime.bus.zenoh.bus import open_host
 from runtime.process.clock import WallClock
-from runtime.process.process_log import NOTE
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
 from schemas.topics import COMMAND, SIGHT
@@ -127,28 +126,3 @@ def test_what_one_robot_raises_the_process_raises():
 
     with pytest.raises(TouchlineError, match="cyan3: refused by the host"):
         serve_team(ROBOTS, serve_robot, others.set, WallClock())
-
-
-def test_a_robot_that_keeps_its_turn_is_named_once_with_its_line(sight_of, capfd, monkeypatch):
-    monkeypatch.setattr(brain_runner, "HANG_S", 7.0)
-    turns, goes_on, has_turn = Turns(), threading.Event(), threading.Event()
-
-    def think() -> None:
-        with turns.of(sight_of(4)):
-            has_turn.set()
-            goes_on.wait(LIMIT_S)
-
-    thread = threading.Thread(target=think)
-    turns.look()
-    thread.start()
-    has_turn.wait(LIMIT_S)
-    turns.look()
-    assert capfd.readouterr().err == ""
-    turns.look()
-    _, note = capfd.readouterr().err.split(NOTE)
-    assert note.startswith("act has not returned for 7 s in tests/robot_agent/process/test_team_process.py: ")
-    turns.look()
-    goes_on.set()
-    thread.join()
-    turns.look()
-    assert capfd.readouterr().err == ""
