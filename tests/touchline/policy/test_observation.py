@@ -6,15 +6,25 @@ import numpy as np
 import pytest
 
 from robot_agent.sdk.contract import Briefing
+from schemas.config.sensors.compass import CompassReading
+from schemas.config.sensors.contact import ContactReading
+from schemas.config.sensors.range import RangeReading
 from schemas.messages.radio import Motion
-from schemas.messages.sight import ReceivedRadio, Sight
+from schemas.messages.sight import BallSight, Obstacle, ReceivedRadio, Sight
 from touchline.play.play_match import InProcessMatch
 from touchline.policy.observation import Observation
 
 
-def observed(match: InProcessMatch, robot: str, **changes: object) -> dict[str, float]:
-    """Name → number of what a robot observes; `changes` are of its sight."""
-    layout = Observation(Briefing.of(robot, match.simulation.setup()))
+def observed(
+    match: InProcessMatch, robot: str, zone: tuple[float, float] | None = None, **changes: object
+) -> dict[str, float]:
+    """Name → number of what a robot observes, with the task's first zone there; `changes` are of its sight."""
+    setup = match.simulation.setup()
+    if zone is not None:
+        assert setup.task is not None
+        moved = setup.task.zones[0].model_copy(update={"place": zone})
+        setup = setup.replace(task=setup.task.replace(zones=[moved]))
+    layout = Observation(Briefing.of(robot, setup))
     sight: Sight = match.simulation.now.sights.perceived[robot].replace(**changes)
     made = layout.observe(sight)
     assert made.dtype == np.float32 and made.shape == (len(layout.names),)
@@ -31,13 +41,61 @@ def test_a_robot_observes_zones_and_bodies_from_where_it_stands(rovers: InProces
 
 
 def test_sensors_are_observed_as_shares_of_their_range(rovers: InProcessMatch) -> None:
-    seen = observed(rovers, "one")
-    beams = [seen[f"scan.beam{number}"] for number in range(1, 5)]
-    assert max(beams) == 1.0
-    assert (seen["north.cos"], seen["north.sin"]) == (pytest.approx(0.0, abs=1e-4), pytest.approx(1.0))
-    assert (seen["bumper.sector1"], seen["bumper.sector2"]) == (0.0, 0.0)
-    nothing = observed(rovers, "one", sensors={})
-    assert [nothing[name] for name in ("scan.beam1", "north.cos", "north.sin", "bumper.sector1")] == [1.0, 0, 0, 0]
+    readings = {
+        "scan": RangeReading(age=0.0, angle_min=0.0, angle_increment=1.0, distances=[1.25, None, 5.0, 0.5]),
+        "north": CompassReading(age=0.0, heading=-math.pi / 3),
+        "bumper": ContactReading(age=0.0, touched=[True, False]),
+    }
+    seen, nothing = observed(rovers, "one", sensors=readings), observed(rovers, "one", sensors={})
+    names = [*(f"scan.beam{beam}" for beam in range(1, 5)), "north.cos", "north.sin", "bumper.sector1"]
+    names.append("bumper.sector2")
+    half, root = 0.5, math.sqrt(3) / 2
+    assert [seen[name] for name in names] == pytest.approx([0.25, 1.0, 1.0, 0.1, half, -root, 1.0, 0.0])
+    assert [nothing[name] for name in names] == [1.0] * 4 + [0.0] * 4
+
+
+def test_each_quantity_is_observed_in_its_scale_and_in_the_body_frame(keepers: InProcessMatch) -> None:
+    setup = keepers.simulation.setup()
+    game = keepers.simulation.now.sights.perceived["cyan1"].game
+    seen = observed(
+        keepers,
+        "cyan1",
+        self=Motion(x=1.1, y=-2.0, heading=math.pi / 2, vx=0.5, vy=1.0, omega=-0.5),
+        stuck=True,
+        ball=BallSight(x=0.1, y=0.5, vx=1.0, vy=-2.0, age=0.25),
+        holding=True,
+        kicker_ready=False,
+        obstacles=[Obstacle(2.1, 1.0, 0.3)],
+        game=game.replace(left=15.0, running=True),
+    )
+    wanted = {
+        "me.x": 0.1,
+        "me.y": -2.0 / setup.pitch.touch_line,
+        "me.vx": 1.0 / setup.drive.max_speed,
+        "me.vy": -0.5 / setup.drive.max_speed,
+        "me.omega": -0.5 / setup.drive.max_turn_rate,
+        "me.stuck": 1.0,
+        "ball.x": 0.5,
+        "ball.y": 0.2,
+        "ball.vx": -0.4,
+        "ball.vy": -0.2,
+        "ball.age": 0.25,
+        "ball.held": 1.0,
+        "kicker.ready": 0.0,
+        "goal.x": 0.4,
+        "goal.y": -1.98,
+        "own_goal.x": 0.4,
+        "own_goal.y": 2.42,
+        "obstacle1.x": 0.6,
+        "obstacle1.y": -0.2,
+        "obstacle1.radius": 0.3,
+        "time.left": 0.25,
+        "game.running": 1.0,
+    }
+    assert {name: seen[name] for name in wanted} == pytest.approx(wanted)
+    other = observed(keepers, "cyan1", kicker_ready=True, game=game.replace(left=None, running=False))
+    names = ("me.stuck", "ball.held", "kicker.ready", "time.left", "game.running")
+    assert [other[name] for name in names] == [0.0, 0.0, 1.0, 1.0, 0.0]
 
 
 def test_a_match_without_a_ball_has_no_entries_of_one(rovers: InProcessMatch, keepers: InProcessMatch) -> None:
@@ -64,21 +122,22 @@ def test_a_teammate_is_observed_by_its_radio_alone(keepers: InProcessMatch) -> N
 
 
 def test_both_sides_observe_the_same_from_mirrored_places(keepers: InProcessMatch) -> None:
-    cyan, magenta = observed(keepers, "cyan1"), observed(keepers, "magenta1")
-    assert cyan["zone.square.x"] > 0 and magenta["zone.square.x"] > 0  # both look at the middle
-    assert cyan["goal.x"] > 0 > cyan["own_goal.x"]
+    game = keepers.simulation.now.sights.perceived["cyan1"].game
+    same = {
+        "self": Motion(x=-1.0, y=0.5, heading=0.3, vx=1.0),
+        "ball": BallSight(x=1.0, y=2.0, vx=0.5, vy=-0.5),
+        "obstacles": [Obstacle(2.0, 1.0, 0.3)],
+        "game": game,
+    }
+    cyan, magenta = observed(keepers, "cyan1", (2.0, 1.0), **same), observed(keepers, "magenta1", (-2.0, -1.0), **same)
+    assert cyan["zone.square.x"] > 0.0
+    assert magenta == {name: number for name, number in cyan.items() if not name.startswith("mate2")}
 
 
 def test_zones_stay_where_they_are_when_teams_change_ends(keepers: InProcessMatch) -> None:
-    setup = keepers.simulation.setup()
-    assert setup.task is not None
-    zone = setup.task.zones[0].model_copy(update={"place": (2.0, 1.0)})
-    moved = setup.replace(task=setup.task.replace(zones=[zone]))
     for robot, half, sign in (("cyan1", 1, 1), ("cyan1", 2, -1), ("magenta1", 2, 1), ("magenta1", 3, -1)):
-        sight = keepers.simulation.now.sights.perceived[robot]
-        there = sight.replace(game=sight.game.replace(half=half), self=Motion(x=0.0, y=0.0, heading=0.0))
-        layout = Observation(Briefing.of(robot, moved))
-        seen = dict(zip(layout.names, layout.observe(there).tolist(), strict=True))
+        game = keepers.simulation.now.sights.perceived[robot].game.replace(half=half)
+        seen = observed(keepers, robot, (2.0, 1.0), game=game, self=Motion(x=0.0, y=0.0, heading=0.0))
         assert (seen["zone.square.x"], seen["zone.square.y"]) == pytest.approx((sign * 0.4, sign * 0.2))
 
 

@@ -20,7 +20,7 @@ from schemas.messages.sight import Sight
 from schemas.messages.soccer.game import RefereeAction
 from schemas.side import Side
 from schemas.soccer.game import ActionName, OffField, Phase, TeamPhase
-from schemas.topics import HEALTH, STATE
+from schemas.topics import ACTION, HEALTH, STATE
 from support.gateway_bench import Bench, until
 from support.in_process_bus import SharedState
 from support.messages import make_setup
@@ -156,9 +156,12 @@ def test_the_state_is_published_on_change_and_once_a_second_with_a_report_for_he
     reader = medium.open_bus(SETUP.match, SteppedClock())
     states, healths = reader.subscribe(STATE), reader.subscribe(HEALTH)
     match = ServiceWithoutHost(medium.open_bus(SETUP.match, clock), SETUP)
-    for _ in range(311):
+    for step in range(311):
+        if step == 50:
+            asked = reader.query(ACTION, RefereeAction(action=ActionName.STOP))
         match.update()
         clock.sleep_until(clock.now() + 0.01)
+    assert asked.result(0.0).accepted
     times = [received.message().time for received in iter(states.receive, None)]
-    assert times == pytest.approx([0.0, 1.0, 2.0, 3.0], abs=0.02)
+    assert times == pytest.approx([0.0, 0.5, 1.5, 2.5], abs=0.02)
     assert [received.message().pace for received in iter(healths.receive, None)] == 4 * ["no host"]
