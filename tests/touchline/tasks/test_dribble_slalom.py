@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from schemas.soccer.game import Phase
-from support.soccer_moment import judged
+from support.task_moment import scored
 
 GATES = [
     *((-5.0, 0.7), (-2.5, -0.7), (0.0, 0.7), (2.5, -0.7), (5.0, 0.7)),
@@ -16,8 +16,8 @@ GATES = [
 
 def through(x: float, y: float, ahead: int, memory: Any) -> tuple[float, Any]:
     """The score after the ball has rolled past (x, y) along +x (`ahead` 1) or -x, and what is remembered."""
-    before = judged("dribble_slalom", ball=(x - 0.1 * ahead, y), memory=memory)
-    after = judged("dribble_slalom", ball=(x + 0.1 * ahead, y), memory=before.memory)
+    before = scored("dribble_slalom", ball=(x - 0.1 * ahead, y), memory=memory)
+    after = scored("dribble_slalom", ball=(x + 0.1 * ahead, y), memory=before.memory)
     assert not after.over
     return after.value, after.memory
 
@@ -42,5 +42,5 @@ def test_another_way_does_not_count_and_the_gate_can_still_be_passed(x: float, y
 
 
 def test_a_stop_of_play_ends_it_with_the_gates_so_far() -> None:
-    score = judged("dribble_slalom", memory=(3, 0.1), phase=Phase.STOPPED)
+    score = scored("dribble_slalom", memory=(3, 0.1), phase=Phase.STOPPED)
     assert (score.value, score.over) == (3, True)

@@ -1,14 +1,11 @@
 """Rendezvous: the time together is the score, and the baseline knows no places."""
 
-from pathlib import Path
-
 from pytest import approx
 
 from robot_agent.sdk.contract import Briefing
 from schemas.messages.sight import Sight
 from support.task_moment import scored, task_config
 from touchline.play.play_match import InProcessMatch
-from touchline.tasks import rendezvous
 from touchline.tasks.rendezvous import Stranger
 
 
@@ -42,8 +39,3 @@ def test_the_baseline_answers_the_same_wherever_it_is_told_to_be() -> None:
         match.step()
     match.close()
     assert command.drive.vx != 0.0
-
-
-def test_the_baseline_s_text_names_no_place_of_its_own() -> None:
-    text = Path(rendezvous.__file__).read_text("utf-8")
-    assert not [word for word in ("sight.self", "sight.obstacles", "sight.radio") if word in text]
