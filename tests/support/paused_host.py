@@ -18,10 +18,15 @@ PAUSE, RUN, STEP, SHOW = PaceOperation.PAUSE, PaceOperation.RUN, PaceOperation.S
 @contextmanager
 def playing(rig: HostRig, ticks: int) -> Iterator[None]:
     """The host plays so many ticks on another thread; the block ends when it has played them."""
-    thread = threading.Thread(target=rig.ticks, args=(ticks,))
+    thread = threading.Thread(target=rig.ticks, args=(ticks,), daemon=True)
     thread.start()
-    yield
-    thread.join(LIMIT_S)
+    try:
+        yield
+    except BaseException:
+        rig.outside.query(PACE, PaceRequest(operation=RUN))  # a block that fails leaves no thread in a pause
+        raise
+    finally:
+        thread.join(LIMIT_S)
     assert not thread.is_alive()
 
 

@@ -2,7 +2,6 @@
 
 import json
 import math
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -28,19 +27,11 @@ from schemas.messages.setup import Setup
 from schemas.topics import COMMAND, SIGHT
 from support.in_process_bus import SharedState
 from support.messages import make_setup, make_sight
+from support.process_story import wait_for
 from support.stepped_clock import SteppedClock
 
 ROBOT = "cyan2"
 LIMIT_S = 30.0
-
-
-def until(condition: Callable[[], Any]) -> Any:
-    """What the condition becomes."""
-    deadline = time.monotonic() + LIMIT_S
-    while not (found := condition()):
-        assert time.monotonic() < deadline, "nothing came"
-        time.sleep(0.002)
-    return found
 
 
 def raw_session(endpoint: str) -> zenoh.Session:
@@ -87,7 +78,7 @@ class Bench:
 
     def command(self) -> Any:
         """The next command that the host gets."""
-        return until(self._commands.receive).message()
+        return wait_for(self._commands.receive).message()
 
     def no_command(self) -> bool:
         return self._commands.receive(0.0) is None
@@ -113,7 +104,7 @@ class Bench:
                 recovery=ext.RecoveryConfig(heartbeat=True, periodic_queries=None),
                 subscriber_detection=True,
             )
-            until(lambda: heard)
+            wait_for(lambda: heard)
             subscriber.undeclare()
         return [typestore().deserialize_cdr(one, types.TF_STATIC.message) for one in heard]
 
@@ -121,7 +112,7 @@ class Bench:
         """A publisher of commands that the bridge has noticed."""
         publisher = (node or self.node).publisher(f"/{robot}/cmd_vel", types.TWIST_STAMPED if stamped else types.TWIST)
         assert self.robots[robot].is_driven.wait(LIMIT_S)
-        until(lambda: publisher.is_read)
+        wait_for(lambda: publisher.is_read)
         return publisher
 
     def twist(self, vx: float, tick: int | None = None) -> memoryview:
@@ -160,7 +151,7 @@ def bench(lockstep: Setup, make_bench: Callable[..., Bench]) -> Bench:
 def all_read(bench: Bench, *topics: str) -> None:
     """Wait until the bridge knows that the topics are read."""
     writers = bench.robots[ROBOT].messages.writers
-    until(lambda: all(writers[topic].is_read for topic in topics))
+    wait_for(lambda: all(writers[topic].is_read for topic in topics))
 
 
 def test_a_sight_becomes_odometry_ball_obstacles_and_game_in_the_frame_of_the_robot(bench: Bench):
@@ -172,19 +163,19 @@ def test_a_sight_becomes_odometry_ball_obstacles_and_game_in_the_frame_of_the_ro
     bench.see(
         100, at=(1.0, 2.0, math.pi / 2), velocity=(0.0, 1.5, 0.3), ball=(3.0, 4.0, 0.5, 0.6), obstacles=((5.0, 6.0),)
     )
-    (moved,) = until(lambda: odometry)
+    (moved,) = wait_for(lambda: odometry)
     assert (moved.header.frame_id, moved.child_frame_id) == ("cyan2/odom", "cyan2/base_link")
     assert moved.header.stamp.sec == 2
     place, turn, twist = moved.pose.pose.position, moved.pose.pose.orientation, moved.twist.twist
     assert (place.x, place.y) == (1.0, 2.0)
     assert 2 * math.atan2(turn.z, turn.w) == pytest.approx(math.pi / 2)
     assert (twist.linear.x, twist.linear.y, twist.angular.z) == pytest.approx((1.5, 0.0, 0.3))
-    (seen,) = until(lambda: ball)
+    (seen,) = wait_for(lambda: ball)
     assert (seen.known, seen.visible, seen.holding, seen.kicker_ready) == (True, True, False, True)
     assert (seen.position.x, seen.position.y, seen.velocity.x) == (3.0, 4.0, 0.5)
-    (bodies,) = until(lambda: obstacles)
+    (bodies,) = wait_for(lambda: obstacles)
     assert [(one.x, one.y, one.radius) for one in bodies.obstacles] == [(5.0, 6.0, 0.25)]
-    (state,) = until(lambda: game)
+    (state,) = wait_for(lambda: game)
     assert (state.phase, state.stage, state.running) == ("play", "regular", True)
     assert math.isnan(state.spot_x)
 
@@ -193,7 +184,7 @@ def test_a_ball_that_was_never_seen_is_not_known(bench: Bench):
     ball = bench.hear(f"/{ROBOT}/ball", types.BALL)
     all_read(bench, "ball")
     bench.see(0, ball=None)
-    (seen,) = until(lambda: ball)
+    (seen,) = wait_for(lambda: ball)
     assert (seen.known, seen.visible, seen.position.x) == (False, False, 0.0)
 
 
@@ -208,7 +199,7 @@ def test_a_range_finder_becomes_a_scan_once_for_each_reading(lockstep: Setup, ma
     bench.see(5, sensors={"laser": old})
     new = RangeReading(age=0.0, angle_min=-0.5, angle_increment=0.5, distances=[2.0, None, 3.0])
     bench.see(6, sensors={"laser": new})
-    until(lambda: len(scans) == 2)
+    wait_for(lambda: len(scans) == 2)
     first = scans[0]
     assert list(first.ranges) == [1.0, math.inf, 3.0]
     assert (first.header.frame_id, first.header.stamp.nanosec) == ("cyan2/laser", 80_000_000)
@@ -232,16 +223,16 @@ def test_the_clock_follows_once_the_sights_of_all_robots_are_published(make_benc
     bench = make_bench(make_setup(pace="lockstep"), ("cyan1", "cyan2"))
     clock, odometry = bench.hear("/clock", types.CLOCK), bench.hear("/cyan2/odom", types.ODOMETRY)
     all_read(bench, "odom")
-    until(lambda: bench.keeper.clock.is_read)
+    wait_for(lambda: bench.keeper.clock.is_read)
     bench.see(10, "cyan2")
-    until(lambda: odometry)
+    wait_for(lambda: odometry)
     assert clock == []
     bench.see(10, "cyan1")
-    (told,) = until(lambda: clock)
+    (told,) = wait_for(lambda: clock)
     assert (told.clock.sec, told.clock.nanosec) == (0, 200_000_000)
     bench.see(11, "cyan2")
     bench.see(12, "cyan2")
-    until(lambda: len(clock) == 2)
+    wait_for(lambda: len(clock) == 2)
     assert clock[1].clock.nanosec == 220_000_000
 
 
@@ -269,11 +260,11 @@ def test_a_sight_without_an_answer_is_published_again_after_a_second(bench: Benc
     bench.driver()
     all_read(bench, "odom")
     bench.see(5)
-    until(lambda: odometry)
+    wait_for(lambda: odometry)
     bench.see(5)
     bench.clock.sleep_until(bench.clock.now() + 1.0)
     bench.see(5)
-    until(lambda: len(odometry) == 2)
+    wait_for(lambda: len(odometry) == 2)
 
 
 def test_without_a_node_and_when_it_leaves_the_robot_brakes(bench: Bench, capfd: pytest.CaptureFixture[str]):
@@ -312,7 +303,7 @@ def test_a_message_of_another_form_is_named_and_the_robot_brakes(bench: Bench, c
 def test_a_topic_of_commands_with_another_type_is_named(bench: Bench, capfd: pytest.CaptureFixture[str]):
     bench.node.publisher(f"/{ROBOT}/cmd_vel", types.TEXT)
     said: list[str] = []  # by the thread of the graph, just after it has counted the fault
-    until(lambda: said.append(capfd.readouterr().err) or "as std_msgs/msg/String, RIHS01_" in "".join(said))
+    wait_for(lambda: said.append(capfd.readouterr().err) or "as std_msgs/msg/String, RIHS01_" in "".join(said))
     assert "cyan2: /team publishes /cyan2/cmd_vel as std_msgs/msg/String, RIHS01_" in "".join(said)
     assert bench.robots[ROBOT].counts[Fault.OTHER_TYPE] == 1
 
@@ -325,7 +316,7 @@ def test_what_was_wrong_is_counted_in_the_diagnostics(bench: Bench):
     publisher.put(bench.twist(math.nan, 1))
     bench.command()
     bench.see(60)
-    last = until(lambda: heard[1:])[-1].status[0]
+    last = wait_for(lambda: heard[1:])[-1].status[0]
     assert (last.name, last.level, last.hardware_id) == ("cyan2: commands", 1, "cyan2")
     assert {one.key: one.value for one in last.values}["invalid"] == "1"
 
@@ -377,7 +368,7 @@ def test_a_kick_that_is_impossible_is_refused_with_the_reason(bench: Bench, mode
 
 def test_the_dribbler_is_switched_by_a_topic(bench: Bench):
     publisher, switch = bench.driver(), bench.node.publisher(f"/{ROBOT}/dribble", types.FLAG)
-    until(lambda: switch.is_read)
+    wait_for(lambda: switch.is_read)
     bench.see(1)
     switch.put(bench.build.encode(bench.build.make(types.FLAG.message, True), types.FLAG))
     publisher.put(bench.twist(1.0, 1))
@@ -390,7 +381,7 @@ def test_messages_are_numbered_from_one_with_the_identity_of_their_token(bench: 
     all_read(bench, "odom")
     for tick in range(3):
         bench.see(tick)
-    until(lambda: len(heard) == 3)
+    wait_for(lambda: len(heard) == 3)
     assert [one.attachment.sequence for one in heard] == [1, 2, 3]
     assert {one.attachment.gid for one in heard} == {bench.robots[ROBOT].messages.writers["odom"].gid}
 

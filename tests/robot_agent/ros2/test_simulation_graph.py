@@ -1,8 +1,7 @@
 """The services and the action of simulation_interfaces on a graph, asked for by a plain client of Zenoh."""
 
 import json
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from runtime.ros2.topic_type import TopicType
 from schemas.config.match_config import MatchConfig
 from support.host_rig import TEAMS, HostRig
 from support.paused_host import PAUSE, RUN, SHOW, pace, paused_match
+from support.process_story import wait_for
 from support.ros_control import made
 
 LIMIT_S = 60.0
@@ -30,6 +30,9 @@ SEND = TopicType("simulation_interfaces/action/SimulateSteps_SendGoal")
 GET = TopicType("simulation_interfaces/action/SimulateSteps_GetResult")
 CANCEL = TopicType("action_msgs/srv/CancelGoal")
 FEEDBACK = TopicType("simulation_interfaces/action/SimulateSteps_FeedbackMessage")
+STATUS = TopicType("action_msgs/msg/GoalStatusArray")
+ENDLESS = 1_000_000
+"""Steps that outlast a test."""
 GOAL = {"uuid": np.arange(16, dtype=np.uint8)}
 
 
@@ -57,6 +60,15 @@ class Caller:
         (reply,) = list(replies)
         return typestore().deserialize_cdr(reply.ok.payload.to_bytes(), f"{topic_type.message}_Response")
 
+    def listen(self, topic: str, topic_type: TopicType) -> list[Any]:
+        """The messages of a topic from now on."""
+        heard: list[Any] = []
+        self.session.declare_subscriber(
+            data_key(0, topic, topic_type, hash_of(topic_type)),
+            lambda sample: heard.append(typestore().deserialize_cdr(sample.payload.to_bytes(), topic_type.message)),
+        )
+        return heard
+
     def simulation(self, name: str, service: str, version: str = "", **fields: Any) -> Any:
         return self.call(
             f"/touchline/{service}", TopicType(f"simulation_interfaces/srv/{name}", version=version), **fields
@@ -66,14 +78,6 @@ class Caller:
 def encoded(topic_type: TopicType, fields: dict[str, Any]) -> bytes:
     store, name = typestore(topic_type.version), f"{topic_type.message}_Request"
     return bytes(store.serialize_cdr(made(store, name, fields), name))
-
-
-def until(found: Callable[[], Any]) -> Any:
-    deadline = time.monotonic() + LIMIT_S
-    while not (value := found()):
-        assert time.monotonic() < deadline
-        time.sleep(0.002)
-    return value
 
 
 @pytest.fixture
@@ -96,7 +100,7 @@ def test_each_service_is_there_under_the_hash_of_each_release(caller: Caller) ->
     seen: list[Endpoint] = []
     for service in ("set_entity_state", "spawn_entity", "get_entities", "step_simulation"):
         caller.graph.watch(f"/touchline/{service}", Kind.SERVICE, lambda one, _: seen.append(one))
-    until(lambda: len(seen) >= 6)
+    wait_for(lambda: len(seen) >= 6)
     hashes = {one.type_hash for one in seen}
     for name in ("SetEntityState", "SpawnEntity"):
         assert {hash_of(TopicType(f"simulation_interfaces/srv/{name}", version=old)) for old in ("", OLDER)} <= hashes
@@ -138,19 +142,12 @@ def test_services_go_on_after_a_request_that_fails_in_an_unforeseen_way(
     assert caller.simulation("GetEntities", "get_entities").result.result == Code.OK
 
 
-def test_the_action_of_steps_tells_its_progress_and_its_result(caller: Caller) -> None:
-    heard: list[Any] = []
-    name = "simulation_interfaces/action/SimulateSteps_FeedbackMessage"
-    key = data_key(0, f"{PLACE}/feedback", FEEDBACK, hash_of(FEEDBACK))
-    receive = lambda sample: heard.append(typestore().deserialize_cdr(sample.payload.to_bytes(), name))  # noqa: E731
-    subscriber = caller.session.declare_subscriber(key, receive)
+def test_the_action_of_steps_tells_its_result(caller: Caller) -> None:
     assert caller.call(f"{PLACE}/send_goal", SEND, goal_id=GOAL, goal={"steps": 20}).accepted
     assert not caller.call(f"{PLACE}/send_goal", SEND, goal_id=GOAL, goal={"steps": 20}).accepted
     found = caller.call(f"{PLACE}/get_result", GET, goal_id=GOAL)
     assert (found.status, found.result.result.result) == (GoalStatus.SUCCEEDED, Code.OK)
     assert pace(caller.rig, SHOW).tick == 21
-    assert all(one.feedback.completed_steps + one.feedback.remaining_steps == 20 for one in heard)
-    subscriber.undeclare()
 
 
 def test_a_goal_of_a_match_that_runs_is_aborted(caller: Caller) -> None:
@@ -160,25 +157,27 @@ def test_a_goal_of_a_match_that_runs_is_aborted(caller: Caller) -> None:
     assert (found.status, found.result.result.result) == (GoalStatus.ABORTED, Code.FAILED)
 
 
-def test_a_goal_is_canceled_and_the_match_is_paused(caller: Caller) -> None:
-    caller.rig.agents["cyan1"].frozen = True
-    caller.call(f"{PLACE}/send_goal", SEND, goal_id=GOAL, goal={"steps": 1000})
+def test_a_goal_tells_its_progress_until_it_is_canceled_and_the_match_is_paused(caller: Caller) -> None:
+    statuses, told = caller.listen(f"{PLACE}/status", STATUS), caller.listen(f"{PLACE}/feedback", FEEDBACK)
+    caller.call(f"{PLACE}/send_goal", SEND, goal_id=GOAL, goal={"steps": ENDLESS})
+    progress = wait_for(lambda: told[1:])[0].feedback
+    assert progress.completed_steps > 0 and progress.completed_steps + progress.remaining_steps == ENDLESS
     waiting = caller.begin(f"{PLACE}/get_result", GET, encoded(GET, {"goal_id": GOAL}))
     reply = caller.call(f"{PLACE}/cancel_goal", CANCEL, goal_info={"goal_id": GOAL})
     assert (reply.return_code, len(reply.goals_canceling)) == (0, 1)
     found = caller.result(GET, waiting)
     assert (found.status, found.result.result.result) == (GoalStatus.CANCELED, Code.FAILED)
     assert pace(caller.rig, SHOW).paused
+    wait_for(lambda: statuses and statuses[-1].status_list[0].status == GoalStatus.CANCELED)
     other = {"uuid": np.full(16, 7, np.uint8)}
     assert caller.call(f"{PLACE}/cancel_goal", CANCEL, goal_info={"goal_id": other}).return_code == 2
     assert caller.call(f"{PLACE}/cancel_goal", CANCEL, goal_info={"goal_id": GOAL}).return_code == 3
 
 
 def test_steps_that_an_operator_ends_have_failed(caller: Caller) -> None:
-    caller.rig.agents["cyan1"].frozen = True
     step = TopicType("simulation_interfaces/srv/StepSimulation")
-    waiting = caller.begin("/touchline/step_simulation", step, encoded(step, {"steps": 1000}))
-    until(lambda: pace(caller.rig, SHOW).until not in (None, 1))
+    waiting = caller.begin("/touchline/step_simulation", step, encoded(step, {"steps": ENDLESS}))
+    wait_for(lambda: pace(caller.rig, SHOW).until not in (None, 1))
     pace(caller.rig, PAUSE)
     reply = caller.result(step, waiting)
     assert reply.result.result == Code.FAILED

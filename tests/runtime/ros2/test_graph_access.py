@@ -2,8 +2,7 @@
 
 import json
 import time
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
 import pytest
 import zenoh
@@ -20,16 +19,9 @@ from runtime.ros2.graph_access import graph_access
 from runtime.ros2.graph_names import Attachment, Endpoint, Kind, NodeName, data_key
 from runtime.ros2.message_types import hash_of
 from schemas.side import Side
+from support.process_story import wait_for
 
 ROBOTS = {Side.CYAN: ["cyan1", "cyan2"], Side.MAGENTA: ["magenta1"]}
-LIMIT_S = 20.0
-
-
-def until(condition: Callable[[], Any]) -> None:
-    deadline = time.monotonic() + LIMIT_S
-    while not condition():
-        assert time.monotonic() < deadline, "nothing came"
-        time.sleep(0.002)
 
 
 @pytest.fixture
@@ -65,10 +57,10 @@ def test_nodes_of_a_side_drive_its_robots_and_no_others(bridge: Graph) -> None:
     with join(bridge.endpoint, Account.CYAN) as session:
         node = Graph(session, bridge.endpoint, WallClock(), NodeName(0, str(session.zid()), 0, "team"))
         other, own = (node.publisher(f"/{robot}/cmd_vel", types.TWIST) for robot in ("magenta1", "cyan1"))
-        until(lambda: own.is_read)
+        wait_for(lambda: own.is_read)
         other.put(b"theirs")
         own.put(b"ours")
-        until(lambda: heard)
+        wait_for(lambda: heard)
         assert [(robot, one.payload) for robot, one in heard] == [("cyan1", b"ours")]
         assert {one.topic for one in seen} == {"/cyan1/cmd_vel"}
 
@@ -86,21 +78,21 @@ def test_everybody_reads_the_clock_and_what_is_latched_and_only_the_bridge_write
             history=zenoh.ext.HistoryConfig(detect_late_publishers=True, max_samples=1),
             subscriber_detection=True,
         )
-        until(lambda: heard == [b"frames"])
+        wait_for(lambda: heard == [b"frames"])
         told: list[bytes] = []
         clock_key = data_key(0, "/clock", types.CLOCK, hash_of(types.CLOCK))
         session.declare_subscriber(clock_key, lambda sample: told.append(sample.payload.to_bytes()))
-        until(lambda: clock.is_read)
+        wait_for(lambda: clock.is_read)
         with join(bridge.endpoint, Account.CYAN) as liar:
             liar.put(clock_key, b"a lie")
             clock.put(b"true")
-            until(lambda: told)
+            wait_for(lambda: told)
             assert told == [b"true"]
 
 
 def test_a_node_without_an_account_is_not_admitted(bridge: Graph) -> None:
     with join(bridge.endpoint, Account.CYAN) as admitted, join(bridge.endpoint, Account.CYAN, "wrong") as other:
-        until(lambda: [*admitted.info.routers_zid()])
+        wait_for(lambda: [*admitted.info.routers_zid()])
         time.sleep(0.3)
         assert [*other.info.routers_zid()] == []
 
