@@ -4,20 +4,17 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 PEERS = Path(__file__).parents[1] / "benchmarks" / "learning_peers.py"
 
 
-def answers(peer: str, robots: int) -> list[str]:
-    """What a peer prints that is to do two rounds."""
-    command = [sys.executable, str(PEERS), peer, str(robots)]
+@pytest.mark.processes
+@pytest.mark.parametrize(
+    ("peer", "robots", "reason"),
+    [("rc-robosim", 4, "No module named 'robosim'"), ("dm_control", 1, "its teams have equal sizes")],
+)
+def test_a_peer_that_cannot_play_says_why_in_one_line(peer: str, robots: int, reason: str) -> None:
+    command = [sys.executable, "-S", str(PEERS), peer, str(robots)]  # without the packages that are installed
     done = subprocess.run(command, input="\n\n", capture_output=True, text=True, check=True)
-    return done.stdout.splitlines()
-
-
-def test_a_peer_that_is_not_installed_says_so_in_one_line() -> None:
-    [line] = answers("rc-robosim", 4)
-    assert line == "learning-peer: no No module named 'robosim'"
-
-
-def test_a_peer_says_in_one_line_that_its_game_has_other_teams() -> None:
-    assert answers("dm_control", 1) == ["learning-peer: no its teams have equal sizes"]
+    assert done.stdout == f"learning-peer: no {reason}\n"

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 from recordings.reading.recording import open_recording
 from schemas.config.match_config import load_match
+from support.imports import forgotten_imports
 from touchline.commands.cli.command_line import app
 from touchline.play.play_match import play_match
 from touchline.policy.groups import OF_MATCH
@@ -65,8 +66,9 @@ def played(root: Path, command: list[str]) -> str:
 
 @pytest.mark.slow
 def test_cma_es_finds_better_numbers(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(str(root / "examples" / "learn"))
-    example = importlib.import_module("cmaes_keepaway")
+    with forgotten_imports(root / "examples" / "learn"):
+        sys.path.append(str(root / "examples" / "learn"))
+        example = importlib.import_module("cmaes_keepaway")
 
     def scores(_task: str, seeds: range, _brain: None, overrides: dict[str, float]) -> list[float]:
         return [0.01 * (seed % 3) - abs(overrides["teams.cyan.parameters.long"] - 4.0) for seed in seeds]

@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 import task_table
+from support.imports import forgotten_imports
 from touchline.commands.cli.command_line import app
 from touchline.matches.task.task import load_task, shipped_tasks
 
@@ -42,7 +43,8 @@ def test_the_page_s_own_task_has_at_most_60_lines_and_its_commands_play_it(
     assert [command[0] for command in commands] == ["task", "match", "verify"]
     commands[0][-1:] = ["2", "--jobs", "1", "--at-least", "1"]
     commands[1] += ["--duration", "2", "--listen", "tcp/127.0.0.1:0"]
-    results = [CliRunner().invoke(app, command) for command in commands]
+    with forgotten_imports(tmp_path):
+        results = [CliRunner().invoke(app, command) for command in commands]
     assert [result.exit_code for result in results] == [0, 0, 0], "".join(result.output for result in results)
     assert re.match(r"tug: [\d.]+ m \(.* in 2 episodes; from ", results[0].stdout)
     assert results[2].stdout.startswith("identical, 101 ticks\n")

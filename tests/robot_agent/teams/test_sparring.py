@@ -1,7 +1,7 @@
 """The sparring teams of `examples/sparring`: each plays in its style."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -13,6 +13,7 @@ from schemas.messages.command import Command, KickMode
 from schemas.messages.radio import Motion
 from schemas.messages.sight import ReceivedRadio
 from schemas.soccer.game import EventKind
+from support.imports import forgotten_imports
 from touchline import skills
 from touchline.play.play_match import play_match
 
@@ -25,6 +26,12 @@ POSES = {
     "cyan5": (-6.0, 0.0, 0.0),
 }
 Acts = Callable[..., dict[str, Command]]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def sparring() -> Iterator[None]:
+    with forgotten_imports(FOLDER):
+        yield
 
 
 @pytest.fixture

@@ -1,6 +1,5 @@
 """The environment of one robot: Gymnasium's own check, vectors of environments, and errors."""
 
-import sys
 from pathlib import Path
 
 import gymnasium
@@ -12,6 +11,7 @@ from gymnasium.vector import AutoresetMode
 
 from schemas.errors import TouchlineError
 from support import display
+from support.imports import forgotten_imports
 from support.rover_task import write_rover_task
 from touchline.learn import RobotEnv
 from touchline.learn.registry import ANY_TASK, environment_name
@@ -35,20 +35,16 @@ def test_one_robot_learns_and_its_teammates_play() -> None:
         RobotEnv("keepaway_3v2", robot="cyan33")
 
 
-def test_a_task_is_made_from_the_path_of_its_file_and_an_unknown_one_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys, "path", [*sys.path])
-    monkeypatch.delitem(sys.modules, "rover_tally", raising=False)
+def test_a_task_is_made_from_the_path_of_its_file_and_an_unknown_one_is_named(tmp_path: Path) -> None:
     path = write_rover_task(tmp_path)
-    team = pettingzoo.make("parallel", ANY_TASK, task=path)
-    robot = gymnasium.make(ANY_TASK, task=path, robot="two")
-    observations, _ = team.reset(3)
-    observation, _ = robot.reset(seed=3)
+    with forgotten_imports(tmp_path):
+        team = pettingzoo.make("parallel", ANY_TASK, task=path)
+        robot = gymnasium.make(ANY_TASK, task=path, robot="two")
+        observations, _ = team.reset(3)
+        observation, _ = robot.reset(seed=3)
+        team.close()
+        robot.close()
     assert {*observations} == {"one", "two"} and np.array_equal(observation, observations["two"])
-    team.close()
-    robot.close()
-    sys.modules.pop("rover_tally", None)
     with pytest.raises(TouchlineError, match="no task is named"):
         gymnasium.make(ANY_TASK, task="keepaway_3v3")
 

@@ -17,11 +17,11 @@ from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.messages.sight import Sight
 from support import display
+from support.imports import forgotten_imports
 from support.rover_task import write_rover_task
 from touchline.learn import TaskEnv, scores
 from touchline.learn.registry import environment_name
 from touchline.matches.task.task import shipped_tasks
-from touchline.verify.resimulate import verify
 
 KEEPAWAY = "keepaway_3v2"
 
@@ -43,19 +43,17 @@ def windows() -> Iterator[None]:
 
 
 @pytest.fixture
-def rovers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., TaskEnv]]:
-    monkeypatch.setattr(sys, "path", [*sys.path])
-    monkeypatch.delitem(sys.modules, "rover_tally", raising=False)
+def rovers(tmp_path: Path) -> Iterator[Callable[..., TaskEnv]]:
     path, made = write_rover_task(tmp_path), []
 
     def make(**settings: Any) -> TaskEnv:
         made.append(TaskEnv(path, **settings))
         return made[-1]
 
-    yield make
-    for env in made:
-        env.close()
-    sys.modules.pop("rover_tally", None)
+    with forgotten_imports(tmp_path):
+        yield make
+        for env in made:
+            env.close()
 
 
 def test_pettingzoo_finds_its_api_kept(rovers: Callable[..., TaskEnv]) -> None:
@@ -176,16 +174,6 @@ def test_the_state_is_what_all_agents_observe(rovers: Callable[..., TaskEnv]) ->
     env = rovers()
     observations, _ = env.reset(1)
     assert env.state().tolist() == [*observations["one"].tolist(), *observations["two"].tolist()]
-
-
-@pytest.mark.slow
-def test_any_episode_becomes_a_recording_that_verifies(tmp_path: Path) -> None:
-    env = keepaway()
-    env.reset(9, {"record": tmp_path / "nine.mcap"})
-    actions = np.random.default_rng(1)
-    while env.agents:
-        env.step({agent: actions.uniform(-1, 1, env.action_space(agent).shape) for agent in env.agents})
-    assert verify(tmp_path / "nine.mcap", referee=True).identical
 
 
 def test_a_picture_shows_where_the_robots_are(rovers: Callable[..., TaskEnv]) -> None:

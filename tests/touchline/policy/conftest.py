@@ -1,6 +1,5 @@
 """A match of rovers in one process, for what its robots observe and do."""
 
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -8,21 +7,20 @@ import pytest
 
 import touchline.tasks
 from schemas.config.match_config import load_match
+from support.imports import forgotten_imports
 from support.rover_task import write_rover_task
 from touchline.play.play_match import InProcessMatch
 
 
 @pytest.fixture
-def rovers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[InProcessMatch]:
+def rovers(tmp_path: Path) -> Iterator[InProcessMatch]:
     """The match, at tick 1, perceived without noise."""
-    monkeypatch.setattr(sys, "path", [*sys.path])
-    monkeypatch.delitem(sys.modules, "rover_tally", raising=False)
     config = load_match(Path(write_rover_task(tmp_path)), {"noise.preset": "perfect"})
-    match = InProcessMatch(config, brain_folder=tmp_path)
-    match.step()
-    yield match
-    match.close()
-    sys.modules.pop("rover_tally", None)
+    with forgotten_imports(tmp_path):
+        match = InProcessMatch(config, brain_folder=tmp_path)
+        match.step()
+        yield match
+        match.close()
 
 
 @pytest.fixture

@@ -53,7 +53,7 @@ class ReadsAClock(Ahead):
 """
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("task")
     (folder / "get_there.toml").write_text(TASK)

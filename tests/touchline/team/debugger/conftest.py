@@ -21,7 +21,7 @@ UNTIL = 4.0
 _NUMBERS = count()
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def played(match_recorder: Callable[..., None], tmp_path_factory: pytest.TempPathFactory) -> Recording:
     """Four seconds of two against two."""
     path = tmp_path_factory.mktemp("played") / "match.mcap"
