@@ -79,7 +79,8 @@ class PartsRig(TickRig):
         watch.watch("hash chain", self.world, "chain")
         watch.watch("radio: receive", self.radio, "receive")
         watch.watch("referee", self.referee, "step")
-        watch.watch("own motion, percepts", self.perception, "at")
+        perceive = self.perception.at
+        self.perception.at = watch.timed("own motion, percepts", lambda *given: iter(list(perceive(*given))))
         watch.watch("pictures", self.perception, "develop")
         watch.watch("sights: build, encode", self.sights, "at")
 

@@ -15,6 +15,7 @@ import statistics
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 from rich.console import Console
 from rich.table import Table
@@ -139,14 +140,14 @@ class TickRig:
     def sense(self) -> None:
         """Perception of all robots in successive ticks, without encoding."""
         self.seen += 1
-        self.alone.at(replace(self.snapshot, tick=self.seen), 1)
+        list(self.alone.at(replace(self.snapshot, tick=self.seen), 1))
 
     def tick(self) -> None:
         """Everything of one tick."""
         self.step_world()
         ruling = self.referee.step(self.state, self.snapshot, (), self.profile.time.tick)
         self.state = ruling.state
-        views = self.referee.views(self.state, 1)
+        views = partial(self.referee.views, self.state, 1)
         self.sights.at(self.snapshot, self.state.cyan_attacks, views, self.advance.stuck, {}, {}, {}, discard)
 
     def ready(self) -> None:

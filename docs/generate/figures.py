@@ -176,7 +176,7 @@ def own_error() -> str:
     perception = Perception(profile.sensing, snapshot.roster, RandomStreams(3), profile.time.tick)
     errors = []
     for tick in range(30_000):
-        own = perception.at(replace(snapshot, tick=tick), 1)[0].own
+        own = next(perception.at(replace(snapshot, tick=tick), 1)).own
         errors.append((own[0] + 2.0) ** 2 + (own[1] - 1.0) ** 2)
     return f"{100 * math.sqrt(np.mean(errors)):.0f} cm"
 
@@ -190,7 +190,7 @@ def _ages(model: str) -> tuple[float, float]:
     for tick in range(1, 4001):
         if tick % 4 == 0:  # no message overtakes another
             radio.send(tick, dict.fromkeys(_ROBOTS, _message(tick)))
-        heard = radio.receive(tick)[1].get("cyan1")
+        heard = list(radio.receive(tick))[1].get("cyan1")
         if heard is not None and heard.extra["n"] != newest:
             newest = int(heard.extra["n"])
             ages.append(heard.age)

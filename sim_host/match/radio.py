@@ -1,6 +1,6 @@
 """The radio between teammates: messages arrive late or not at all, and a team's messages have a byte budget."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -145,22 +145,23 @@ class RadioAir:
             budget.spend(at, bits)
         return end, refusal
 
-    def receive(self, tick: int, shared: Shared = as_it_is) -> list[dict[str, Any]]:
+    def receive(self, tick: int, shared: Shared = as_it_is) -> Iterator[dict[str, Any]]:
         """Per robot, in the order of the roster: teammate → its newest message that has arrived by this tick.
 
-        `shared` makes of each message what all receivers get, once a tick.
+        `shared` makes of each message what all receivers get, once a tick. What has arrived is noted at once; the
+        mappings are made when they are read, also in a later tick.
         """
         for arrival in [arrival for arrival in self._under_way if arrival <= tick]:
             for receiver, sender, arrived in self._under_way.pop(arrival):
                 known = self._held[receiver][sender]
                 if known is None or known.left < arrived.left:  # a newer one may have come earlier
                     self._held[receiver][sender] = arrived
-        tick_s = self._tick_s
-        return [
+        held, tick_s = [row.copy() for row in self._held], self._tick_s
+        return (
             {
                 name: message.received if message.at == tick else message.read_at(tick, tick_s, shared)
                 for name, sender in mates
                 if (message := of_robot[sender]) is not None
             }
-            for mates, of_robot in zip(self._mates, self._held, strict=True)
-        ]
+            for mates, of_robot in zip(self._mates, held, strict=True)
+        )

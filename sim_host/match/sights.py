@@ -4,12 +4,14 @@ Ten sights a tick are most of what a host publishes.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 from msgspec import Raw
 
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
+from schemas.messages.percept import Percept
 from schemas.messages.sight import Outcome, Sight
 from schemas.messages.soccer.game import GameView
 from schemas.side import Side
@@ -17,7 +19,7 @@ from schemas.wire.part import encode
 from sim_host.match.radio import RadioAir, as_it_is
 from sim_host.match.world_fields import Fields
 from sim_host.sensing.perception import Perception
-from sim_host.sensing.sensors.suite import SensorSuite
+from sim_host.sensing.sensors.suite import Readings, SensorSuite
 from sim_host.snapshot import Roster, Snapshot
 
 Send = Callable[[str, bytes], None]
@@ -25,13 +27,17 @@ Send = Callable[[str, bytes], None]
 
 
 class TickSights(Mapping[str, bytes]):
-    """Robot → its encoded sight of one tick. A sight that was not sent is encoded when it is first read."""
+    """Robot → its encoded sight of one tick. A sight that was not sent is made and encoded when it is first read."""
 
-    def __init__(self) -> None:
-        self.perceived: dict[str, Sight] = {}
+    def __init__(self, robots: Sequence[str], made: Iterator[Sight]) -> None:
+        self._robots, self._made = robots, made
+        self.encoded: dict[str, bytes] = {}
+
+    @cached_property
+    def perceived(self) -> dict[str, Sight]:
         """The same as messages; none where they were sent. Robots and ticks share parts of them: a reader must not
         change these."""
-        self.encoded: dict[str, bytes] = {}
+        return {sight.robot: sight for sight in self._made}
 
     def __getitem__(self, robot: str) -> bytes:
         if robot not in self.encoded:
@@ -39,10 +45,10 @@ class TickSights(Mapping[str, bytes]):
         return self.encoded[robot]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.perceived or self.encoded)
+        return iter(self._robots)
 
     def __len__(self) -> int:
-        return len(self.perceived or self.encoded)
+        return len(self._robots)
 
 
 def _once_encoded(part: Any) -> Any:
@@ -68,23 +74,54 @@ class Sights:
         self,
         snapshot: Snapshot,
         cyan_attacks: int,
-        views: Mapping[Side, GameView],
+        views: Callable[[], Mapping[Side, GameView]],
         stuck: Sequence[bool],
         orders: Mapping[Side, CoachOrder],
         commands: Mapping[str, Command],
         refusals: Mapping[str, list[str]],
         send: Send | None,
     ) -> TickSights:
-        """The sights of all robots; with `send`, each is sent as soon as it is made."""
-        percepts = self._perception.at(snapshot, cyan_attacks)
-        sensed = self._sensors.at(snapshot)
+        """The sights of all robots; with `send`, each is sent as soon as it is made, else made when they are read.
+
+        `views`: side → the game from its point of view.
+        """
         shared = as_it_is if send is None else _once_encoded
-        received = self._radio.receive(snapshot.tick, shared)
-        games = {side: shared(view) for side, view in views.items()}
-        sights = TickSights()
-        for index, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
-            percept, command = percepts[index], commands.get(name)
-            sight = Sight(
+        made = self._made(
+            snapshot,
+            self._perception.at(snapshot, cyan_attacks),
+            [dict(readings) for readings in self._sensors.at(snapshot)],
+            self._radio.receive(snapshot.tick, shared),
+            lambda: {side: shared(view) for side, view in views().items()},
+            stuck,
+            dict(orders),
+            dict(commands),
+            refusals,
+        )
+        sights = TickSights(self._roster.names, made)
+        if send is not None:
+            for sight in made:
+                sights.encoded[sight.robot] = encoded = sight.encode()
+                send(sight.robot, encoded)
+        self._perception.develop()
+        return sights
+
+    def _made(
+        self,
+        snapshot: Snapshot,
+        percepts: Iterator[Percept],
+        readings: list[Readings],
+        received: Iterator[dict[str, Any]],
+        games: Callable[[], dict[Side, Any]],
+        stuck: Sequence[bool],
+        orders: Mapping[Side, CoachOrder],
+        commands: Mapping[str, Command],
+        refusals: Mapping[str, list[str]],
+    ) -> Iterator[Sight]:
+        """The sights of all robots, made when they are read, of what was at this tick."""
+        game, robots = games(), zip(self._roster.names, self._roster.sides, percepts, received, strict=True)
+        for index, (name, side, percept, heard) in enumerate(robots):
+            command = commands.get(name)
+            yield Sight(
                 tick=snapshot.tick,
                 time=snapshot.time,
                 robot=name,
@@ -96,19 +133,12 @@ class Sights:
                 stuck=stuck[index],
                 obstacles=percept.obstacles,
                 obstacles_age=percept.obstacles_age,
-                radio=received[index],
-                game=games[side],
+                radio=heard,
+                game=game[side],
                 order=orders.get(side),
                 outcome=Outcome(
                     answers_tick=command.answers_tick if command is not None else None,
                     refused=refusals.get(name, []),
                 ),
-                sensors=dict(sensed[index]),
+                sensors=readings[index],
             )
-            if send is None:
-                sights.perceived[name] = sight
-            else:
-                sights.encoded[name] = encoded = sight.encode()
-                send(name, encoded)
-        self._perception.develop()
-        return sights

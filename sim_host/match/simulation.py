@@ -44,6 +44,8 @@ class TickResult:
 
     tick: int
     time: float
+    snapshot: Snapshot
+    """The true state in the field frame."""
     make_world: Callable[[], Fields]
     sights: TickSights
     """Robot → `schemas.messages.sight.Sight`, encoded when it is read; `sights.perceived` has the messages."""
@@ -161,6 +163,7 @@ class Simulation:
         self.now = TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
+            snapshot=snapshot,
             make_world=self._world_of(snapshot, world_tick.stuck),
             sights=sights,
             **self._applied(snapshot, inputs, changes, officiated),
@@ -208,7 +211,7 @@ class Simulation:
         send: Send | None,
     ) -> TickSights:
         """The sights of all robots; with `send`, each is sent as soon as it is made."""
-        views = self.judge.views(self.state, self.episode)
+        views = partial(self.judge.views, self.state, self.episode)
         return self._subsystems.sights.at(
             snapshot, self.state.cyan_attacks, views, stuck, self.orders, commands, refusals, send
         )
@@ -223,6 +226,7 @@ class Simulation:
         return TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
+            snapshot=snapshot,
             make_world=self._world_of(snapshot, stuck),
             sights=sights,
             **self._applied(snapshot, {}, changes, self._officiating_inputs(changes, (), ())),

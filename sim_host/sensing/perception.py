@@ -6,6 +6,7 @@ turns the whole frame, so that bodies keep their places relative to the robot.
 """
 
 from collections import deque
+from collections.abc import Iterator
 from functools import partial
 from typing import NamedTuple
 
@@ -74,8 +75,11 @@ class Perception:
         successor._balls = [None if place is None else self._balls[place] for place in places]
         return successor
 
-    def at(self, snapshot: Snapshot, cyan_attacks: int) -> list[Percept]:
-        """The percepts of all robots, in the order of the roster; call once in every tick, in order."""
+    def at(self, snapshot: Snapshot, cyan_attacks: int) -> Iterator[Percept]:
+        """The percepts of all robots, in the order of the roster; call once in every tick, in order.
+
+        They are made when they are read, also in a later tick.
+        """
         self.develop()
         if cyan_attacks != self._cyan_attacks:
             self._change_sides()
@@ -88,15 +92,24 @@ class Perception:
                 self.develop()
         while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
             self._receive(self._under_way.popleft())
-        own = self._own.at(tick, robots, frames)
-        known = self._known
+        return self._made(tick, self._own, robots, frames, self._known, self._balls.copy())
+
+    def _made(
+        self,
+        tick: int,
+        own: OwnMotion,
+        robots: RobotMotions,
+        frames: TeamFrames,
+        known: Picture,
+        balls: list[LastSeen | None],
+    ) -> Iterator[Percept]:
+        """The percepts of this tick, from what was in force then."""
         age = self._age(known.tick, tick)
-        return [
-            Percept(me, None, 0.0, False, obstacles, age)
-            if ball is None
-            else Percept(me, ball.place, self._age(ball.tick, tick), ball.tick == known.tick, obstacles, age)
-            for me, ball, obstacles in zip(own, self._balls, known.obstacles, strict=True)
-        ]
+        for me, ball, obstacles in zip(own.at(tick, robots, frames), balls, known.obstacles, strict=True):
+            if ball is None:
+                yield Percept(me, None, 0.0, False, obstacles, age)
+            else:
+                yield Percept(me, ball.place, self._age(ball.tick, tick), ball.tick == known.tick, obstacles, age)
 
     def _age(self, since: int, now: int) -> float:
         """s between two ticks."""

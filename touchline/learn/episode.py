@@ -1,6 +1,6 @@
 """One episode of a task in this process: some robots are controlled from outside, the others by their brains."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -75,6 +75,18 @@ class Episode:
         return self._simulation.now.sights.perceived
 
     @property
+    def kicker(self) -> str | None:
+        """The robot that can kick now: it holds the ball, and its kicker is charged."""
+        snapshot = self._simulation.now.snapshot
+        holder = snapshot.possession
+        return holder if holder and snapshot.kickers_ready[snapshot.roster.names.index(holder)] else None
+
+    @property
+    def off_field(self) -> Container[str]:
+        """The robots that do not take part now."""
+        return self._simulation.state.absences
+
+    @property
     def state(self) -> TaskState:
         """Score, reward and end."""
         state: Any = self._simulation.state
@@ -106,9 +118,9 @@ class Episode:
 
     def step(self, commands: Mapping[str, Command]) -> None:
         """One tick: the controlled robots do these commands, the others what their brains answer."""
-        sights, all_commands = self.sights, dict(commands)
+        all_commands = dict(commands)
         for robot, brain in self._brains.items():
-            all_commands[robot] = answer_of(brain, sights[robot].own_copy())
+            all_commands[robot] = answer_of(brain, self.sights[robot].own_copy())
         tick = self._simulation.step(all_commands)
         if self._recording is not None:
             self._recording.add(tick, all_commands)
@@ -116,6 +128,7 @@ class Episode:
 
     def _ask(self) -> None:
         """Hear what the advisers would do now; a brain sees every sight once, in order."""
-        sights = self.sights
-        self.advice = {robot: answer_of(brain, sights[robot].own_copy()) for robot, brain in self._advisers.items()}
+        self.advice = {
+            robot: answer_of(brain, self.sights[robot].own_copy()) for robot, brain in self._advisers.items()
+        }
         """Controlled robot → the command that its brain in the match file would give now; empty unless advised."""

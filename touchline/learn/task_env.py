@@ -12,6 +12,8 @@ from pettingzoo import ParallelEnv
 
 from schemas.config.match_parts import Parameter
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.messages.command import Command
+from schemas.messages.radio import Radio
 from sim_host.task.judge import BY_TIME
 from touchline.learn.episode import Episode
 from touchline.learn.sight_space import SightSpace
@@ -164,10 +166,11 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         if episode is None or not self.agents:
             raise TouchlineError("no episode is going on; call reset() first")
         checked = self._checked(actions)
-        reward, controls = 0.0, self._controls
-        for tick in range(controls[self.agents[0]].decision_ticks):
-            sights, is_new = episode.sights, tick == 0
-            episode.step({one: controls[one].command(action, sights[one], is_new=is_new) for one, action in checked})
+        reward, sights = 0.0, episode.sights
+        radio = {agent: self._controls[agent].message(sights[agent]) for agent in self.agents}
+        for _ in range(self._controls[self.agents[0]].decision_ticks):
+            episode.step(self._commands(episode, checked, radio))
+            radio = {}
             reward += episode.state.reward
             if episode.state.over:
                 break
@@ -274,6 +277,18 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
                 raise TouchlineError(f"the action of {agent} is {action.tolist()}; give finite numbers")
             checked.append((agent, action))
         return checked
+
+    def _commands(
+        self, episode: Episode, actions: list[tuple[str, NDArray[np.float32]]], radio: Mapping[str, Radio]
+    ) -> dict[str, Command]:
+        """The commands of one tick. They are made without sights, of which none are made between two decisions."""
+        tick, kicker, away = episode.tick, episode.kicker, episode.off_field
+        return {
+            agent: self._controls[agent].command(
+                action, tick, off_field=agent in away, can_kick=agent == kicker, radio=radio.get(agent)
+            )
+            for agent, action in actions
+        }
 
     def _known(self, agent: str) -> str:
         if agent not in self.action_spaces:

@@ -28,7 +28,7 @@ class Control:
         Raises:
             TouchlineError: a parameter of the team is no valid setting of a policy.
         """
-        drive, self._robot = briefing.setup.drive, briefing.robot
+        drive = briefing.setup.drive
         self._speed, self._turn = drive.max_speed, drive.max_turn_rate
         self._sideways, self._ball = drive.sideways, has_ball(briefing)
         self._kick = briefing.setup.kicker.max_ground_speed
@@ -53,27 +53,37 @@ class Control:
         """Names of the entries, in order."""
         return [entry.name for entry in self.entries]
 
-    def command(self, action: NDArray[np.floating], sight: Sight, *, is_new: bool) -> Command:
+    def command(
+        self,
+        action: NDArray[np.floating],
+        tick: int,
+        *,
+        off_field: bool = False,
+        can_kick: bool = False,
+        radio: Radio | None = None,
+    ) -> Command:
         """The command for one tick while an action of shape (entries,) is in force; values beyond ±1 are cut off.
 
-        With an action that is new the robot tells its teammates where it is, and where it has just seen the ball. A
-        robot that is off the field does nothing.
+        Args:
+            action: as the policy has decided.
+            tick: that of the newest sight.
+            off_field: the robot does not take part, and does nothing.
+            can_kick: the robot holds the ball, and its kicker is charged.
+            radio: the `message` with an action that is new.
         """
-        record = sight.game.robots.get(self._robot)
-        if record is not None and record.off_field is not None:
-            return replace(_COMMAND, answers_tick=sight.tick)
+        if off_field:
+            return replace(_COMMAND, answers_tick=tick)
         numbers = [min(1.0, max(-1.0, number)) for number in action.tolist()]
         vx, omega = numbers[0] * self._speed, numbers[1 + self._sideways] * self._turn
         vy = numbers[1] * self._speed if self._sideways else 0.0
-        radio = self._message(sight) if is_new else None
         drive = replace(_DRIVE, vx=vx, vy=vy, omega=omega)
         if not self._ball:
-            return replace(_COMMAND, answers_tick=sight.tick, drive=drive, radio=radio)
+            return replace(_COMMAND, answers_tick=tick, drive=drive, radio=radio)
         kicks, power, dribble = numbers[-3:]
         kick, speed = None, (power + 1.0) / 2.0 * self._kick
-        if kicks > 0.0 and speed > 0.0 and sight.holding and sight.kicker_ready:
+        if kicks > 0.0 and speed > 0.0 and can_kick:
             kick = replace(_KICK, speed=speed)
-        return replace(_COMMAND, answers_tick=sight.tick, drive=drive, dribble=dribble > 0.0, kick=kick, radio=radio)
+        return replace(_COMMAND, answers_tick=tick, drive=drive, dribble=dribble > 0.0, kick=kick, radio=radio)
 
     def action(self, command: Command) -> NDArray[np.float32]:
         """The action, shape (entries,), whose command is nearest to this one, for policies that imitate a brain.
@@ -90,7 +100,8 @@ class Control:
             numbers.append(1.0 if command.dribble else -1.0)
         return np.clip(np.array(numbers, np.float32), -1.0, 1.0)
 
-    def _message(self, sight: Sight) -> Radio:
+    def message(self, sight: Sight) -> Radio:
+        """With a new action, the robot tells its teammates where it is, and where it has just seen the ball."""
         ball = sight.ball
         if ball is None or ball.age > _FRESH:
             return replace(_RADIO, self=sight.self)

@@ -58,4 +58,11 @@ class PolicyBrain:
             self._action = self._policy.action(self._observation.observe(sight))
             if not np.isfinite(self._action).all():
                 raise ValueError(f"the policy's action is {self._action.tolist()}; robots move by finite numbers")
-        return self._control.command(self._action, sight, is_new=is_new)
+        record = sight.game.robots.get(sight.robot)
+        return self._control.command(
+            self._action,
+            sight.tick,
+            off_field=record is not None and record.off_field is not None,
+            can_kick=sight.holding and sight.kicker_ready,
+            radio=self._control.message(sight) if is_new else None,
+        )

@@ -93,7 +93,7 @@ def test_receivers_of_a_message_draw_their_own_jitter_and_read_one_time_of_sendi
 def test_an_age_grows_by_the_tick_in_every_sight() -> None:
     one = radio(replace(EXACT, delay=0.03))
     one.send(7, {"cyan1": Radio(role="keeper")})
-    ages = [heard["cyan1"].age for tick in range(7, 40) if (heard := one.receive(tick)[1])]
+    ages = [heard["cyan1"].age for tick in range(7, 40) if (heard := list(one.receive(tick))[1])]
     assert np.diff(ages) == approx(TICK, abs=1e-4)
     assert 0.03 <= ages[0] < 0.05, "the first sight at or after its arrival"
 
@@ -105,7 +105,7 @@ def cyan_hears(air: RadioChannel, magenta: Sequence[str], talking: int, seed: in
     for tick in range(1, 120):
         senders = ("cyan1", "cyan3", *magenta[:talking])
         one.send(tick, {name: Radio(intention=f"{name} {tick}") for name in senders})
-        heard.append(one.receive(tick)[1])
+        heard.append(list(one.receive(tick))[1])
     return heard
 
 
@@ -127,7 +127,7 @@ def test_names_are_all_that_a_links_draws_depend_on() -> None:
     for tick in range(1, 100):
         for one in (three, four):
             one.send(tick, {"cyan1": Radio(intention=str(tick))})
-        assert three.receive(tick)[1] == four.receive(tick)[2]
+        assert list(three.receive(tick))[1] == list(four.receive(tick))[2]
 
 
 def test_whole_ticks_are_counted_from_the_end_of_the_tick_in_recordings_of_before() -> None:

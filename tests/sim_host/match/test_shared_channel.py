@@ -71,7 +71,7 @@ def heard_ages(senders: Sequence[str], word: Radio, air: RadioChannel = SHARED, 
     one, ages, last = radio(air), [], -1
     for tick in range(1, ticks + 1):
         one.send(tick, {name: replace_number(word, tick) for name in senders})
-        heard = one.receive(tick)[1].get("cyan1")
+        heard = list(one.receive(tick))[1].get("cyan1")
         if heard is not None and heard.extra["n"] != last:
             last = int(heard.extra["n"])
             ages.append(heard.age)
@@ -112,7 +112,7 @@ def test_the_last_to_send_in_a_tick_finds_the_budget_spent_and_not_the_last_in_t
         one = radio(air, seed)
         (name,) = one.send(1, dict.fromkeys(CYAN[:3], word))
         refused.add(name)
-        left = {sender: heard.age for sender, heard in one.receive(2)[CYAN.index("cyan4")].items()}
+        left = {sender: heard.age for sender, heard in list(one.receive(2))[CYAN.index("cyan4")].items()}
         assert name not in left and len(left) == 2
     assert refused == set(CYAN[:3])
 
@@ -123,5 +123,5 @@ def test_a_message_on_the_channel_arrives_although_the_roster_changes() -> None:
     one.send(1, {"cyan1": word})
     one.receive(1)
     heir = one.with_roster(Roster(("cyan2", "cyan1"), (Side.CYAN,) * 2, {}, ()))
-    arrivals = [tick for tick in range(2, 10) if heir.receive(tick)[0]]
+    arrivals = [tick for tick in range(2, 10) if next(heir.receive(tick))]
     assert arrivals[0] == 6, "it left within tick 1 and was on the air for five ticks"

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from robot_agent.sdk.contract import Briefing
 from schemas.messages.command import Command, Drive, Kick, KickMode
@@ -12,15 +13,29 @@ from schemas.messages.soccer.game import DisciplinaryRecord
 from schemas.soccer.game import OffField
 from touchline.play.play_match import InProcessMatch
 from touchline.policy.control import Control
+from touchline.policy.observation import Observation
+from touchline.policy.policy_brain import PolicyBrain
+
+
+class Steady:
+    """A policy with one action for everything."""
+
+    def __init__(self, action: list[float], observations: int) -> None:
+        self._action, self.actions, self.observations = np.array(action, np.float32), len(action), observations
+
+    def action(self, _observation: NDArray[np.float32]) -> NDArray[np.float32]:
+        return self._action
 
 
 def commanded(
-    match: InProcessMatch, robot: str, action: list[float], *, is_new: bool = False, **changes: Any
+    match: InProcessMatch, robot: str, action: list[float], *, is_new: bool = True, **changes: Any
 ) -> Command:
-    """The command for an action; `changes` are of the robot's sight."""
+    """The command for an action that a policy takes at this sight, or took at it before; `changes` are of the sight."""
     sight: Sight = match.simulation.now.sights.perceived[robot].replace(**changes)
-    control = Control(Briefing.of(robot, match.simulation.setup()))
-    return control.command(np.array(action, np.float32), sight, is_new=is_new)
+    briefing = Briefing.of(robot, match.simulation.setup())
+    brain = PolicyBrain(briefing, Steady(action, len(Observation(briefing).entries)))
+    first = brain.act(sight)
+    return first if is_new else brain.act(sight)
 
 
 def test_full_speed_is_that_of_the_robot(keepers: InProcessMatch, rovers: InProcessMatch) -> None:
@@ -54,10 +69,10 @@ def test_a_robot_kicks_once_it_holds_the_ball_and_its_kicker_is_charged(keepers:
 
 def test_with_each_decision_the_team_hears_where_the_robot_and_the_ball_are(keepers: InProcessMatch) -> None:
     now = keepers.simulation.now.sights.perceived["cyan1"]
-    told = commanded(keepers, "cyan1", [0.0] * 6, is_new=True).radio
+    told = commanded(keepers, "cyan1", [0.0] * 6).radio
     assert told is not None and told.self == now.self and told.ball is not None and told.ball.x == now.ball.x
-    assert commanded(keepers, "cyan1", [0.0] * 6).radio is None
-    blind = commanded(keepers, "cyan1", [0.0] * 6, is_new=True, ball=None).radio
+    assert commanded(keepers, "cyan1", [0.0] * 6, is_new=False).radio is None
+    blind = commanded(keepers, "cyan1", [0.0] * 6, ball=None).radio
     assert blind is not None and blind.ball is None
 
 
