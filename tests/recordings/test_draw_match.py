@@ -14,13 +14,14 @@ from schemas.config.obstacle import Shape
 from schemas.config.sensors.compass import Compass, CompassReading
 from schemas.config.sensors.contact import Bumper, ContactReading
 from schemas.config.sensors.range import RangeFinder, RangeReading
-from schemas.config.task import Zone
+from schemas.config.task import GameName, Zone
 from schemas.errors import TouchlineError
+from schemas.messages.setup import TaskSetup
 from schemas.messages.world import ObstacleTruth, World
 from schemas.side import Side
 from schemas.topics import WORLD
 from touchline.drawing.bodies import COLOURS, draw_bodies
-from touchline.drawing.pitch import draw_floor
+from touchline.drawing.picture import drawn
 
 
 def world_at(recorded, second: float) -> World:
@@ -42,18 +43,16 @@ def test_a_time_outside_the_recording_is_named_with_the_times_it_has(recorded, s
         draw(recorded.path, second)
 
 
-def test_the_floor_of_a_free_game_is_drawn_with_its_zones(recorded):
-    zones = [Zone(name="dock", place=[2.0, 1.0], radius=1.5), Zone(name="yard", place=[-3.0, 0.0], size=[2.0, 4.0])]
-    axes = Figure().subplots()
-    draw_floor(axes, recorded.setup.pitch, zones)
-    assert [(text.get_text(), text.get_position()) for text in axes.texts] == [
-        ("dock", (2.0, 1.0)),
-        ("yard", (-3.0, 0.0)),
-    ]
-    (dock,) = (patch for patch in axes.patches if isinstance(patch, Circle))
-    yard = next(patch for patch in axes.patches if isinstance(patch, Rectangle) and patch.get_height() == 4.0)
-    assert (dock.center, dock.radius, yard.get_width()) == ((2.0, 1.0), 1.5, 2.0)
-    assert yard.get_center() == pytest.approx((-3.0, 0.0))
+@pytest.mark.parametrize("game", GameName)
+def test_the_zones_of_a_task_are_drawn_with_their_names(recorded, game):
+    zones = [Zone(name="dock", place=[2.0, 1.0], radius=1.51), Zone(name="yard", place=[-3.0, 0.0], size=[2.0, 4.01])]
+    setup = recorded.setup.replace(game=game, task=TaskSetup(score="a:b", zones=zones))
+    _, axes, _ = drawn(setup, [world_at(recorded, 1.0)], 4.0)
+    places = {text.get_text(): text.get_position() for text in axes.texts}
+    assert (places["dock"], places["yard"]) == ((2.0, 1.0), (-3.0, 0.0))
+    (dock,) = (patch for patch in axes.patches if isinstance(patch, Circle) and patch.radius == 1.51)
+    (yard,) = (patch for patch in axes.patches if isinstance(patch, Rectangle) and patch.get_height() == 4.01)
+    assert (dock.center, yard.get_width(), yard.get_center()) == ((2.0, 1.0), 2.0, pytest.approx((-3.0, 0.0)))
 
 
 def test_an_obstacle_is_drawn_where_it_truly_is(recorded):
