@@ -22,6 +22,7 @@ from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.wire.part import encode
 from schemas.wire.part_faults import validated
 from sim_host.match.simulation import Simulation
+from support.brisk import BRISK
 from support.recorded_match import match_recorder
 
 __all__ = ["match_recorder"]
@@ -36,15 +37,15 @@ POST = {"name": "post", "shape": "cylinder", "place": [2.0, -3.0], "radius": 0.1
 def operate(simulation: Simulation) -> None:
     """Three deeds, each of which makes a checkpoint."""
     match simulation.world.tick:
-        case 260:
+        case 110:
             place = [Placement(body="ball", x=1.0, y=2.0, vx=-1.0, vy=0.5)]
             assert simulation.handle_scene(SceneRequest(operation=SceneOperation.PLACE, place=place)).accepted
-        case 320:
+        case 170:
             values = {"drive.max_speed": 3.0, "ball.rolling_deceleration": 0.8}
             assert simulation.handle_parameters(
                 ParametersRequest(operation=ParameterOperation.SET, values=values)
             ).accepted
-        case 380:
+        case 230:
             request = validated(SceneRequest, {"operation": "add", "obstacles": [POST]})
             assert simulation.handle_scene(request).accepted
 
@@ -57,11 +58,11 @@ def operate_fixture() -> Callable[[Simulation], None]:
 
 @pytest.fixture(scope="session")
 def operated(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Path:
-    """A match of two a side on wheels: a kick-off, and three deeds of an operator; 400 ticks or so."""
+    """A match of two a side on wheels: a kick-off, and three deeds of an operator; 260 ticks or so."""
     path = tmp_path_factory.mktemp("operated") / "match.mcap"
     teams = {"teams.cyan.size": 2, "teams.magenta.size": 2}
-    config = load_match(None, {"seed": 3, "duration": 10.0, "profile": "omni", **teams})
-    match_recorder(path, config, until=8.2, between=operate)
+    config = load_match(None, {"seed": 3, "duration": 10.0, "rules": str(BRISK), "profile": "omni", **teams})
+    match_recorder(path, config, until=5.2, between=operate)
     return path
 
 

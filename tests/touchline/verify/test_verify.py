@@ -11,6 +11,7 @@ from recordings.reading.tick_index import SkipReason, tick_index_of
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
+from support.brisk import BRISK
 from touchline.commands.cli.command_line import app
 from touchline.verify import resimulate, segment_check
 from touchline.verify.resimulate import verify
@@ -53,7 +54,7 @@ def test_several_processes_give_the_verdict_of_one(operated: Path, verified, edi
     assert two.processes == 2
     assert (one.identical, one.ticks, one.left_out) == (two.identical, two.ticks, two.left_out)
     assert one.seconds == pytest.approx(two.seconds, abs=0.2)
-    wrong = edited(operated, "host/applied", at_tick(350, faster))
+    wrong = edited(operated, "host/applied", at_tick(200, faster))
     alone, shared = (verify(wrong, processes=count).difference for count in (1, 2))
     assert alone is not None and shared is not None
     assert (alone.tick, alone.why, alone.details) == (shared.tick, shared.why, shared.details)
@@ -79,7 +80,7 @@ def faster(fields):
     return fields
 
 
-@pytest.mark.parametrize("tick", [1, 261])
+@pytest.mark.parametrize("tick", [1, 111])
 def test_one_bit_of_one_input_is_caught_at_its_tick(operated: Path, edited, at_tick, tick: int) -> None:
     result = run(edited(operated, "host/applied", at_tick(tick, faster)), "--jobs", "1")
     assert result.exit_code == 1
@@ -97,11 +98,11 @@ def test_a_command_that_was_taken_out_is_missed(operated: Path, edited) -> None:
         edited(
             operated,
             "robot/cyan1/command",
-            lambda fields: None if fields["answers_tick"] == 300 else fields,
+            lambda fields: None if fields["answers_tick"] == 150 else fields,
             recount=False,
         )
     )
-    assert verdict.difference is not None and verdict.difference.tick == 301
+    assert verdict.difference is not None and verdict.difference.tick == 151
     assert verdict.difference.details[0].field == "command"
 
 
@@ -118,7 +119,7 @@ def test_another_world_is_reported_by_body_field_and_amount(operated: Path, edit
         fields["ball"]["x"] += 0.25
         return fields
 
-    result = run(edited(operated, "world", at_tick(150, edit)), "--jobs", "1")
+    result = run(edited(operated, "world", at_tick(120, edit)), "--jobs", "1")
     assert result.exit_code == 1
     said = result.stdout.splitlines()
     assert said[0].endswith("the hash chain is the same, but the recorded world differs")
@@ -131,41 +132,41 @@ def test_a_body_that_was_set_down_elsewhere_shows_where_it_is(operated: Path, ed
         ball["y"] -= 0.5
         return fields
 
-    difference = verify(edited(operated, "host/applied", at_tick(261, edit))).difference
-    assert difference.tick == 261
+    difference = verify(edited(operated, "host/applied", at_tick(111, edit))).difference
+    assert difference.tick == 111
     y = next(detail for detail in difference.details if (detail.of, detail.field) == ("ball", "y"))
     assert y.by == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.slow
 def test_missing_ticks_are_reported_and_the_others_compared(operated: Path, verified: Verdict, edited) -> None:
-    after = next(start.tick for start in tick_index_of(open_recording(operated)).starts if start.tick > 310)
-    path = edited(operated, "host/applied", lambda fields: None if 300 <= fields["tick"] < 310 else fields)
+    after = next(start.tick for start in tick_index_of(open_recording(operated)).starts if start.tick > 160)
+    path = edited(operated, "host/applied", lambda fields: None if 150 <= fields["tick"] < 160 else fields)
     verdict = verify(path)
     assert not verdict.identical and verdict.difference is None
     assert (verdict.left_out[0].first, verdict.left_out[0].last, verdict.left_out[0].why) == (
-        300,
-        309,
+        150,
+        159,
         SkipReason.MISSING,
     )
-    assert verdict.ticks == 300 + verified.ticks - after
+    assert verdict.ticks == 150 + verified.ticks - after
     result = run(path, "--jobs", "1")
     assert result.exit_code == 1
-    assert "ticks 300 to 309 are missing in the recording and were not verified" in result.stdout
+    assert "ticks 150 to 159 are missing in the recording and were not verified" in result.stdout
 
 
 def test_a_difference_before_missing_ticks_is_reported_by_one_process_as_by_two(operated: Path, edited) -> None:
     """What stands behind the gap is a segment of its own, and is not gone over any more."""
 
     def edit(fields):
-        if 300 <= fields["tick"] < 310:
+        if 150 <= fields["tick"] < 160:
             return None
-        return faster(fields) if fields["tick"] == 200 else fields
+        return faster(fields) if fields["tick"] == 100 else fields
 
     path = edited(operated, "host/applied", edit)
     one, two = verify(path, processes=1), verify(path, processes=2)
     assert one.difference is not None
-    assert one.difference.tick == 200
+    assert one.difference.tick == 100
     assert (one.difference, one.ticks) == (two.difference, two.ticks)
 
 
@@ -210,9 +211,9 @@ def test_another_machine_is_reported_first(operated: Path, edited, json_of) -> N
 
 @pytest.mark.slow
 def test_the_verdict_as_json(operated: Path, edited, at_tick, json_of) -> None:
-    result = run(edited(operated, "host/applied", at_tick(200, faster)), "--json", "--jobs", "1")
+    result = run(edited(operated, "host/applied", at_tick(60, faster)), "--json", "--jobs", "1")
     verdict = json_of(result.stdout)
-    assert (verdict["identical"], verdict["ticks"], verdict["difference"]["tick"]) == (False, 200, 200)
+    assert (verdict["identical"], verdict["ticks"], verdict["difference"]["tick"]) == (False, 60, 60)
     assert verdict["difference"]["details"][0]["of"] == "input of cyan2"
     assert json_of(run(operated, "--json", "--jobs", "1").stdout)["identical"] is True
 
@@ -243,12 +244,12 @@ def test_a_cut_off_recording_is_compared_up_to_the_cut(operated: Path, verified:
 def test_a_later_part_is_compared_from_its_first_start(tmp_path: Path, match_recorder, operate) -> None:
     """A later part begins with what stood then: who takes part, numbers that were changed, the world before."""
     teams = {"teams.cyan.size": 1, "teams.magenta.size": 1}
-    config = load_match(None, {"seed": 3, "duration": 10.0, **teams})
-    match_recorder(tmp_path / "m.mcap", config, until=9.0, between=operate, options=RecordOptions(part_duration=6.6))
+    config = load_match(None, {"seed": 3, "duration": 10.0, "rules": str(BRISK), **teams})
+    match_recorder(tmp_path / "m.mcap", config, until=5.5, between=operate, options=RecordOptions(part_duration=4.0))
     second = tmp_path / "m.2.mcap"
     verdict = verify(second)
     assert verdict.identical and verdict.difference is None
     start = next(start for start in tick_index_of(open_recording(second)).starts if start.tick > 0)
-    assert [one.tick for one in start.changes] == [0, 321]
-    assert verdict.ticks == 451 - start.tick
+    assert [one.tick for one in start.changes] == [0, 171]
+    assert verdict.ticks == 276 - start.tick
     assert [one.why for one in verdict.left_out] == [SkipReason.BEFORE, SkipReason.NO_START]
