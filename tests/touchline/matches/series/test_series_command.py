@@ -20,6 +20,15 @@ from touchline.commands.cli.command_line import app
 from touchline.play.play_match import play_match
 from touchline.verify.resimulate import verify
 
+GOAL = """
+description = "A ball that rolls into magenta's goal."
+ball = { x = 10.5, y = 0.0, vx = 5.0 }
+robots = [
+    { name = "cyan1", side = "cyan", x = 0.0, y = 3.0 },
+    { name = "magenta1", side = "magenta", x = 0.0, y = -3.0 },
+]
+"""
+
 
 def series(*words: str | Path) -> Result:
     return CliRunner().invoke(app, ["series", *map(str, words)])
@@ -121,5 +130,10 @@ def test_an_interrupted_series_prints_what_has_been_played(match_file: Path) -> 
 
 
 def test_the_worst_match_of_the_first_team_leaves_its_recording(match_file: Path, tmp_path: Path) -> None:
-    kept = rows(match_file, "--seeds", "5-6", "--failures", "1", "--record", tmp_path)["failures"]["kept"]
-    assert open_recording(Path(kept[0]["recording"])).manifest.config.seed == 5
+    scene = tmp_path / "goal_of_cyan.toml"
+    scene.write_text(GOAL)
+    words = ("--scene", scene, "--seeds", "5", "--both-sides", "--failures", "1", "--record", tmp_path / "kept")
+    (kept,) = rows(match_file, *words)["failures"]["kept"]
+    assert kept["worth"] == -1.0
+    teams = open_recording(Path(kept["recording"])).manifest.config.teams
+    assert (teams.cyan.name, teams.magenta.name) == ("Still", "Forward")

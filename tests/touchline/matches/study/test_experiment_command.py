@@ -8,9 +8,11 @@ from typer.testing import CliRunner
 pytest.importorskip("scipy", reason="experiments need the extra study")
 pytest.importorskip("pyarrow", reason="experiments need the extra study")
 
+from recordings.reading.recording import open_recording
 from support.brisk import BRISK
 from touchline.commands import experiment
 from touchline.commands.cli.command_line import app
+from touchline.matches.study.study_folder import read_study
 
 STUDY = f"""
 seeds = "1-2"
@@ -61,14 +63,21 @@ def test_matplotlib_does_not_say_that_it_builds_a_cache_of_fonts() -> None:
 def test_json_has_a_line_for_each_match_on_stderr_and_the_summary_on_stdout(tmp_path: Path) -> None:
     file, folder = tmp_path / "try.toml", tmp_path / "out"
     file.write_text(STUDY)
-    result = CliRunner().invoke(app, ["experiment", str(file), "--out", str(folder), "--jobs", "1", "--json"])
+    words = ["experiment", str(file), "--out", str(folder), "--jobs", "1", "--failures", "1", "--json"]
+    result = CliRunner().invoke(app, words)
     assert result.exit_code == 0, result.exception
     summary = json.loads(result.stdout)
     assert (summary["played"], summary["seeds"], summary["failed"]) == (2, [1, 2], [])
     assert summary["folder"] == str(folder)
     lines = [json.loads(line) for line in result.stderr.splitlines()]
-    assert [(line["done"], line["total"], line["match_failed"]) for line in lines] == [(1, 2, False), (2, 2, False)]
+    told = [(line["done"], line["total"], line["match_failed"]) for line in lines]
+    assert told == [(1, 2, False), (2, 2, False), (1, 1, False)]
     assert lines[0]["match"].startswith("cell 1, seed 1: cyan ")
+    table = read_study(folder).table.sort_values("distance")
+    least, most = table["distance"]
+    (kept,) = summary["failures"]["kept"]
+    assert kept["worth"] == least < most
+    assert open_recording(Path(kept["recording"])).manifest.config.seed == table["seed"].iloc[0]
 
 
 def test_a_package_that_is_missing_is_named_with_its_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -82,12 +91,3 @@ def test_a_folder_without_a_study_is_refused(tmp_path: Path) -> None:
     status, text = run("verify", tmp_path)
     assert status != 0
     assert "give the folder of a study that was played" in text
-
-
-def test_the_match_with_the_least_response_leaves_a_recording(tmp_path: Path) -> None:
-    (tmp_path / "try.toml").write_text(STUDY)
-    words = ("experiment", str(tmp_path / "try.toml"), "--out", str(tmp_path / "out"), "--failures", "1", "--json")
-    result = CliRunner().invoke(app, [*words, "--jobs", "1"])
-    assert result.exit_code == 0, result.exception
-    (kept,) = json.loads(result.stdout)["failures"]["kept"]
-    assert Path(kept["recording"]).is_file()
