@@ -62,7 +62,7 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
         raise TouchlineError(f'brain is "{spec}"; {remedy}')
     said = f'brain is "{spec}"'
     if file := policy_file(spec):
-        return _policy_brain(said, file, briefing, BrainFolders(beside_match, here))
+        return _policy_brain(said, file, briefing, beside_match, here)
     found, name = load_object(said, brain_of(spec), beside_match, here)
     if not isinstance(found, type):
         if not callable(found):
@@ -72,14 +72,16 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
     return _build(spec, found, briefing)
 
 
-def _policy_brain(said: str, file: str, briefing: Briefing, folders: BrainFolders) -> Brain:
+def _policy_brain(said: str, file: str, briefing: Briefing, beside: Path | None, here: Path | None) -> Brain:
     """The brain of a policy; its class is imported here alone, because policies stand above the robots' packages."""
+    folders = BrainFolders(beside, here)
     found = next((path / file for path in folders.paths if (path / file).is_file()), None)
     if found is None:
         raise TouchlineError(f"{said}; there is no file {file} {folders}; put it there")
     module, _, name = POLICY_BRAIN.partition(":")
     try:
-        brain: Brain = getattr(importlib.import_module(module), name).of_file(briefing, found)
+        made = getattr(importlib.import_module(module), name)
+        brain: Brain = made.of_file(briefing, found, lambda spec: load_brain(spec, briefing, beside, here))
     except TouchlineError as error:
         raise TouchlineError(f"{said}; {error}") from error
     return brain

@@ -39,20 +39,20 @@ class Episode:
         folder: Path,
         controlled: Sequence[str],
         recording: Path | None = None,
-        advised: bool = False,
+        adviser: str | None = None,
     ) -> None:
         """`config` is of a task; brains are looked for in `folder`; the match is written into `recording`.
 
-        `advised`: the brains of the controlled robots give advice.
+        `adviser`: the brain that gives advice for each controlled robot; empty: the one of the match file; None: none.
 
         Raises:
             TouchlineError: a brain cannot be loaded, or the recording cannot be written.
         """
-        seats = {} if advised else dict.fromkeys(controlled, _Seat())
+        seats = {} if adviser == "" else dict.fromkeys(controlled, adviser or _Seat())
         self._match = InProcessMatch(config, seats, folder, chained=recording is not None)
         self._simulation, brains = self._match.simulation, self._match.brains
         self._brains = {name: brain for name, brain in brains.items() if name not in controlled}
-        self._advisers = {name: brains[name] for name in controlled} if advised else {}
+        self._advisers = {name: brains[name] for name in controlled} if adviser is not None else {}
         self._recording: MatchRecording | None = None
         try:
             if recording is not None:
@@ -131,4 +131,4 @@ class Episode:
         self.advice = {
             robot: answer_of(brain, self.sights[robot].own_copy()) for robot, brain in self._advisers.items()
         }
-        """Controlled robot → the command that its brain in the match file would give now; empty unless advised."""
+        """Controlled robot → the command that its adviser would give now; empty without advisers."""

@@ -20,6 +20,7 @@ from touchline.learn.sight_space import SightSpace
 from touchline.matches.task.task import load_task
 from touchline.policy.control import Control
 from touchline.policy.entries import Entry
+from touchline.policy.interface import Interface
 from touchline.policy.observation import Observation
 
 if TYPE_CHECKING:
@@ -95,6 +96,9 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         self._window: Window | None = None
         self._seeds = np.random.default_rng()
         self._sights, self._advised = observation == "sight", advice
+        self._corrects = Interface.of(self._task.config.team(self._task.side).parameters).corrects
+        if advice and self._corrects:
+            raise TouchlineError("there is no advice on corrections; leave out advice=True or the parameter corrects")
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -238,7 +242,8 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         self._episode, self.agents = None, []
 
     def _begin(self, seed: int, recording: Path | None) -> Episode:
-        return Episode(self._task.episode(seed), self._task.folder, self.possible_agents, recording, self._advised)
+        adviser = self._corrects or ("" if self._advised else None)
+        return Episode(self._task.episode(seed), self._task.folder, self.possible_agents, recording, adviser)
 
     def _observe(self, episode: Episode) -> dict[str, Observed]:
         sights = episode.sights
@@ -250,8 +255,9 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         state = episode.state
         info = {"seed": self._seed, "tick": episode.tick, "score": state.value or 0.0, "ended_by": state.ended_by}
         infos = {agent: dict(info) for agent in self.agents}
-        for agent, command in episode.advice.items():
-            infos[agent]["advice"] = self._controls[agent].action(command)
+        if self._advised:
+            for agent, command in episode.advice.items():
+                infos[agent]["advice"] = self._controls[agent].action(command)
         return infos
 
     def _checked(self, actions: Mapping[str, Any]) -> list[tuple[str, NDArray[np.float32]]]:
@@ -283,9 +289,15 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
     ) -> dict[str, Command]:
         """The commands of one tick. They are made without sights, of which none are made between two decisions."""
         tick, kicker, away = episode.tick, episode.kicker, episode.off_field
+        brains = episode.advice if self._corrects else {}
         return {
             agent: self._controls[agent].command(
-                action, tick, off_field=agent in away, can_kick=agent == kicker, radio=radio.get(agent)
+                action,
+                tick,
+                off_field=agent in away,
+                can_kick=agent == kicker,
+                radio=radio.get(agent),
+                corrected=brains.get(agent),
             )
             for agent, action in actions
         }

@@ -6,6 +6,8 @@ They are parameters of the team in the match file, so that training and match re
     decision_ticks = 5
     obstacles = 4
     observe = "motion ball mates"
+    act = "vx kick power"
+    corrects = "my_team:Brain"
 """
 
 from collections.abc import Mapping
@@ -13,10 +15,13 @@ from dataclasses import dataclass
 from typing import Self
 
 from schemas.config.match_parts import Parameter
+from schemas.config.shipped_teams import policy_file
 from schemas.errors import TouchlineError, did_you_mean
 
 GROUPS = ("place", "motion", "ball", "goals", "mates", "obstacles", "zones", "sensors", "time")
 """Groups of entries of an observation, in their order."""
+ACTS = ("vx", "vy", "omega", "kick", "power", "dribble")
+"""Entries of an action, in their order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +34,10 @@ class Interface:
     """How many of the nearest obstacles are observed."""
     observe: tuple[str, ...] = GROUPS
     """The groups that are observed, as far as the match has them."""
+    act: tuple[str, ...] = ACTS
+    """The entries of an action, as far as the robot and the match have them; the others are 0."""
+    corrects: str = ""
+    """The brain whose commands the policy corrects, such as `module:Class`; empty where the policy commands alone."""
 
     @classmethod
     def of(cls, parameters: Mapping[str, Parameter]) -> Self:
@@ -37,17 +46,26 @@ class Interface:
         Raises:
             TouchlineError: a value is of another type, out of range, or names no group.
         """
-        groups = parameters.get("observe", " ".join(GROUPS))
-        if not isinstance(groups, str) or not groups.split():
-            raise TouchlineError(f"parameter observe is {groups!r}; write groups, such as {' '.join(GROUPS[:3])!r}")
-        for group in groups.split():
-            if group not in GROUPS:
-                raise TouchlineError(f'parameter observe names "{group}"; {did_you_mean(group, GROUPS)}')
+        corrects = parameters.get("corrects", "")
+        if not isinstance(corrects, str) or policy_file(corrects):
+            raise TouchlineError(f'parameter corrects is {corrects!r}; write a brain of code, such as "module:Class"')
         return cls(
             decision_ticks=_whole(parameters, "decision_ticks", cls().decision_ticks, 1, 1000),
             obstacles=_whole(parameters, "obstacles", cls().obstacles, 0, 100),
-            observe=tuple(group for group in GROUPS if group in groups.split()),
+            observe=_words(parameters, "observe", GROUPS),
+            act=_words(parameters, "act", ACTS),
+            corrects=corrects,
         )
+
+
+def _words(parameters: Mapping[str, Parameter], name: str, known: tuple[str, ...]) -> tuple[str, ...]:
+    said = parameters.get(name, " ".join(known))
+    if not isinstance(said, str) or not said.split():
+        raise TouchlineError(f"parameter {name} is {said!r}; write words, such as {' '.join(known[:3])!r}")
+    for word in said.split():
+        if word not in known:
+            raise TouchlineError(f'parameter {name} names "{word}"; {did_you_mean(word, known)}')
+    return tuple(word for word in known if word in said.split())
 
 
 def _whole(parameters: Mapping[str, Parameter], name: str, default: int, least: int, most: int) -> int:

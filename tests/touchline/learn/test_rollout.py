@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import touchline.tasks
 from recordings.reading.recording import open_recording
@@ -12,11 +13,15 @@ from touchline.learn import TaskEnv
 from touchline.play.play_match import InProcessMatch
 from touchline.policy.network import Network
 
+FILE = Path(touchline.tasks.__path__[0]) / "keepaway_3v2.toml"
+CORRECTS = {"corrects": "touchline.tasks.keepaway_3v2:Keeper"}
+SHORT = {"duration": 2.0, "seed": 11}
 
-def test_a_match_gives_a_policy_the_commands_of_the_environment(tmp_path: Path) -> None:
+
+@pytest.mark.parametrize("parameters", [{}, CORRECTS])
+def test_a_match_gives_a_policy_the_commands_of_the_environment(tmp_path: Path, parameters: dict[str, str]) -> None:
     """The commands of both are equal at every tick, and so are the chains over all states."""
-    file = Path(touchline.tasks.__path__[0]) / "keepaway_3v2.toml"
-    env = TaskEnv("keepaway_3v2", overrides={"duration": 2.0})
+    env = TaskEnv("keepaway_3v2", overrides={"duration": 2.0}, parameters=parameters)
     size = len(env.observation_entries("cyan1")), 16, len(env.action_entries("cyan1"))
     network = Network.of(np.random.default_rng(1).normal(size=Network.size(size)), size)
     network.save(tmp_path / "keeper.npz")
@@ -24,18 +29,36 @@ def test_a_match_gives_a_policy_the_commands_of_the_environment(tmp_path: Path) 
     while env.agents:
         observations, *_ = env.step({agent: network.action(seen) for agent, seen in observations.items()})
 
-    config = load_match(file, {"duration": 2.0, "seed": 11, "teams.cyan.brain": f"policy:{tmp_path / 'keeper.npz'}"})
-    match = InProcessMatch(config, brain_folder=file.parent)
+    team = {"brain": f"policy:{tmp_path / 'keeper.npz'}", "parameters": parameters}
+    played, chains = played_by({f"teams.cyan.{key}": value for key, value in team.items()})
+    recorded = commands_of(tmp_path / "env.mcap")
+    assert [recorded[tick] for tick in range(len(played))] == played
+    assert len({command.drive for each in played for command in each.values()}) > 20
+    assert chains == chains_of(tmp_path / "env.mcap")[1:]
+
+
+def test_a_correction_of_zeros_leaves_the_commands_of_the_brain_as_they_are(tmp_path: Path) -> None:
+    env = TaskEnv("keepaway_3v2", overrides={"duration": 2.0}, parameters=CORRECTS)
+    env.reset(11, {"record": tmp_path / "env.mcap"})
+    while env.agents:
+        env.step({agent: np.zeros(env.action_space(agent).shape, np.float32) for agent in env.agents})
+    played, chains = played_by({})
+    recorded = commands_of(tmp_path / "env.mcap")
+    assert [recorded[tick] for tick in range(len(played))] == played
+    assert any(command.radio and command.radio.intention for each in played for command in each.values())
+    assert chains == chains_of(tmp_path / "env.mcap")[1:]
+
+
+def played_by(overrides: dict[str, object]) -> tuple[list[dict[str, Command]], list[str]]:
+    """The commands of cyan at each tick of the match, and the chain after it."""
+    match = InProcessMatch(load_match(FILE, {**SHORT, **overrides}), brain_folder=FILE.parent)
     played: list[dict[str, Command]] = []
     chains = []
     while not match.simulation.over:
         chains.append(match.step().applied["chain"])
         played.append({name: command for name, command in match.commands.items() if name.startswith("cyan")})
     match.close()
-    recorded = commands_of(tmp_path / "env.mcap")
-    assert [recorded[tick] for tick in range(len(played))] == played
-    assert len({command.drive for each in played for command in each.values()}) > 20
-    assert chains == chains_of(tmp_path / "env.mcap")[1:]
+    return played, chains
 
 
 def commands_of(recording: Path) -> dict[int, dict[str, Command]]:

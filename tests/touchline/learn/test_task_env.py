@@ -237,6 +237,10 @@ def test_a_recording_ends_with_the_next_reset(rovers: Callable[..., TaskEnv], tm
         ({"observation": "sigth"}, 'did you mean "sight"?'),
         ({"parameters": {"decision_ticks": 0}}, "decision_ticks is 0; write a whole number from 1 to 1000"),
         ({"parameters": {"observe": "motoin"}}, 'names "motoin"; did you mean "motion"?'),
+        ({"parameters": {"act": "vx omga"}}, 'names "omga"; did you mean "omega"?'),
+        ({"parameters": {"corrects": "policy:one.npz"}}, "corrects is 'policy:one.npz'; write a brain of code"),
+        ({"parameters": {"corrects": "rover_tally:Stil"}}, 'did you mean "Still"?'),
+        ({"parameters": {"corrects": "rover_tally:Still"}, "advice": True}, "there is no advice on corrections"),
         ({"overrides": {"duratoin": 3}}, "duration"),
     ],
 )

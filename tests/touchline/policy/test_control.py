@@ -1,5 +1,6 @@
 """What an action does: numbers from −1 to 1 become a command within the robot's limits."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from robot_agent.sdk.contract import Briefing
+from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.sight import Sight
 from schemas.messages.soccer.game import DisciplinaryRecord
@@ -76,6 +78,25 @@ def test_with_each_decision_the_team_hears_where_the_robot_and_the_ball_are(keep
     assert blind is not None and blind.ball is None
 
 
+def test_the_parameters_of_a_team_choose_the_entries_and_the_others_are_zero(keepers: InProcessMatch) -> None:
+    briefing = Briefing.of("cyan1", keepers.simulation.setup())
+    sight = keepers.simulation.now.sights.perceived["cyan1"].replace(holding=True)
+    control = Control(replace(briefing, parameters={"act": "kick vy"}))
+    assert control.names == ["vy", "kick"]
+    made = control.command(np.array([0.5, 1.0], np.float32), sight.tick, can_kick=True)
+    whole = commanded(keepers, "cyan1", [0.0, 0.5, 0.0, 1.0, 0.0, 0.0], is_new=False, holding=True)
+    assert made == whole and made.kick is not None
+    assert control.action(made).tolist() == [0.5, 1.0]
+    with pytest.raises(TouchlineError, match='parameter act names "vz"; known: vx'):
+        Control(replace(briefing, parameters={"act": "vz"}))
+
+
+def test_a_robot_without_any_entry_is_one_clear_error(rovers: InProcessMatch) -> None:
+    briefing = replace(Briefing.of("one", rovers.simulation.setup()), parameters={"act": "vy kick"})
+    with pytest.raises(TouchlineError, match="parameter act leaves one no action; name some of vx, omega"):
+        Control(briefing)
+
+
 def test_a_robot_that_is_off_the_field_does_nothing(keepers: InProcessMatch) -> None:
     game = keepers.simulation.now.sights.perceived["cyan1"].game
     off = game.replace(robots={"cyan1": DisciplinaryRecord(off_field=OffField.RED_CARD)})
@@ -91,6 +112,34 @@ def test_the_action_of_a_command_gives_the_command_again(keepers: InProcessMatch
     ):
         control = Control(Briefing.of(robot, match.simulation.setup()))
         assert control.action(commanded(match, robot, action, holding=True)).tolist() == pytest.approx(action)
+
+
+def test_a_correction_changes_velocities_and_overrules_the_brain_beyond_a_half(keepers: InProcessMatch) -> None:
+    setup = keepers.simulation.setup()
+    top, sight = setup.drive.max_speed, keepers.simulation.now.sights.perceived["cyan1"]
+    control = Control(Briefing.of("cyan1", setup))
+    lob = Kick(mode=KickMode.LOB, speed=4.0)
+    brain = Command(answers_tick=sight.tick, drive=Drive(vx=0.5 * top, vy=1.5 * top, omega=-0.0), kick=lob)
+
+    def corrected(action: list[float], brain: Command = brain, can_kick: bool = True) -> Command:
+        radio = control.message(sight)
+        numbers = np.array(action, np.float32)
+        return control.command(numbers, sight.tick, can_kick=can_kick, radio=radio, corrected=brain)
+
+    assert corrected([0.0] * 6).encode() == brain.encode()
+    changed = corrected([0.25, 1.0, 0.5, 0.0, 0.2, 0.6])
+    assert changed.drive == Drive(vx=0.75 * top, vy=1.5 * top, omega=0.5 * setup.drive.max_turn_rate)
+    assert changed.kick is not None and changed.kick.mode is KickMode.LOB and changed.dribble
+    assert changed.kick.speed == pytest.approx(4.0 + 0.2 * setup.kicker.max_ground_speed)
+    assert corrected([-1.0, 0.0, 0.0, 0.0, 0.0, 0.0]).drive.vx == -0.5 * top
+    assert corrected([0.0, 0.0, 0.0, -0.6, 0.0, 0.0]).kick is None
+    assert corrected([0.0, 0.0, 0.0, 0.0, -0.5, 0.0]).kick is None
+    assert not corrected([0.0] * 5 + [-0.6], brain.replace(dribble=True)).dribble
+    still = Command(answers_tick=sight.tick)
+    assert corrected([0.0, 0.0, 0.0, 0.5, 0.0, 0.5], still) == still
+    assert corrected([0.0, 0.0, 0.0, 0.6, 0.0, 0.0], still, can_kick=False) == still
+    own = corrected([0.0, 0.0, 0.0, 0.6, -0.25, 0.0], still).kick
+    assert own == Kick(mode=KickMode.GROUND, speed=0.75 * setup.kicker.max_ground_speed)
 
 
 def test_the_action_of_a_command_beyond_the_limits_is_cut_off_and_knows_no_lob(keepers: InProcessMatch) -> None:

@@ -3,6 +3,7 @@
 import io
 import math
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -127,5 +128,8 @@ def test_a_policy_for_another_robot_is_one_clear_error(rovers: InProcessMatch, t
     briefing = Briefing.of("one", rovers.simulation.setup())
     with pytest.raises(TouchlineError, match=r"is for actions of 5 numbers; one has 2 in this match"):
         load_brain("policy:five.npz", briefing, tmp_path)
+    with pytest.raises(TouchlineError, match=r"there is no module nobody"):
+        network_for(rovers, "one", 2).save(tmp_path / "two.npz")
+        load_brain("policy:two.npz", replace(briefing, parameters={"corrects": "nobody:Brain"}), tmp_path)
     with pytest.raises(TouchlineError, match=r"there is no file six.npz beside the match file"):
         load_brain("policy:six.npz", briefing, tmp_path)
