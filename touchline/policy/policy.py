@@ -43,6 +43,7 @@ class StableBaselinesPolicy:
             assert data is not None and parameters is not None
             make, settings = data["policy_class"], data.get("policy_kwargs", {})
             spaces = data["observation_space"], data["action_space"]
+            settings |= {"use_sde": True} if data.get("use_sde") else {}  # not all kinds of policies take it
             self._policy: Any = make(*spaces, lr_schedule=lambda _: 0.0, **settings)
             self._policy.load_state_dict(parameters["policy"])
             (self.observations,), (self.actions,) = (space.shape for space in spaces)

@@ -105,6 +105,18 @@ def test_a_model_of_other_than_vectors_is_one_clear_error(tmp_path: Path, space:
         load_policy(tmp_path / "other.zip")
 
 
+@pytest.mark.parametrize("use_sde", [False, True])
+def test_a_model_acts_as_it_did_before_it_was_saved(tmp_path: Path, use_sde: bool) -> None:
+    models, gymnasium = pytest.importorskip("stable_baselines3"), pytest.importorskip("gymnasium")
+    spaces = {f"{name}_space": gymnasium.spaces.Box(-1.0, 1.0, (2,)) for name in ("observation", "action")}
+    env = type("Env", (gymnasium.Env,), spaces)()
+    model = models.PPO("MlpPolicy", env, n_steps=2, batch_size=2, use_sde=use_sde, seed=1, device="cpu")
+    model.save(tmp_path / "model.zip")
+    seen = np.array([0.5, -1.0], np.float32)
+    action, _ = model.predict(seen, deterministic=True)
+    assert action.any() and load_policy(tmp_path / "model.zip").action(seen).tolist() == action.tolist()
+
+
 def test_after_a_missed_sight_the_next_one_is_decided_on_and_told(rovers: InProcessMatch) -> None:
     sight = rovers.simulation.now.sights.perceived["one"]
     brain = PolicyBrain(Briefing.of("one", rovers.simulation.setup()), network_for(rovers, "one", 2))
