@@ -75,7 +75,7 @@ def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None, 
 def _policy_brain(said: str, file: str, briefing: Briefing, beside: Path | None, here: Path | None) -> Brain:
     """The brain of a policy; its class is imported here alone, because policies stand above the robots' packages."""
     folders = BrainFolders(beside, here)
-    found = next((path / file for path in folders.paths if (path / file).is_file()), None)
+    found = folders.find(file)
     if found is None:
         raise TouchlineError(f"{said}; there is no file {file} {folders}; put it there")
     module, _, name = POLICY_BRAIN.partition(":")

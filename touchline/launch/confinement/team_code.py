@@ -35,13 +35,20 @@ def team_code(config: MatchConfig, side: Side, beside_match: Path | None) -> Tea
         files += [Path(word).absolute() for word in program[1:] if Path(word).exists()]
         own = tuple(file for file in files if not any(file.is_relative_to(one) for one in system_folders()))
         return TeamCode(own[-1].parent if own else None, own)
-    brain = team.brain or ""
+    brains = [team.brain or ""]
+    if policy_file(brains[0]):
+        brains.append(str(team.parameters.get("corrects", "")))  # comes last: its folder has what it imports
+    folders = BrainFolders(beside_match)
+    own = tuple(found for found in (_file_of_brain(brain, folders) for brain in brains) if found is not None)
+    return TeamCode(own[-1].parent if own else None, own)
+
+
+def _file_of_brain(brain: str, folders: BrainFolders) -> Path | None:
+    """The package, or the file, of a brain, or of its policy; None for one of this library or an installed one."""
+    if file := policy_file(brain):
+        return folders.find(file)
     module = brain.partition(":")[0].partition(".")[0]
-    if not module or module in OWN_PACKAGES:
-        return TeamCode(None, ())
-    file = policy_file(brain)
-    found = BrainFolders(beside_match).find(*([file] if file else [module, f"{module}.py"]))
-    return TeamCode(found.parent, (found,)) if found is not None else TeamCode(None, ())
+    return folders.find(module, f"{module}.py") if ":" in brain and module not in OWN_PACKAGES else None
 
 
 def team_program(config: MatchConfig, side: Side, beside_match: Path | None) -> tuple[str, ...]:

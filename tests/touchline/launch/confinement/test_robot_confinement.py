@@ -128,11 +128,16 @@ def test_a_match_against_a_team_that_ships_or_lies_beside_it_gets_no_line(here: 
     assert note_of(match_of(cyan, magenta)) == ""
 
 
-def test_the_code_of_a_team_that_plays_a_policy_is_the_policy_s_file(here: Path) -> None:
-    (here / "lions" / "kick.npz").touch()
-    assert team_code(match_of("policy:lions/kick.npz", "simple"), Side.CYAN, None) == TeamCode(
-        here / "lions", (here / "lions" / "kick.npz",)
-    )
+def test_the_code_of_a_team_that_plays_a_policy_is_its_file_and_the_brain_that_it_corrects(here: Path) -> None:
+    file = here / "lions" / "kick.npz"
+    file.touch()
+    for corrects, folder, own in (
+        ({}, file.parent, (file,)),
+        ({"teams.cyan.parameters.corrects": "simple"}, file.parent, (file,)),
+        ({"teams.cyan.parameters.corrects": "one_team:A"}, here, (file, here / "one_team.py")),
+    ):
+        config = match_of("policy:lions/kick.npz", "simple", **corrects)
+        assert team_code(config, Side.CYAN, None) == TeamCode(folder, own)
 
 
 def test_what_is_visible_in_bubblewrap_leaves_out_what_is_hidden_below_it(here: Path) -> None:
