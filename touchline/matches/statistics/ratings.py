@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize
-from scipy.special import ndtri
-from scipy.stats import chi2
+from scipy.special import chdtrc, ndtri
 
 from touchline.matches.statistics.estimates import LEVEL
 
@@ -142,7 +141,7 @@ class _Model:
         equal = np.eye(self._rows.shape[2])
         equal[:, above] += equal[:, below]
         _, loss = self.fit(np.delete(equal, below, axis=1))
-        return float(chi2.sf(max(0.0, 2 * (loss - least)), 1))
+        return float(chdtrc(1, max(0.0, 2 * (loss - least))))
 
     def information(self, x: Array) -> Array:
         """The second derivatives of the loss: the inverse of the covariance."""
