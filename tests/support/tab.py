@@ -112,9 +112,9 @@ class Tab:
         self.page.evaluate("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
         mouse.up()
 
-    def touch(self, kind: str, *fingers: tuple[float, float]) -> None:
-        """Fingers in the window, in pixels: `Start`, `Move` or `End`."""
+    def touch(self, kind: str, *fingers: tuple[float, float], first: int = 0) -> None:
+        """Fingers in the window, in pixels, from number `first` on: `Start`, `Move`, or `End`, of all without any."""
         if not hasattr(self, "_touching"):
             self._touching = self.context.new_cdp_session(self.page)
-        points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(fingers)]
+        points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(fingers, first)]
         self._touching.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
