@@ -11,7 +11,7 @@ learning); then PPO improves it. Policies and a picture of the curves are left i
 import itertools
 import shlex
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from multiprocessing import get_context
@@ -27,7 +27,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.vec_env import VecMonitor, VecNormalize
 from teams import Teams
 
-from touchline.learn import TaskEnv
+from touchline.learn import TaskEnv, scores
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,8 @@ class Settings:
     """Updates of the critic alone, before the first one of the policy."""
     ppo: dict[str, Any] = field(default_factory=lambda: {"batch_size": 256, "target_kl": 0.03})
     """Of Stable-Baselines3."""
+    validation: int = 0
+    """Episodes that choose between the policies at several moments of the training; none take the one at its end."""
 
 
 SETTINGS = {
@@ -76,8 +78,13 @@ SETTINGS = {
         layers=(),
         warm_up=2,
         ppo={"batch_size": 128, "target_kl": 0.05, "learning_rate": 8e-3, "use_sde": True, "sde_sample_freq": 6},
+        validation=100,
     ),
 }
+VALIDATION_SEED = 500_000
+"""Of the first episode that chooses a policy: seeds apart from those of the training and of the report."""
+MOMENTS = 5
+"""At which policies are chosen from, the first one before PPO has changed anything, the last one at the end."""
 
 
 class Minutes(BaseCallback):
@@ -103,6 +110,46 @@ class Minutes(BaseCallback):
 
     def _on_step(self) -> bool:
         return time.process_time() < self.end
+
+
+class Best(BaseCallback):
+    """Keeps the policy that scores most in the episodes for validation: PPO may also lose what it had found."""
+
+    def __init__(self, task: str, settings: Settings, file: Path, moments: Sequence[float]) -> None:
+        """`moments` are CPU time of this process in s; `file` is where the best policy is kept."""
+        super().__init__()
+        self.task, self.settings, self.file, self.moments = task, settings, file, [*moments]
+        self.most = -np.inf
+
+    def _on_training_start(self) -> None:
+        self.look()
+
+    def _on_rollout_start(self) -> None:
+        if self.moments and time.process_time() >= self.moments[0]:
+            del self.moments[0]
+            self.look()
+
+    def _on_training_end(self) -> None:
+        self.look()
+
+    def _on_step(self) -> bool:
+        return True
+
+    def look(self) -> None:
+        """Score the policy of now, and keep it if it is the best so far."""
+        now = self.file.with_suffix(".now.zip")
+        self.model.save(now)
+        seeds = range(VALIDATION_SEED, VALIDATION_SEED + self.settings.validation)
+        found = scores(self.task, seeds, f"policy:{now}", overrides_of(self.settings)) if seeds else [np.inf]
+        if (mean := float(np.mean(found))) >= self.most:
+            self.most = mean
+            now.replace(self.file)
+        now.unlink(missing_ok=True)
+
+
+def overrides_of(settings: Settings) -> dict[str, object]:
+    """The keys of a match file with the parameters of the team."""
+    return {f"teams.cyan.parameters.{key}": value for key, value in settings.parameters.items()}
 
 
 def train(task: str, run: int, minutes: float, file: Path) -> Curve:
@@ -132,9 +179,10 @@ def train(task: str, run: int, minutes: float, file: Path) -> Curve:
     if settings.imitation:
         advised = TaskEnv(task, parameters=settings.parameters, advice=True)
         imitate(model, advised, seeds, 60 * minutes * settings.imitation)
-    noted = Minutes(begun, begun + 60 * minutes, settings)
-    model.learn(10**9, callback=noted)
-    model.save(file)
+    now, end = time.process_time(), begun + 60 * minutes
+    noted = Minutes(begun, end, settings)
+    best = Best(task, settings, file, np.linspace(now, end, MOMENTS)[1:-1])
+    model.learn(10**9, callback=[best, noted])
     teams.close()
     return noted.curve
 
@@ -147,8 +195,7 @@ def main() -> None:
     task, folder = options.task, Path("runs") / f"ppo-{Path(options.task).stem}"
     folder.mkdir(parents=True, exist_ok=True)
     files = {f"run {run}": folder.absolute() / f"run{run}.zip" for run in range(1, options.runs + 1)}
-    parameters = SETTINGS.get(task, Settings()).parameters
-    overrides = {f"teams.cyan.parameters.{key}": value for key, value in parameters.items()}
+    overrides = overrides_of(SETTINGS.get(task, Settings()))
     runs = {run: (f"policy:{file}", overrides) for run, file in files.items()}
     with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
         begun = [pool.submit(train, task, run, options.minutes, file) for run, file in enumerate(files.values(), 1)]
