@@ -16,15 +16,15 @@ help: ## show this list
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
 
-# Three processes on two cores: a third of the time of the tests is waiting for real time.
+# Four processes on two cores: a third of the time of the tests is waiting for real time.
 # The files come in the mixed order of tests/conftest.py, not by their number of tests: the long ones would come last.
 PYTEST := .venv/bin/pytest --dist loadfile --no-loadscope-reorder
 
 quick: $(READY) ## run the tests without processes, browser and attacks, for example: make quick ARGS=tests/sim_host
 	$(PYTEST) -n 2 -m "not processes and not browser and not hostile and not slow and not long" $(ARGS)
 
-test: $(READY) ## run the tests, file by file in three processes, for example: make test ARGS=tests/touchline
-	$(PYTEST) -n 3 -m "not long" $(ARGS)
+test: $(READY) ## run the tests, file by file in four processes, for example: make test ARGS=tests/touchline
+	$(PYTEST) -n 4 -m "not long" $(ARGS)
 
 test-all: $(READY) ## run the long tests as well: long cuts, floods, every size of the page, whole cups
 	$(PYTEST) -n 3 -m "not alone" $(ARGS)
