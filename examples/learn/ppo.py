@@ -11,7 +11,7 @@ learning); then PPO improves it. Policies and a picture of the curves are left i
 import itertools
 import shlex
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from multiprocessing import get_context
@@ -27,7 +27,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.vec_env import VecMonitor, VecNormalize
 from teams import Teams
 
-from touchline.learn import TaskEnv, scores
+from touchline.learn import TaskEnv
 
 
 @dataclass(frozen=True)
@@ -43,48 +43,36 @@ class Settings:
     imitation: float = 0.25
     """Share of the time for imitation."""
     noise: float = 0.2
-    """Standard deviation of the actions with which PPO begins: small, so that what the brain can do stays.
-
-    With `use_sde` it is that of the weights of a linear policy, which stay the same for some decisions.
-    """
-    tries: dict[str, float] = field(default_factory=dict)
-    """Entry of the observation → the standard deviation of its weights, with `use_sde`; PPO does not change it then."""
-    layers: tuple[int, ...] = (64, 64)
-    """Units between observation and action; none make a linear policy, which needs the least experience."""
+    """Standard deviation of the actions with which PPO begins: small, so that what the brain can do stays."""
+    weights: dict[str, float] = field(default_factory=dict)
+    """Entry of the observation → standard deviation with which its weight is tried. With these a policy is linear, and
+    its other weights are 0: it needs the least experience. What is tried stays the same for some decisions (`use_sde`),
+    and the critic observes all."""
     warm_up: int = 4
     """Updates of the critic alone, before the first one of the policy."""
     ppo: dict[str, Any] = field(default_factory=lambda: {"batch_size": 256, "target_kl": 0.03})
     """Of Stable-Baselines3."""
-    validation: int = 0
-    """Episodes that choose between the policies at several moments of the training; none take the one at its end."""
 
 
 SETTINGS = {
     "coverage": Settings(),
     # In so few episodes PPO does not win back what imitation loses of this brain's aim and timing. So it corrects the
-    # brain, in one number: how fast a robot drives along its kick axis, which is tried most while it holds the ball.
+    # brain, in one number: how fast a robot drives along its kick axis while it holds the ball.
     "pass_and_shoot": Settings(
         {
             "corrects": "touchline.tasks.pass_and_shoot:Attacker",
             "act": "vx",
-            "observe": "ball",
+            "observe": "place ball goals time",
             "decision_ticks": 15,
         },
         teams=8,
         steps=48,
         imitation=0.0,
-        noise=0.04,
-        tries={"ball.held": 0.3},
-        layers=(),
+        weights={"ball.held": 0.4},
         warm_up=2,
-        ppo={"batch_size": 128, "target_kl": 0.05, "learning_rate": 8e-3, "use_sde": True, "sde_sample_freq": 6},
-        validation=100,
+        ppo={"batch_size": 128, "target_kl": 0.05, "learning_rate": 1.5e-2, "use_sde": True, "sde_sample_freq": 6},
     ),
 }
-VALIDATION_SEED = 500_000
-"""Of the first episode that chooses a policy: seeds apart from those of the training and of the report."""
-MOMENTS = 5
-"""At which policies are chosen from, the first one before PPO has changed anything, the last one at the end."""
 
 
 class Minutes(BaseCallback):
@@ -101,7 +89,7 @@ class Minutes(BaseCallback):
         learns = self.updates >= self.settings.warm_up
         for part in (policy.mlp_extractor.policy_net, policy.action_net):
             part.requires_grad_(learns)
-        policy.log_std.requires_grad_(learns and not self.settings.tries)
+        policy.log_std.requires_grad_(learns and not self.settings.weights)
         self.updates += 1
 
     def _on_rollout_end(self) -> None:
@@ -110,46 +98,6 @@ class Minutes(BaseCallback):
 
     def _on_step(self) -> bool:
         return time.process_time() < self.end
-
-
-class Best(BaseCallback):
-    """Keeps the policy that scores most in the episodes for validation: PPO may also lose what it had found."""
-
-    def __init__(self, task: str, settings: Settings, file: Path, moments: Sequence[float]) -> None:
-        """`moments` are CPU time of this process in s; `file` is where the best policy is kept."""
-        super().__init__()
-        self.task, self.settings, self.file, self.moments = task, settings, file, [*moments]
-        self.most = -np.inf
-
-    def _on_training_start(self) -> None:
-        self.look()
-
-    def _on_rollout_start(self) -> None:
-        if self.moments and time.process_time() >= self.moments[0]:
-            del self.moments[0]
-            self.look()
-
-    def _on_training_end(self) -> None:
-        self.look()
-
-    def _on_step(self) -> bool:
-        return True
-
-    def look(self) -> None:
-        """Score the policy of now, and keep it if it is the best so far."""
-        now = self.file.with_suffix(".now.zip")
-        self.model.save(now)
-        seeds = range(VALIDATION_SEED, VALIDATION_SEED + self.settings.validation)
-        found = scores(self.task, seeds, f"policy:{now}", overrides_of(self.settings)) if seeds else [np.inf]
-        if (mean := float(np.mean(found))) >= self.most:
-            self.most = mean
-            now.replace(self.file)
-        now.unlink(missing_ok=True)
-
-
-def overrides_of(settings: Settings) -> dict[str, object]:
-    """The keys of a match file with the parameters of the team."""
-    return {f"teams.cyan.parameters.{key}": value for key, value in settings.parameters.items()}
 
 
 def train(task: str, run: int, minutes: float, file: Path) -> Curve:
@@ -165,7 +113,7 @@ def train(task: str, run: int, minutes: float, file: Path) -> Curve:
         n_steps=settings.steps,
         n_epochs=8,
         policy_kwargs={
-            "net_arch": {"pi": [*settings.layers], "vf": [64, 64]},
+            "net_arch": {"pi": [] if settings.weights else [64, 64], "vf": [64, 64]},
             "log_std_init": float(np.log(settings.noise)),
         },
         stats_window_size=64,
@@ -173,18 +121,31 @@ def train(task: str, run: int, minutes: float, file: Path) -> Curve:
         device="cpu",
         **settings.ppo,
     )
-    names = [entry.name for entry in envs[0].observation_entries(envs[0].possible_agents[0])]
-    for name, noise in settings.tries.items():
-        model.policy.log_std.data[names.index(name)] = float(np.log(noise))
+    if settings.weights:
+        names = [entry.name for entry in envs[0].observation_entries(envs[0].possible_agents[0])]
+        learn_only(model, {names.index(name): noise for name, noise in settings.weights.items()})
     if settings.imitation:
         advised = TaskEnv(task, parameters=settings.parameters, advice=True)
         imitate(model, advised, seeds, 60 * minutes * settings.imitation)
-    now, end = time.process_time(), begun + 60 * minutes
-    noted = Minutes(begun, end, settings)
-    best = Best(task, settings, file, np.linspace(now, end, MOMENTS)[1:-1])
-    model.learn(10**9, callback=[best, noted])
+    noted = Minutes(begun, begun + 60 * minutes, settings)
+    model.learn(10**9, callback=noted)
+    model.save(file)
     teams.close()
     return noted.curve
+
+
+def learn_only(model: PPO, weights: dict[int, float]) -> None:
+    """Begin with zeros, and learn the weights of these observations alone, with this noise on them."""
+    policy = model.policy
+    learned = torch.zeros_like(policy.action_net.weight)
+    policy.action_net.weight.data.zero_()
+    policy.action_net.bias.data.zero_()
+    policy.log_std.data.fill_(float(np.log(1e-3)))
+    for place, noise in weights.items():
+        learned[:, place] = 1.0
+        policy.log_std.data[place] = float(np.log(noise))
+    policy.action_net.weight.register_hook(lambda gradient: gradient * learned)
+    policy.action_net.bias.register_hook(torch.zeros_like)
 
 
 def main() -> None:
@@ -195,7 +156,8 @@ def main() -> None:
     task, folder = options.task, Path("runs") / f"ppo-{Path(options.task).stem}"
     folder.mkdir(parents=True, exist_ok=True)
     files = {f"run {run}": folder.absolute() / f"run{run}.zip" for run in range(1, options.runs + 1)}
-    overrides = overrides_of(SETTINGS.get(task, Settings()))
+    parameters = SETTINGS.get(task, Settings()).parameters
+    overrides = {f"teams.cyan.parameters.{key}": value for key, value in parameters.items()}
     runs = {run: (f"policy:{file}", overrides) for run, file in files.items()}
     with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
         begun = [pool.submit(train, task, run, options.minutes, file) for run, file in enumerate(files.values(), 1)]
