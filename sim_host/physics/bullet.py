@@ -1,4 +1,4 @@
-"""The door to PyBullet: imports it without the greeting that it prints on stderr in every process."""
+"""The door to PyBullet: imports it without the greeting that it prints on stderr in every process; keeps a client."""
 
 import os
 import tempfile
@@ -9,6 +9,8 @@ from sim_host.missing_engine import missing_engine_text
 
 _STDERR = 2
 _GREETING = b"pybullet build time"
+_idle: list[int] = []
+"""A client that was released; its 35 MB take longer to get than the bodies of a world to make."""
 
 
 @contextmanager
@@ -35,3 +37,20 @@ except ModuleNotFoundError as error:
     if error.name != "pybullet":
         raise
     raise ModuleNotFoundError(missing_engine_text(), name="pybullet") from None
+
+
+def take_client() -> int:
+    """A client of PyBullet, in the memory of one that was released if there is one: its world is to be reset."""
+    try:
+        return _idle.pop()
+    except IndexError:
+        client: int = pybullet.connect(pybullet.DIRECT)
+        return client
+
+
+def release_client(client: int) -> None:
+    """Keep a client for the next who takes one; of several, the others free their memory."""
+    if _idle:
+        pybullet.disconnect(client)
+    else:
+        _idle.append(client)

@@ -1,7 +1,4 @@
-"""The physics engine: poses, velocities and steps.
-
-Only this module, `bodies`, `contacts`, `pushables` and `fingerprint` import PyBullet.
-"""
+"""The physics engine: poses, velocities and steps."""
 
 import math
 import struct
@@ -18,7 +15,7 @@ from sim_host.physics import contacts
 from sim_host.physics.bodies import NO_TURN, BodyMaker, surface_restitution, upright
 from sim_host.physics.body_state import BallContacts, BodyState, Gap
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
-from sim_host.physics.bullet import pybullet
+from sim_host.physics.bullet import pybullet, release_client, take_client
 from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.pitch import SOCCER, Furniture
 from sim_host.physics.pushables import Pushable, inertia
@@ -35,9 +32,6 @@ _OBSTACLE = struct.Struct("<7d")
 
 _ZERO: Vector = (0.0, 0.0, 0.0)
 
-_idle: list[int] = []
-"""The client of an engine that was closed; its 35 MB take longer to get than the bodies of a world to make."""
-
 
 class Engine:
     """One physical world; bodies are addressed by their index in the roster."""
@@ -50,8 +44,8 @@ class Engine:
         self.restitution = max([surface_restitution(model.body, profile) for model in roster.models], default=0.0)
         """Of the robots' surfaces, the largest: see `surface_restitution`."""
         self._heights = [model.body.height / 2 for model in roster.models]
-        self.client = _client()
-        self._free = weakref.finalize(self, _release, self.client)
+        self.client = take_client()
+        self._free = weakref.finalize(self, release_client, self.client)
         self._free.atexit = False  # the process frees its memory by itself
         self._make = BodyMaker(self.client, profile)
         self._lift = GRAVITY * profile.time.physics_step
@@ -325,23 +319,6 @@ class Engine:
     def _robot_contacts(self) -> set[tuple[int, int]]:
         """Pairs of robots that touched each other in the last step, the smaller index first."""
         return contacts.of_robots(self.client, self._robot_of)
-
-
-def _client() -> int:
-    """A client of PyBullet, in the memory of an engine that was closed if there is one."""
-    try:
-        return _idle.pop()
-    except IndexError:
-        client: int = pybullet.connect(pybullet.DIRECT)
-        return client
-
-
-def _release(client: int) -> None:
-    """Keep a client for the next engine; of several, the others free their memory."""
-    if _idle:
-        pybullet.disconnect(client)
-    else:
-        _idle.append(client)
 
 
 def _pack(obstacle: ObstacleState) -> bytes:
