@@ -17,7 +17,7 @@ from schemas.messages.radio import Radio
 from sim_host.task.judge import BY_TIME
 from touchline.learn.episode import Episode
 from touchline.learn.sight_space import SightSpace
-from touchline.matches.task.task import load_task
+from touchline.matches.task.task import Task, load_task
 from touchline.policy.control import Control
 from touchline.policy.entries import Entry
 from touchline.policy.interface import Interface
@@ -76,19 +76,13 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         side = load_task(task, overrides=overrides).side.value
         given = {f"teams.{side}.parameters.{name}": value for name, value in (parameters or {}).items()}
         self._task = load_task(task, overrides={**(overrides or {}), **given})
-        chosen = self._task.robots if robots is None else list(robots)
-        for robot in chosen:
-            if robot not in self._task.robots:
-                raise TouchlineError(f"{robot} does not do this task; {did_you_mean(robot, self._task.robots)}")
-        if not chosen:
-            raise TouchlineError(f"no robot is an agent; name some of {', '.join(self._task.robots)}")
         if observation not in OBSERVATIONS:
             raise TouchlineError(f'observation is "{observation}"; {did_you_mean(observation, OBSERVATIONS)}')
         modes = self.metadata["render_modes"]
         if render_mode not in (None, *modes):
             raise TouchlineError(f'render_mode is "{render_mode}"; {did_you_mean(str(render_mode), modes)}')
         self.render_mode = render_mode
-        self.possible_agents: list[str] = chosen
+        self.possible_agents = _agents(self._task, robots)
         self.agents: list[str] = []
         self.max_cycles = max_cycles
         self._cycles = 0
@@ -306,3 +300,14 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         if agent not in self.action_spaces:
             raise TouchlineError(f"{agent!r} is no agent; {did_you_mean(str(agent), self.possible_agents)}")
         return agent
+
+
+def _agents(task: Task, robots: Sequence[str] | None) -> list[str]:
+    """The robots of a task that are agents: all, or those that are named."""
+    chosen = task.robots if robots is None else list(robots)
+    for robot in chosen:
+        if robot not in task.robots:
+            raise TouchlineError(f"{robot} does not do this task; {did_you_mean(robot, task.robots)}")
+    if not chosen:
+        raise TouchlineError(f"no robot is an agent; name some of {', '.join(task.robots)}")
+    return chosen
