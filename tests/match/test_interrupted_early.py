@@ -24,7 +24,6 @@ sys.meta_path.insert(0, Finder)
 """As `sitecustomize`, sends SIGINT when a module is imported, to the process group that Ctrl-C reaches: the launcher's,
 which leads the session. Robots have groups of their own, and no variables but those of a list."""
 MODULES = {
-    "the commands": "touchline.commands.match",
     "the simulation, to check the match file": "sim_host.match.live_parameters",
     "the check of the brains, in its process": "robot_agent.loading.build_check",
     "the launch": "touchline.launch.match_run",

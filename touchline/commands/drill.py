@@ -1,6 +1,5 @@
 """`touchline drill`: a scene played from many seeds, and its score with an interval."""
 
-import signal
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -53,7 +52,7 @@ def drill(
     ended = [(one, played.outcomes[one.identity]) for one in planned if one.identity in played.outcomes]
     _print(scene, ended, len(planned), json=json)
     if played.is_interrupted:
-        raise typer.Exit(128 + signal.SIGINT)
+        raise KeyboardInterrupt
     if any(_verdict(outcome) is None for _, outcome in ended):
         raise typer.Exit(FAILED)
 

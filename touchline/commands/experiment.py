@@ -1,6 +1,5 @@
 """`touchline experiment`: studies over factors of a match, and their reproduction."""
 
-import signal
 from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
@@ -103,7 +102,7 @@ def run(
         )
     if session.is_interrupted:
         typer.echo(f"interrupted; the matches played so far are in {folder}: run it again to go on", err=True)
-        raise typer.Exit(128 + signal.SIGINT)
+        raise KeyboardInterrupt
     failed = result.failed
     stored = read_study(folder)
     kept = None
@@ -134,7 +133,7 @@ def run(
     for sentence in result.disturbed:
         typer.echo(f"match {sentence}", err=True)
     if kept is not None and kept.is_interrupted:
-        raise typer.Exit(128 + signal.SIGINT)
+        raise KeyboardInterrupt
     if failed or result.disturbed or (kept is not None and kept.missing):
         raise typer.Exit(FAILED)
 

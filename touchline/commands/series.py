@@ -1,6 +1,5 @@
 """`touchline series`: many matches between two teams, and their figures with intervals."""
 
-import signal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -95,7 +94,7 @@ def series(
         kept = keep_failures(planned, played.outcomes, lead, failures, folder, jobs, json=json)
     failed = _print(plan, rows_of(plan, played.outcomes), kept, json=json)
     if played.is_interrupted or (kept is not None and kept.is_interrupted):
-        raise typer.Exit(128 + signal.SIGINT)
+        raise KeyboardInterrupt
     if failed or (kept is not None and kept.missing):
         raise typer.Exit(FAILED)
 

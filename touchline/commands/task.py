@@ -1,6 +1,5 @@
 """`touchline task`: tasks for teams of robots, and the score of a brain over many seeds."""
 
-import signal
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -99,7 +98,7 @@ def run(
         kept = keep_failures(*worth, failures, folder, jobs, below, json=json)
     _print(loaded, result, kept, json=json)
     if played.is_interrupted or (kept is not None and kept.is_interrupted):
-        raise typer.Exit(128 + signal.SIGINT)
+        raise KeyboardInterrupt
     has_failed = _is_below(result, at_least) or result.failed or (kept is not None and kept.missing)
     if show and kept is not None and kept.kept:
         _show(kept.kept[0].recording)

@@ -1,6 +1,5 @@
 """`touchline tournament`: a cup between many teams, its table, its pages, and its verification."""
 
-import signal
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -90,7 +89,7 @@ def tournament(
     _print(run.state, place, json=json)
     if session.is_interrupted:
         typer.echo(f"interrupted; --resume goes on with the matches that are missing in {place}", err=True)
-        raise typer.Exit(128 + signal.SIGINT)
+        raise KeyboardInterrupt
     if run.state.disturbed or not run.state.is_complete:
         raise typer.Exit(FAILED)
 

@@ -271,14 +271,18 @@ def test_the_features_are_those_of_the_services_that_are_there(simulator: Simula
     assert found.spawn_formats == ["touchline"]
 
 
-def test_steps_end_with_their_last_tick(simulator: Simulator) -> None:
+def test_steps_tell_what_is_done_and_end_with_their_last_tick(simulator: Simulator) -> None:
     ends: list[Outcome] = []
+    agent = simulator.rig.agents["cyan1"]
+    agent.frozen = True
     steps = Steps(simulator.match, simulator.rig.clock, 3, ends.append)
-    seen = []
-    while (found := steps.follow(0.02)) is not None:
-        seen.append(found)
+    told = steps.follow(0.02)
+    assert told is not None and sum(told) == 3
+    assert ends == []
+    agent.frozen = False
+    while (later := steps.follow(0.02)) is not None:
+        assert sum(later) == 3 and later >= told
     assert ends == [Outcome(Code.OK)]
-    assert all(done + left == 3 for done, left in seen)
     assert pace(simulator.rig, SHOW).tick == 4
 
 

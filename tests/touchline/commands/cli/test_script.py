@@ -1,6 +1,9 @@
 """The entry of the command line: what it does before any other module is imported."""
 
 import os
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -41,3 +44,19 @@ def test_a_checkout_that_is_the_current_directory_stays_first_and_later_processe
         put_current_directory_last(path)
         assert path == [LIBRARY, "/lib/python"]
         assert os.environ["PYTHONPATH"] == f"{LIBRARY}:/lib/a"
+
+
+@pytest.mark.processes
+def test_ctrl_c_in_a_command_ends_its_process_without_a_word_and_with_the_status_of_sigint(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text(
+        "import signal, sys\n"
+        "class Finder:\n"
+        "    def find_spec(name, path=None, target=None):\n"
+        "        if name == 'touchline.commands.topics':\n"
+        "            signal.raise_signal(signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Finder)\n"
+    )
+    command = [sys.executable, "-m", "touchline", "topics"]
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (128 + signal.SIGINT, "", "")
