@@ -31,7 +31,7 @@ class AgentOptions(ClientSettings, LogSettings):
     robot: Annotated[Name, CommandLine(environment="TOUCHLINE_ROBOT")]
     """Name of the robot: cyan1, magenta3, …"""
     brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")] = ""
-    """module:Class, module:function of a plain act(sight), or a shipped team by name."""
+    """module:Class, module:function of a plain act(sight), policy:FILE, or a shipped team by name."""
     brain_folder: Path | None = None
     """Folder in which the module is looked for before the current directory; a match uses the folder of its file."""
     launch_folder: Path | None = None

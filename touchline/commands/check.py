@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def check(
     brain: Annotated[
         str | None,
-        typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots, or a shipped team by name."),
+        typer.Argument(metavar="[MODULE:CLASS]", help="The brain of all robots: also policy:FILE, or a shipped team."),
     ] = None,
     stdio: options.StdioProgram = None,
     command: Annotated[

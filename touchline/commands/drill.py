@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def drill(
     scene: Annotated[str, typer.Argument(metavar="SCENE", help="A scene with a table `drill`, by name or path.")],
     brain: Annotated[
-        str, typer.Option(metavar="TEAM", help="Who practises: the name of a shipped team, or module:Class.")
+        str, typer.Option(metavar="TEAM", help="Who practises: a shipped team, module:Class or policy:FILE.")
     ] = "simple",
     opponents: Annotated[
         str, typer.Option(metavar="TEAM", help="The team of the other side's robots, if the scene has any.")

@@ -12,6 +12,7 @@ from schemas.errors import TouchlineError
 from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.errors import FAILED
+from touchline.launch.terminal.aligned import counted
 from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ def run(
             typer.echo(sentence)
         typer.echo(f"report  {folder / REPORT}")
     if failed:
-        typer.echo(f"{len(failed)} matches failed: {failed[0].reason}", err=True)
+        typer.echo(f"{counted(len(failed), 'match')} failed: {failed[0].reason}", err=True)
     for sentence in result.disturbed:
         typer.echo(f"match {sentence}", err=True)
     if kept is not None and kept.is_interrupted:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from touchline.matches.series.plan import SeriesPlan
     from touchline.matches.series.summary import Summary
 
-_TEAM_HELP = "The team in {}: the name of a shipped team, or module:Class; by default the match file's."
+_TEAM_HELP = "The team in {}: a shipped team, module:Class or policy:FILE; by default the match file's."
 
 
 @with_option_groups

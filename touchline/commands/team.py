@@ -27,7 +27,7 @@ _SHARED = tuple(name for name in AgentSettings.model_fields if name not in _OWN)
 def team(
     side: options.ForSide,
     brain: Annotated[
-        str | None, typer.Option(help="module:Class of the robots' brain, or a shipped team by name.")
+        str | None, typer.Option(help="The robots' brain: a shipped team, module:Class or policy:FILE.")
     ] = None,
     command: Annotated[str | None, typer.Option(help="The team's own program, in place of a brain.")] = None,
     stdio: options.StdioProgram = None,

@@ -10,5 +10,6 @@ def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
 
 
 def counted(number: int, noun: str) -> str:
-    """`1 robot`, `2 robots`."""
-    return f"{number} {noun}{'s' if number != 1 else ''}"
+    """`1 robot`, `2 robots`, `2 matches`."""
+    ending = "es" if noun.endswith("ch") else "s"
+    return f"{number} {noun}{ending if number != 1 else ''}"

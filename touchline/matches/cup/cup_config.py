@@ -54,7 +54,7 @@ class TeamEntry(ConfigModel):
     name: Annotated[str, Field(min_length=1, max_length=40)]
     """Name, for display; unique in the cup."""
     brain: str | None = None
-    """The name of a shipped team, or `module:Class` of a brain in Python."""
+    """The name of a shipped team, `module:Class` of a brain in Python, or `policy:FILE`."""
     command: list[str] | None = None
     """Command line of a program in any language, which joins on the network."""
     stdio: list[str] | None = None

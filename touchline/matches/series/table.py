@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from touchline.launch.terminal.aligned import counted
 from touchline.matches.series.match_row import FailedMatch, MatchRow, Row
 from touchline.matches.series.plan import SeriesPlan
 from touchline.matches.series.summary import Figure, Longest, Value
@@ -30,7 +31,7 @@ def figure_rows(figures: Sequence[Figure]) -> list[Cells]:
 def headline(plan: SeriesPlan, played: Sequence[MatchRow], failed: Sequence[FailedMatch]) -> str:
     """The teams and the number of matches."""
     total, missing = len(plan.matches), len(plan.matches) - len(played) - len(failed)
-    parts = [f"{len(played)} of {total} matches" if len(played) < total else f"{total} matches"]
+    parts = [f"{len(played)} of {counted(total, 'match')}" if len(played) < total else counted(total, "match")]
     parts += [f"{len(failed)} failed"] if failed else []
     parts += [f"{missing} not played"] if missing else []
     return f"{plan.teams[0]} – {plan.teams[1]}   {', '.join(parts)}; in brackets: intervals of 95 %"

@@ -61,6 +61,6 @@ def _config(study: Study, levels: Mapping[str, Any], match: Path | None, folder:
     teams = {side: keys.pop(side.value) for side in Side if side.value in keys}
     for side, team in teams.items():
         if not isinstance(team, str):
-            raise TouchlineError(f"{side} is {team!r}; give the name of a shipped team, or module:Class")
+            raise TouchlineError(f"{side} is {team!r}; give the name of a shipped team, module:Class or policy:FILE")
     config = load_match(match, keys)
     return with_brains(config, {side: brain_of(team) for side, team in teams.items()})

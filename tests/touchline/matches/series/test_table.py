@@ -40,6 +40,7 @@ def test_a_headline_counts_the_matches_that_failed_and_those_that_were_not_playe
     plan, intervals = plan_series(load_match(None, teams), [1, 2, 3, 4]), "in brackets: intervals of 95 %"
     failed = [FailedMatch(1, "", 1, False, "no idea")]
     assert headline(plan, [row()] * 4, []) == f"Lions – NuBot   4 matches; {intervals}"
+    assert headline(plan_series(load_match(None, teams), [1]), [row()], []) == f"Lions – NuBot   1 match; {intervals}"
     assert headline(plan, [row()] * 2, failed) == f"Lions – NuBot   2 of 4 matches, 1 failed, 1 not played; {intervals}"
 
 
