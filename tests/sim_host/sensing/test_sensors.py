@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 from pytest import approx
 
 from schemas.config.match_config import load_match
@@ -72,10 +74,10 @@ def sensed(simulation: Simulation, robot: str) -> dict[str, Any]:
     return Sight.decode(simulation.now.sights[robot]).sensors
 
 
-def in_hull(body: RobotBody, at: complex) -> bool:
-    """Whether a point in a robot's frame is within its hull or its frame."""
-    in_frame = body.radius - body.frame_depth <= at.real <= body.radius and abs(at.imag) <= body.frame_width / 2
-    return abs(at) <= body.radius or in_frame
+def in_hull(body: RobotBody, at: NDArray[np.complex128]) -> NDArray[np.bool_]:
+    """Whether points in a robot's frame are within its hull or its frame."""
+    along = (body.radius - body.frame_depth <= at.real) & (at.real <= body.radius)
+    return (abs(at) <= body.radius) | (along & (abs(at.imag) <= body.frame_width / 2))
 
 
 def marched(simulation: Simulation, robot: str, bearing: float, reach: float, place: complex = 0.1) -> float | None:
@@ -90,18 +92,16 @@ def marched(simulation: Simulation, robot: str, bearing: float, reach: float, pl
         if name != robot
     ]
     pitch, turn = simulation.profile.field, complex(math.cos(-0.5), math.sin(-0.5))
-    for away in range(int(reach * 1000)):
-        at = eye + way * away / 1000
-        in_box = (at - complex(*BOX["place"])) * turn
-        if (
-            abs(at.real) >= pitch.goal_line + pitch.border
-            or abs(at.imag) >= pitch.touch_line + pitch.border
-            or any(in_hull(body, (at - place) / turned) for body, place, turned in others)
-            or abs(at - complex(*POST["place"])) <= POST["radius"]
-            or (abs(in_box.real) <= 0.3 and abs(in_box.imag) <= 0.45)
-        ):
-            return away / 1000
-    return None
+    at = eye + way * np.arange(int(reach * 1000)) / 1000
+    in_box = (at - complex(*BOX["place"])) * turn
+    within = (
+        (abs(at.real) >= pitch.goal_line + pitch.border)
+        | (abs(at.imag) >= pitch.touch_line + pitch.border)
+        | np.any([in_hull(body, (at - place) / turned) for body, place, turned in others], axis=0)
+        | (abs(at - complex(*POST["place"])) <= POST["radius"])
+        | ((abs(in_box.real) <= 0.3) & (abs(in_box.imag) <= 0.45))
+    )
+    return int(np.argmax(within)) / 1000 if within.any() else None
 
 
 def test_each_beam_has_the_distance_of_the_first_body_on_it(play) -> None:
