@@ -114,8 +114,7 @@ def memory_and_output(*words: str | Path) -> tuple[int, int, str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("claimed", [_ZEROS, 1000], ids=["what it has", "little"])
-@pytest.mark.parametrize("finished", [True, False], ids=["finished", "cut"])
+@pytest.mark.parametrize(("finished", "claimed"), [(True, _ZEROS), (False, 1000)], ids=["what it has", "cut, little"])
 @pytest.mark.parametrize("command", ["info", "verify", "stats", "recover", "replay"])
 def test_a_chunk_of_zeros_costs_little_and_ends_in_one_line(
     tmp_path: Path, command: str, finished: bool, claimed: int
