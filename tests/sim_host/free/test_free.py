@@ -263,9 +263,8 @@ def test_the_coverage_example_has_at_most_120_lines_and_names_nothing_of_soccer(
 
 
 def test_the_coverage_example_covers_its_floor() -> None:
-    match = InProcessMatch(
-        load_match(ROOT / "examples/coverage/coverage.toml"), brain_folder=ROOT / "examples/coverage"
-    )
+    folder = ROOT / "examples" / "coverage"
+    match = InProcessMatch(load_match(folder / "coverage.toml"), brain_folder=folder, chained=False)
     while not match.simulation.over:
         match.step()
     state = match.simulation.state.game_state(0, 0.0)
