@@ -58,10 +58,10 @@ def operate_fixture() -> Callable[[Simulation], None]:
 
 @pytest.fixture(scope="session")
 def operated(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Path:
-    """A match of two a side on wheels: a kick-off, and three deeds of an operator; 260 ticks or so."""
+    """A match of two a side: a kick-off, and three deeds of an operator; 260 ticks or so."""
     path = tmp_path_factory.mktemp("operated") / "match.mcap"
     teams = {"teams.cyan.size": 2, "teams.magenta.size": 2}
-    config = load_match(None, {"seed": 3, "duration": 10.0, "rules": str(BRISK), "profile": "omni", **teams})
+    config = load_match(None, {"seed": 3, "duration": 10.0, "rules": str(BRISK), **teams})
     match_recorder(path, config, until=5.2, between=operate)
     return path
 

@@ -55,11 +55,11 @@ def requested(simulation: Simulation) -> list[RefereeAction]:
 
 @pytest.fixture(scope="module")
 def honest(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Path:
-    """A match of 450 ticks by the league's rules with a goal, a card, and a robot in repair."""
+    """A match of 360 ticks by the league's rules with a goal, a card, and a robot in repair."""
     path = tmp_path_factory.mktemp("honest") / "match.mcap"
     teams = {"teams.cyan.size": 2, "teams.magenta.size": 2}
     config = load_match(None, {"seed": 5, "duration": 20.0, "rules": "msl", **teams})
-    match_recorder(path, config, until=9.0, actions=requested)
+    match_recorder(path, config, until=7.2, actions=requested)
     return path
 
 
@@ -73,7 +73,7 @@ def lines(command: str, path: Path, *options: str) -> tuple[int, str]:
 def test_the_honest_recording_is_identical_and_fits_itself(honest: Path) -> None:
     code, text = lines("verify", honest, "--jobs", "1")
     assert code == 0
-    assert text.startswith("identical, 451 ticks\n")
+    assert text.startswith("identical, 361 ticks\n")
     assert text.splitlines()[-1] == "not checked: drawings for viewers; wall times"
     assert "contradict" not in lines("info", honest)[1]
     goals = [event for _, event in open_recording(honest).decoded("game/event") if event.kind == "goal"]
@@ -81,7 +81,7 @@ def test_the_honest_recording_is_identical_and_fits_itself(honest: Path) -> None
 
 
 FORGERIES = {
-    "worlds taken out": (delete_worlds, "the recording contradicts itself: 65 ticks have no world, and 0 were lost"),
+    "worlds taken out": (delete_worlds, "the recording contradicts itself: 52 ticks have no world, and 0 were lost"),
     "the score in every state": (nine_nil, "tick 0 (0.00 s) is the first that differs: the referee decides otherwise"),
     "the side of a goal": (switch_goal, "game/event goal: side is magenta recorded, cyan simulated again"),
     "a goal taken out": (delete_goal, "game/event goal is missing: goal for cyan, decided by coach"),
@@ -149,7 +149,7 @@ METADATA_FORGERIES = {
     ),
     "the last tick in the result": (
         {"metadata": set_field("result", "tick", 900), "recount": False},
-        "the last tick is 900 in the result, 450 in the last host/applied",
+        "the last tick is 900 in the result, 360 in the last host/applied",
     ),
     "the number of messages in the result": (
         {"metadata": set_field("result", "messages", 7), "recount": False},
@@ -157,7 +157,7 @@ METADATA_FORGERIES = {
     ),
     "a world that the result counts": (
         {"change": lose_a_world, "recount": False},
-        "world: 450 messages in the file, 451 in the result",
+        "world: 360 messages in the file, 361 in the result",
     ),
     "the seed in the manifest": (
         {"metadata": other_seed},

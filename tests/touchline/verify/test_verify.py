@@ -35,7 +35,7 @@ def test_a_real_match_is_identical(operated: Path, verified: Verdict) -> None:
     assert f"kick-offs to start from: {len(tick_index_of(open_recording(operated)).kick_offs)}" in result.stdout
 
 
-def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_its_starts(
+def test_a_match_with_scenes_and_parameters_is_identical_from_each_of_its_starts(
     operated: Path, verified: Verdict
 ) -> None:
     recording = open_recording(operated)
