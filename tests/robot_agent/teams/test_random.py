@@ -66,5 +66,5 @@ def test_a_match_of_two_random_teams_goes_on_after_each_stop_and_is_equal_when_p
     stops = [event for event in events if event.kind is EventKind.STOP]
     starts = [event for event in events if event.kind is EventKind.START]
     assert len(starts) >= len(stops) > 0
-    again = play_match(config, until=3.0)
+    again = play_match(config, until=1.5)
     assert again.chain == chains[again.ticks - 1]
