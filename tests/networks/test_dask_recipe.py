@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from contextlib import closing
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,12 @@ from support.namespaces import Network, network
 from support.process_story import descendants, wait_for
 from touchline.matches.cup.report import RESULT, report_of
 
-pytest.importorskip("distributed", reason='needs Dask: pip install "touchline[cluster]"')
-pytestmark = [pytest.mark.processes, pytest.mark.long, pytest.mark.timeout(400)]
+pytestmark = [
+    pytest.mark.skipif(find_spec("distributed") is None, reason='needs Dask: pip install "touchline[cluster]"'),
+    pytest.mark.processes,
+    pytest.mark.long,
+    pytest.mark.timeout(400),
+]
 
 ROOT = Path(__file__).parents[2]
 SECTION = (ROOT / "docs" / "many_matches.md").read_text("utf-8").partition("\n## Several machines\n")[2]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -15,8 +16,11 @@ from touchline.matches.engine.plan import ListPlan
 from touchline.matches.engine.planned_match import PlannedMatch
 from touchline.matches.engine.run import run_plan
 
-pytest.importorskip("distributed", reason='needs Dask: pip install "touchline[cluster]"')
-pytestmark = [pytest.mark.processes, pytest.mark.timeout(240)]
+pytestmark = [
+    pytest.mark.skipif(find_spec("distributed") is None, reason='needs Dask: pip install "touchline[cluster]"'),
+    pytest.mark.processes,
+    pytest.mark.timeout(240),
+]
 
 
 @pytest.fixture
