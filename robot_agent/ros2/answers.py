@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Callable
 from enum import StrEnum
 
+from robot_agent.ros2.velocity import Velocity
 from schemas.messages.command import Command, Drive, Kick
 from schemas.messages.sight import Sight
 from schemas.wire.faults import FaultError
@@ -17,6 +18,7 @@ _ROUNDING_NS = 1000
 """By which a stamp may be below the time of its tick: nodes may compute it from seconds as a float."""
 _CONTEST_NS = 500_000_000
 """Simulated time for which a node that has sent a command counts as one that drives the robot."""
+_REST = Command(answers_tick=0)
 _LEFT = "no node drives it any more"
 
 
@@ -78,13 +80,10 @@ class Answers:
             return self._answer(self._drive, sight.tick)
         return None
 
-    def command(self, vx: float, vy: float, omega: float, stamp_ns: int, driver: bytes, who: str) -> Command | None:
+    def command(self, velocity: Velocity, driver: bytes, who: str) -> Command | None:
         """The answer that a node's command is; None if it is none.
 
-        Args:
-            vx, vy, omega: velocity in the body frame, m/s and rad/s.
-            stamp_ns: simulated time in ns; 0 without a stamp.
-            driver: identity of the publisher, and `who` its name for reports.
+        `driver` is the identity of the publisher, and `who` its name for reports.
         """
         sight = self.sight
         if sight is None:
@@ -94,6 +93,7 @@ class Answers:
             self._contested_until = now + _CONTEST_NS
             self._note(Fault.CONTESTED, f"{who} drives it, and another node does; it brakes until one of them is left")
         self._driver, self._driven_at = driver, now
+        stamp_ns = velocity.stamp_ns
         if stamp_ns < 0:
             return self.refuse(f"{who} stamps a command with a time before the start of the match")
         tick = (stamp_ns + _ROUNDING_NS) // self._tick_ns if stamp_ns else sight.tick
@@ -109,7 +109,7 @@ class Answers:
         if self._is_lockstep and tick < sight.tick:
             self._note(Fault.LATE, f"{who} answers tick {tick}, and the match is at {sight.tick}")
         try:
-            drive = Drive(vx=vx, vy=vy, omega=omega)
+            drive = Drive(vx=velocity.vx, vy=velocity.vy, omega=velocity.omega)
         except FaultError as error:
             return self.refuse(f"{who}: {error}")
         return self._answer(drive, tick)
@@ -152,4 +152,4 @@ class Answers:
         self._is_open = self.sight is not None and tick < self.sight.tick
         self._answered, self._drive = tick, drive
         kick, self._kick = self._kick, None
-        return Command(answers_tick=tick, drive=drive, dribble=self.dribble, kick=kick)
+        return _REST.replace(answers_tick=tick, drive=drive, dribble=self.dribble, kick=kick)  # all of them are checked

@@ -9,6 +9,7 @@ from robot_agent.process.runner import Runner
 from robot_agent.ros2.answers import Answers, Fault
 from robot_agent.ros2.clock_keeper import ClockKeeper
 from robot_agent.ros2.sight_messages import SightMessages
+from robot_agent.ros2.velocity import read_velocity
 from runtime.bus.contract import Bus, Subscription
 from runtime.process.process_log import Level, log_line
 from runtime.process.timing import REPLY_S
@@ -94,16 +95,11 @@ class RosRobot:
                 gid = arrived.attachment.gid
                 who = self._name_of(gid)
                 try:
-                    message: Any = self._store.deserialize_cdr(arrived.payload, topic_type.message)
-                except Exception as error:  # whatever rosbags raises at bytes of another form
+                    velocity = read_velocity(arrived.payload, is_stamped=is_stamped)
+                except ValueError as error:
                     self._answer(answers.refuse(f"{who}: no {topic_type.message}: {error}"))
                     return
-                stamp_ns, twist = 0, message
-                if is_stamped:
-                    stamp, twist = message.header.stamp, message.twist
-                    stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
-                drive = twist.linear.x, twist.linear.y, twist.angular.z
-                self._answer(answers.command(*drive, stamp_ns, gid, who))
+                self._answer(answers.command(velocity, gid, who))
 
         return receive
 

@@ -6,6 +6,7 @@ from collections import Counter
 import pytest
 
 from robot_agent.ros2.answers import Answers, Fault
+from robot_agent.ros2.velocity import Velocity
 from schemas.messages.command import Drive, Kick, KickMode
 from support.messages import TICK, make_sight
 
@@ -28,7 +29,7 @@ class Bench:
     def send(self, tick: float | None = None, vx: float = 1.0, driver: bytes = A):
         """A command with the time of a tick as its stamp, or without a stamp."""
         stamp = 0 if tick is None else round(tick * TICK * 1e9)
-        return self.answers.command(vx, 0.5, 0.1, stamp, driver, "/team")
+        return self.answers.command(Velocity(stamp, vx, 0.5, 0.1), driver, "/team")
 
     @property
     def faults(self) -> list[Fault]:
