@@ -22,6 +22,12 @@ magenta = {{ remote = true, size = 1, name = "Guests" }}
 [teams.cyan]
 size = 1
 """
+LINES = """
+import json, sys
+print("briefed", json.loads(sys.stdin.readline())["robot"], file=sys.stderr, flush=True)
+for line in sys.stdin:
+    print(json.dumps({"answers_tick": json.loads(line)["tick"]}), flush=True)
+"""
 NUBOT = ["--brain", "robot_agent.teams.nubot:NuBot"]
 Run = Callable[..., Program]
 
@@ -50,16 +56,19 @@ def endpoint_of(match: Program) -> str:
     return line.split("--connect ")[1].split()[0]
 
 
-def test_a_match_waits_for_its_remote_team_and_both_ends_report_who_plays(run: Run) -> None:
+def test_a_match_waits_for_its_remote_team_of_programs_and_both_ends_report_who_plays(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "robot.py").write_text(LINES)
     match = run("match", "cup.toml", "--no-record")
     endpoint = endpoint_of(match)
     wait_for(lambda: "waiting for magenta: no robot there; missing: magenta1" in match.out, match.out)
-    team = run("team", "magenta", "--connect", endpoint, *NUBOT)
+    team = run("team", "magenta", "--connect", endpoint, "--stdio", f"{sys.executable} robot.py")
     assert (match.status(), team.status()) == (0, 0), (match.err, team.err, team.out)
     assert "magenta1 joined: 1 of 1 robots of magenta are there" in match.out
     assert "Simple (cyan) – Guests (magenta)" in match.out
-    assert team.out.startswith("magenta1 started; logs are in runs/cup-magenta-")
+    assert team.out.splitlines()[1].startswith("magenta1 started; logs are in runs/cup-magenta-")
     assert team.out.endswith("the host is gone\n")
+    (log,) = tmp_path.glob("runs/cup-magenta-*/magenta1.log")
+    assert log.read_text() == "briefed magenta1\n"
 
 
 def test_a_team_is_refused_with_the_reason_and_ctrl_c_ends_the_match_that_waits_for_it(run: Run) -> None:
@@ -96,20 +105,3 @@ def test_a_match_that_waits_in_vain_for_its_remote_team_ends_in_time(run: Run) -
     match = run("match", "cup.toml", "--no-record", "--wait", "1")
     assert match.status() == 1
     assert "no robot of magenta joined within 1 s" in match.err
-
-
-LINES = """
-import json, sys
-print("briefed", json.loads(sys.stdin.readline())["robot"], file=sys.stderr, flush=True)
-for line in sys.stdin:
-    print(json.dumps({"answers_tick": json.loads(line)["tick"]}), flush=True)
-"""
-
-
-def test_a_remote_team_may_be_a_program_of_lines(run: Run, tmp_path: Path) -> None:
-    (tmp_path / "robot.py").write_text(LINES)
-    match = run("match", "cup.toml", "--no-record", "--duration", "1")
-    team = run("team", "magenta", "--connect", endpoint_of(match), "--stdio", f"{sys.executable} robot.py")
-    assert (match.status(), team.status()) == (0, 0), (match.err, team.err, team.out)
-    (log,) = tmp_path.glob("runs/cup-magenta-*/magenta1.log")
-    assert log.read_text() == "briefed magenta1\n"
