@@ -4,6 +4,7 @@ import pytest
 from mcap.reader import make_reader
 
 from recordings.container.json_schema import flat_schema, whole_schema
+from schemas.config.match_config import load_match
 from schemas.topics import TOPICS
 from schemas.wire.message import Message
 from support.recorder_rig import ROBOTS
@@ -51,9 +52,10 @@ def test_a_viewer_reads_the_flattened_schema_of_every_recorded_message(name):
     assert datatypes(flat_schema(MODELS[name]), name)[name]
 
 
-def test_a_viewer_reads_the_schema_of_every_channel_of_a_recording(played):
+def test_a_viewer_reads_the_schema_of_every_channel_of_a_recording(match_recorder, tmp_path):
     """As it stands in the file, the schemas of all topics that a match has."""
-    with played.open("rb") as file:
+    match_recorder(tmp_path / "match.mcap", load_match(None), until=1.0)
+    with (tmp_path / "match.mcap").open("rb") as file:
         schemas = make_reader(file).get_summary().schemas.values()
     texts = {schema.name: json.loads(schema.data) for schema in schemas if schema.encoding == "jsonschema"}
     assert {"touchline.World", "touchline.Command", "touchline.GameState", "touchline.Belief"} <= set(texts)

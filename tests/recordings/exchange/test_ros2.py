@@ -3,6 +3,7 @@
 import json
 import math
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from rosbags.highlevel import AnyReader
 
 from recordings.exchange.ros2 import export
 from recordings.reading.recording import Recording, open_recording
+from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.frames import rotate
 from schemas.messages.world import World
@@ -116,9 +118,10 @@ def test_events_and_score_are_in_the_bag(real: Recording, by_mcap_ros2: dict[str
         assert score == [getattr(state.score, side) for state in states]
 
 
-def test_beliefs_are_in_the_field_frame(played: Path, tmp_path: Path) -> None:
+def test_beliefs_are_in_the_field_frame(match_recorder: Callable[..., None], tmp_path: Path) -> None:
     """A robot that plays in both directions believes itself to be near where it is."""
-    recording = open_recording(played)
+    match_recorder(tmp_path / "match.mcap", load_match(None), until=6.0)
+    recording = open_recording(tmp_path / "match.mcap")
     true = {round(world.time, 6): world for world in worlds(recording)}
     with AnyReader([export(recording, tmp_path / "bag").out]) as reader:
         found = [(one.topic, at, reader.deserialize(data, one.msgtype)) for one, at, data in reader.messages()]
