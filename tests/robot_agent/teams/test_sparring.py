@@ -15,7 +15,7 @@ from schemas.messages.sight import ReceivedRadio
 from schemas.soccer.game import EventKind
 from support.imports import forgotten_imports
 from touchline import skills
-from touchline.play.play_match import play_match
+from touchline.play.play_match import InProcessMatch
 
 FOLDER = Path(__file__).parents[3] / "examples"
 POSES = {
@@ -83,7 +83,10 @@ def test_deep_lobs_at_the_goal(setup, sight_of):
 def test_a_sparring_team_takes_its_kick_off(brain):
     team = {"name": brain, "brain": brain}
     config = load_match(None, {"rules": "msl", "teams": {"cyan": team, "magenta": team}})
-    kinds = [event.kind for event in play_match(config, until=15.0, brain_folder=FOLDER).events]
+    match, kinds = InProcessMatch(config, brain_folder=FOLDER, chained=False), list[EventKind]()
+    while EventKind.IN_PLAY not in kinds and match.simulation.now.time < 15.0:
+        kinds += [event.kind for event in match.step().events]
+    match.close()
     assert kinds.index(EventKind.START) < kinds.index(EventKind.IN_PLAY)
     assert EventKind.FOUL not in kinds[: kinds.index(EventKind.IN_PLAY)]
 
