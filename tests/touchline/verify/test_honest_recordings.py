@@ -91,11 +91,11 @@ def one_is_silent(simulation: Simulation) -> set[str]:
 
 
 KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
-    "the league's rules": ({"rules": "msl", "duration": 12.0}, {"until": 12.0}),
-    "people who officiate": ({"rules": "msl", "referee.mode": "manual"}, {"until": 9.0, "actions": people_decide}),
-    "people who may overrule": ({"rules": "msl", "referee.mode": "mixed"}, {"until": 12.0}),
-    "scenes, episodes and parameters": ({}, {"until": 8.0, "between": operators_change_scenes}),
-    "an agent without an answer": ({"rules": "msl"}, {"until": 9.0, "silent": one_is_silent}),
+    "the league's rules": ({"rules": "msl", "duration": 12.0}, {"until": 10.0}),
+    "people who officiate": ({"rules": "msl", "referee.mode": "manual"}, {"until": 7.6, "actions": people_decide}),
+    "people who may overrule": ({"rules": "msl", "referee.mode": "mixed"}, {"until": 10.0}),
+    "scenes, episodes and parameters": ({}, {"until": 6.6, "between": operators_change_scenes}),
+    "an agent without an answer": ({"rules": "msl"}, {"until": 7.0, "silent": one_is_silent}),
     "a league's referee box": (
         {"rules": "msl", "referee.mode": "manual", "duration": 10.0},
         {"until": 26.0, "actions": a_box_officiates, "refbox": box_leaves},
@@ -196,10 +196,10 @@ def test_the_recording_under_a_referee_box_has_its_questions_and_its_end(
 
 @pytest.fixture(scope="module")
 def parts(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> list[Path]:
-    """A match of 9 s in parts of 3 s."""
+    """A match of 6 s in parts of 2 s."""
     path = tmp_path_factory.mktemp("parts") / "match.mcap"
     config = load_match(None, {"seed": 4, "rules": "msl", "duration": 12.0, **TWO_A_SIDE})
-    match_recorder(path, config, until=9.0, options=RecordOptions(part_duration=3.0))
+    match_recorder(path, config, until=6.0, options=RecordOptions(part_duration=2.0))
     return parts_of(path)
 
 
@@ -216,7 +216,7 @@ def test_a_recording_of_several_parts_and_its_copy_are_identical(parts: list[Pat
     filter_recording(open_recording(parts[0]), tmp_path / "whole.mcap")
     for path in (parts[0], tmp_path / "whole.mcap"):
         verdict = verify(path)
-        assert verdict.identical and verdict.referee and verdict.ticks == 451
+        assert verdict.identical and verdict.referee and verdict.ticks == 301
 
 
 def test_a_recovered_recording_is_identical_up_to_its_end(officiated: Path, tmp_path: Path) -> None:
