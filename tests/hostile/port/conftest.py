@@ -1,6 +1,6 @@
 """A host with two robots as processes on loopback, for attacks on its port."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -93,23 +93,11 @@ def target(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Target]:
 
 
 @pytest.fixture(scope="module")
-def guarded_target_of(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[], Target]]:
-    """Starts hosts with credentials; cyan has two robots."""
-    started: list[Target] = []
-
-    def start() -> Target:
-        folder = tmp_path_factory.mktemp("credentials")
-        write_credentials(folder, new_credentials())
-        started.append(Target(tmp_path_factory.mktemp("guarded"), {**ROBOTS, "cyan": ["cyan1", "cyan2"]}, folder))
-        return started[-1]
-
-    yield start
-    for one in started:
-        one.close()
-
-
-@pytest.fixture(scope="module")
-def guarded_target(guarded_target_of: Callable[[], Target]) -> Target:
-    made = guarded_target_of()
+def guarded_target(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Target]:
+    """A host with credentials; cyan has two robots."""
+    folder = tmp_path_factory.mktemp("credentials")
+    write_credentials(folder, new_credentials())
+    made = Target(tmp_path_factory.mktemp("guarded"), {**ROBOTS, "cyan": ["cyan1", "cyan2"]}, folder)
     made.watcher.until_tick(50)
-    return made
+    yield made
+    made.close()

@@ -66,9 +66,9 @@ def test_a_flood_of_any_account_on_keys_that_it_may_use_leaves_the_match_to_all_
     assert carry_out(guarded_target, name, ["cyan1", "cyan2", "magenta1"], account) < MEMORY_MB
 
 
-def test_a_team_that_floods_its_own_key_is_named_and_forfeits_and_the_host_ends_in_good_order(guarded_target_of):
-    target = guarded_target_of()
-    target.watcher.until_tick(50)
+def test_a_team_that_floods_its_own_key_is_named_and_forfeits_and_the_host_ends_in_good_order(guarded_target):
+    """The host of the tests before, which goes on until this one."""
+    target = guarded_target
     memory = target.memory_mb()
     attacker = target.attack("flood", SHORT_LIMIT, Account.CYAN)
     most = memory
