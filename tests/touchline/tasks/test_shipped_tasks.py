@@ -22,9 +22,9 @@ GAINS = {
     "half_field_4v5": (10, None, 0.1),
     "keepaway_3v2": (2, None, 3.0),
     "pass_and_shoot": (3, None, 0.3),
-    "pursuit": (1, 20.0, 5.0),
-    "push_box": (1, 10.0, 2.0),
-    "rendezvous": (1, 10.0, 1.5),
+    "pursuit": (1, 18.5, 5.0),
+    "push_box": (1, 7.0, 2.0),
+    "rendezvous": (1, 9.0, 1.5),
     "two_on_one": (2, None, 0.3),
     "warehouse": (1, 20.0, 4.0),
 }
