@@ -14,8 +14,8 @@ from support.host_rig import HostRig
 
 WARM_UP = 2000
 """Ticks after which all caches are full: the longest keep 1500 messages."""
-PLAYED = 1500
-"""Ticks after them, half a minute of simulated time."""
+PLAYED = 1000
+"""Ticks after them, 20 s of simulated time."""
 ROUND = 50
 """Ticks between two rounds of reading, in which clients get what they have subscribed to."""
 
