@@ -2,7 +2,6 @@
 
 import threading
 from collections import defaultdict, deque
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,7 +22,6 @@ from runtime.bus.contract import (
     Subscription,
     check_publishable,
     full_key,
-    full_keys,
 )
 from runtime.bus.mailbox import Mailbox
 from runtime.process.clock import Clock
@@ -96,8 +94,8 @@ class _Publisher(Publisher):
 
 
 class _Subscription(Subscription):
-    def __init__(self, topic: Topic, wanted: list[dict[str, str]], bus: "InProcessBus", newest: bool) -> None:
-        self._wanted = wanted
+    def __init__(self, topic: Topic, chunks: dict[str, str], bus: "InProcessBus", newest: bool) -> None:
+        self._wanted = chunks
         self._topic = topic
         self._bus = bus
         one = newest or topic.delivery is Delivery.NEWEST
@@ -106,7 +104,7 @@ class _Subscription(Subscription):
 
     def wants(self, key: str) -> bool:
         chunks = self._topic.match(key) or {}
-        return any(all(chunks[name] == value for name, value in wanted.items()) for wanted in self._wanted)
+        return all(chunks[name] == value for name, value in self._wanted.items())
 
     def deliver(self, key: str, received: ReceivedMessage) -> None:
         if self.wants(key):
@@ -180,15 +178,7 @@ class InProcessBus(Bus):
         self.check_open()
         check_publishable(topic)
         topic.fill(**chunks)
-        return self._add(_Subscription(topic, [chunks], self, newest), topic, history=history)
-
-    def subscribe_each(self, topic: Topic, **chunks: Sequence[str]) -> Subscription:
-        self.check_open()
-        check_publishable(topic)
-        wanted = [topic.match(key) or {} for key in full_keys(topic, chunks)]
-        return self._add(_Subscription(topic, wanted, self, newest=True), topic, history=False)
-
-    def _add(self, subscription: _Subscription, topic: Topic, *, history: bool) -> Subscription:
+        subscription = _Subscription(topic, chunks, self, newest)
         with self.shared_state.lock:
             for kept in self.shared_state.caches.get(self.prefix + topic.key, {}).values() if history else ():
                 for received in kept:
