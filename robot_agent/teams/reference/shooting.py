@@ -44,10 +44,7 @@ def best_shot(
     far = math.hypot(pitch.goal_line - ball[0], ball[1])
     if far > parameters.shot_range:
         return None
-    keeper = _keeper(opponents, pitch)
-    if keeper is None and far > parameters.keeper_unseen:
-        keeper = (pitch.goal_line, 0.0)
-        opponents = [*opponents, keeper]
+    keeper, opponents = _with_keeper(far, opponents, pitch, parameters)
     ground = _ground(ball, heading, opponents, pitch, parameters, aimed)
     lob = _lob(ball, far, keeper, opponents, pitch, parameters)
     if lob is None:
@@ -66,6 +63,7 @@ def shot_ahead(
     if abs(y) > 0.5 * _INSIDE_POSTS * pitch.goal_width:
         return None
     target = pitch.goal_line, y
+    _, opponents = _with_keeper(math.hypot(pitch.goal_line - ball[0], ball[1]), opponents, pitch, parameters)
     return Shot(KickMode.GROUND, target, _scores(_room(ball, target, opponents, parameters), parameters))
 
 
@@ -74,11 +72,18 @@ def _scores(room: float, parameters: Parameters) -> float:
     return 1.0 / (1.0 + math.exp(-room / parameters.shot_spread))
 
 
-def _keeper(opponents: Sequence[Point], pitch: Pitch) -> Point | None:
-    """The robot that stands before their goal; None where none is seen there."""
+def _with_keeper(
+    far: float, opponents: Sequence[Point], pitch: Pitch, parameters: Parameters
+) -> tuple[Point | None, Sequence[Point]]:
+    """The robot that keeps their goal, and all opponents: from afar, a keeper that is not seen is believed there.
+
+    `far`: m from the ball to the goal's middle.
+    """
     goal = pitch.goal_line, 0.0
     nearest = min(opponents, key=lambda place: math.dist(place, goal), default=None)
-    return nearest if nearest is not None and math.dist(nearest, goal) < pitch.goal_width else None
+    if nearest is not None and math.dist(nearest, goal) < pitch.goal_width:
+        return nearest, opponents
+    return (goal, [*opponents, goal]) if far > parameters.keeper_unseen else (None, opponents)
 
 
 def _ground(

@@ -55,6 +55,14 @@ def test_a_kick_that_would_pass_the_goal_or_a_post_is_no_shot(setup):
         assert shot_ahead((8.0, 0.0), heading, [], setup.pitch, PARAMETERS) is None
 
 
+def test_a_shot_where_the_robot_points_reckons_with_a_keeper_that_is_not_seen(setup):
+    far, near = (shot_ahead((x, 0.0), 0.0, [], setup.pitch, PARAMETERS) for x in (6.0, 8.5))
+    assert far is not None
+    assert near is not None
+    assert far.chance < 0.1
+    assert near.chance > 0.9
+
+
 def test_a_robot_that_aims_keeps_its_corner_while_the_keeper_is_before_the_middle(setup):
     """The noise of the keeper's place would choose another corner in each tick."""
     first = best_shot((7.0, 0.0), 0.0, [(10.9, 0.02)], setup.pitch, PARAMETERS)
