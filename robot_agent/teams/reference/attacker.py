@@ -9,8 +9,8 @@ from robot_agent.sdk.skills.avoid import circles, steer
 from robot_agent.sdk.skills.go_to import drive
 from robot_agent.sdk.skills.turn_to import turn_rate
 from robot_agent.soccer.skills.kick_on_the_run import kick_on_the_run
-from robot_agent.soccer.skills.pass_to import pass_speed
 from robot_agent.teams.action import Action
+from robot_agent.teams.reference.clearing import best_clear
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, chance, cost_of_loss, passes, worth
 from robot_agent.teams.reference.roles import Role
@@ -69,6 +69,9 @@ def play_ball(now: Situation, setup: Setup, limits: DriveLimits, parameters: Par
     is_late = now.held > parameters.patience or now.must_pass
     if shot is not None and shot.chance > _least_chance(now, ball, parameters, is_late=is_late):
         return Choice(_shoot(now, ball, shot, setup, limits, parameters), None, weighed, shot)
+    if ball[0] < parameters.clears_before:
+        best = best or best_clear(ball, me.heading, now.opponents, pitch, parameters)
+        return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
     if best is not None and (best.value > dribble_worth or (is_late and best.chance > parameters.pass_late)):
         return Choice(_pass(now, ball, best, setup, limits, parameters), best, weighed)
     return Choice(_dribble(now, way, setup, limits, parameters), None, weighed)
@@ -132,12 +135,13 @@ def _shoot(
 
 
 def _pass(now: Situation, ball: Point, best: Pass, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:
-    """Aim while turning; the ball arrives as fast as a dribbler keeps it."""
-    speed = pass_speed(math.dist(ball, best.target), setup, parameters.pass_arriving)
+    """Aim while turning; a pass arrives as fast as a dribbler keeps it."""
+    speed, error = best.strength(ball, setup, parameters)
     velocity = _toward(now.me, best.target, parameters.pass_drive * parameters.dribble_speed)
-    motion, kick = kick_on_the_run(now.me, best.target, speed, parameters.pass_error, velocity, limits)
-    pass_to = best.receiver if kick is not None else None
-    return Action(Role.ATTACKER, f"pass to {best.receiver}", motion, dribble=True, kick=kick, pass_to=pass_to)
+    motion, kick = kick_on_the_run(now.me, best.target, speed, error, velocity, limits, best.mode)
+    intention = f"pass to {best.receiver}" if best.receiver else "kick away"
+    pass_to = best.receiver or None if kick is not None else None
+    return Action(Role.ATTACKER, intention, motion, dribble=True, kick=kick, pass_to=pass_to)
 
 
 def _dribble(now: Situation, way: float, setup: Setup, limits: DriveLimits, parameters: Parameters) -> Action:

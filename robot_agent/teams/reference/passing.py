@@ -6,19 +6,31 @@ from typing import NamedTuple
 
 from robot_agent.sdk.bodies import Body
 from robot_agent.soccer.skills.keep_off import inside
+from robot_agent.soccer.skills.pass_to import pass_speed
 from robot_agent.teams.reference.parameters import Parameters
 from schemas.config.sections import Pitch
 from schemas.frames import Point, wrap
+from schemas.messages.command import KickMode
+from schemas.messages.setup import Setup
 
 
 class Pass(NamedTuple):
-    """A pass that could be played."""
+    """A pass that could be played, or a ball that is kicked away."""
 
     receiver: str
+    """Empty for a ball that is kicked away."""
     target: Point
     chance: float
     """Of arriving, 0 to 1."""
     value: float
+    mode: KickMode = KickMode.GROUND
+
+    def strength(self, start: Point, setup: Setup, parameters: Parameters) -> tuple[float, float]:
+        """Speed of the kick in m/s, and by how many m it may miss the target."""
+        far = math.dist(start, self.target)
+        if not self.receiver:
+            return setup.kicker.max_ground_speed, parameters.clear_error * far
+        return pass_speed(far, setup, parameters.pass_arriving), parameters.pass_error
 
 
 def chance(start: Point, end: Point, opponents: Sequence[Point], parameters: Parameters) -> float:
@@ -68,7 +80,10 @@ def passes(
     pitch: Pitch,
     parameters: Parameters,
 ) -> list[Pass]:
-    """All passes within range, into the feet and into the run of each teammate; the best is the largest by value."""
+    """All passes within range, into the feet and into the run of each teammate; the best is the largest by value.
+
+    Out of the own third, only those that surely leave it.
+    """
     found = []
     for name, body in mates.items():
         for target in targets(ball, body, pitch, parameters):
@@ -86,7 +101,18 @@ def passes(
             if chosen is not None and chosen[0] == name and math.dist(chosen[1], target) < parameters.chosen_near:
                 gain += parameters.chosen_bonus
             found.append(Pass(name, target, sure, gain))
+    if ball[0] < parameters.clears_before:
+        return [one for one in found if _leads_out(ball, one, opponents, parameters)]
     return found
+
+
+def _leads_out(ball: Point, one: Pass, opponents: Sequence[Point], parameters: Parameters) -> bool:
+    """Whether a pass leaves the own third, and surely gets through its first metres."""
+    if one.target[0] < parameters.clears_to:
+        return False
+    part = min(1.0, parameters.clear_lane / math.dist(ball, one.target))
+    first = ball[0] + part * (one.target[0] - ball[0]), ball[1] + part * (one.target[1] - ball[1])
+    return chance(ball, first, opponents, parameters) > parameters.clear_sure
 
 
 def in_time(turn: float, ball: Point, opponents: Sequence[Point], parameters: Parameters) -> float:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from robot_agent.sdk.bodies import Body
 from robot_agent.soccer.skills.pass_to import pass_speed
+from robot_agent.teams.reference.clearing import best_clear
 from robot_agent.teams.reference.parameters import Parameters
 from robot_agent.teams.reference.passing import Pass, passes
 from schemas.config.sections import Pitch
@@ -58,8 +59,12 @@ def restart_kick(now: Restart, setup: Setup, parameters: Parameters) -> RestartK
         corner = pitch.goal_line, parameters.penalty_corner * pitch.goal_width
         return RestartKick(corner, setup.kicker.max_ground_speed, parameters.shot_error, None)
     best = _receiver(now, pitch, parameters)
-    target = best.target if best is not None else KICK_OFF_TO
+    if best is None and now.spot[0] < parameters.clears_before:
+        best = best_clear(now.spot, 0.0, now.opponents, pitch, parameters)
     is_kick_off = now.phase is TeamPhase.OUR_KICK_OFF
+    if best is not None and not is_kick_off:
+        return RestartKick(best.target, *best.strength(now.spot, setup, parameters), best)
+    target = best.target if best is not None else KICK_OFF_TO
     arriving = KICK_OFF_ARRIVING if is_kick_off else parameters.pass_arriving
     speed = pass_speed(math.dist(now.spot, target), setup, arriving)
     waits = best is None and now.running and now.waited < parameters.restart_wait
