@@ -43,14 +43,17 @@ def sight_of(tick: int) -> Sight:
     )
 
 
-def times_of(send: Callable[[int], object], receive: Callable[[], object], ticks: range) -> list[float]:
-    """Wall time from sending the command of each tick to its arrival at the host, in ms."""
+def times_of(send: Callable[[int], object], receive: Callable[[float], object], ticks: range) -> list[float]:
+    """Wall time from sending the command of each tick to its arrival at the host, in ms.
+
+    The wait leaves the interpreter to the thread of the graph, as in the process of the bridge.
+    """
     found = []
     for tick in ticks:
         began = time.perf_counter()
         send(tick)
-        while receive() is None:
-            pass
+        if receive(10.0) is None:
+            raise TimeoutError(f"no command arrived for tick {tick}")
         found.append(1e3 * (time.perf_counter() - began))
     return found
 
