@@ -74,8 +74,7 @@ def main() -> None:
         runner = RosRunner(bus, robot.begin(setup), ROBOT)
         commands, direct = host.subscribe(COMMAND), bus.publisher(COMMAND, robot=ROBOT)
         publisher = node.publisher(f"/{ROBOT}/cmd_vel", types.TWIST_STAMPED)
-        robot.is_driven.wait()
-        while not publisher.is_read:
+        while not (robot.is_driven and publisher.is_read):
             time.sleep(0.01)
 
         def through(tick: int) -> None:

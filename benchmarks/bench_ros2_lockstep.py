@@ -13,6 +13,7 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, NamedTuple
 
 from bench_lockstep import MEASURE_S, cpu_seconds, newest, overrides
@@ -20,11 +21,13 @@ from bench_lockstep import measure as measure_processes
 from idle_brain import act
 from running_match import HERE, PATIENCE_S, launch
 
+from robot_agent.process.brain_runner import BrainRunner
 from robot_agent.process.claim import Membership
-from robot_agent.process.runner import serve
+from robot_agent.process.runner import Member
 from robot_agent.process.team_process import serve_team
 from robot_agent.ros2.process import serve_robots
 from robot_agent.sdk.contract import Brain
+from runtime.bus.contract import Subscription
 from runtime.bus.endpoint import with_free_port
 from runtime.bus.zenoh.bus import open_client
 from runtime.process.clock import WallClock
@@ -63,13 +66,15 @@ class _Idle:
 
 def run_agents(match: str, endpoint: str, robots: list[str]) -> None:
     """Play all robots in this process, as `process = "team"` does."""
+    brain: Brain = _Idle()
     with open_client(match, WallClock(), endpoint, PATIENCE_S) as bus:
 
-        def serve_robot(name: str, make: Any) -> int:
-            brain: Brain = _Idle()
-            return serve(bus, lambda _: brain, name, PATIENCE_S, Membership(bus, name, None, match), make)
+        def member(name: str, sights: Subscription) -> Member:
+            membership = Membership(bus, name, None, match)
+            runner = partial(BrainRunner, sights=sights)
+            return Member(bus, lambda _: brain, name, PATIENCE_S, membership, runner)
 
-        serve_team(robots, serve_robot, bus.close, bus.clock)
+        serve_team(bus, robots, member)
 
 
 def run_bridge(match: str, endpoint: str, graph_endpoint: str, robots: list[str]) -> None:

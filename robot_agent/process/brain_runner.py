@@ -10,7 +10,7 @@ from robot_agent.loading.user_code import is_users, shown_path
 from robot_agent.process.runner import Runner
 from robot_agent.process.timing import HANG_S
 from robot_agent.sdk.contract import Brain
-from runtime.bus.contract import Bus
+from runtime.bus.contract import Bus, Subscription
 from runtime.process.process_log import Level, log_line, log_note
 from schemas.messages.sight import Sight
 
@@ -22,8 +22,8 @@ sight would cost a third of an agent's CPU time."""
 class BrainRunner(Runner):
     """Answers each sight by a brain, in the thread that makes the runner; the brain is not interrupted."""
 
-    def __init__(self, bus: Bus, brain: Brain, robot: str) -> None:
-        super().__init__(bus, brain, robot)
+    def __init__(self, bus: Bus, brain: Brain, robot: str, sights: Subscription | None = None) -> None:
+        super().__init__(bus, brain, robot, sights)
         self.thread = threading.get_ident()
         self.thinks_of: Sight | None = None
         """What the brain has been asked to answer."""

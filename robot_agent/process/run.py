@@ -2,6 +2,7 @@
 
 import signal
 from contextlib import ExitStack
+from functools import partial
 
 from robot_agent.hardware.guard import HardwareError
 from robot_agent.loading.brain_reload import BrainReload
@@ -16,12 +17,12 @@ from robot_agent.process.hardware_run import (
 )
 from robot_agent.process.hardware_runner import HardwareRunner
 from robot_agent.process.robot_code import end_robot, start_robot
-from robot_agent.process.runner import Runner, serve
+from robot_agent.process.runner import MakeRunner, Member, Runner, serve
 from robot_agent.process.settings import AgentSettings
 from robot_agent.process.stdio.program_runner import ProgramRunner
-from robot_agent.process.team_process import MakeRunner, serve_team
+from robot_agent.process.team_process import serve_team
 from robot_agent.sdk.contract import Brain, Briefing
-from runtime.bus.contract import Bus
+from runtime.bus.contract import Bus, Subscription
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.bus.zenoh.waiting_client import open_when_there
 from runtime.process.clock import WallClock
@@ -53,36 +54,40 @@ def run(settings: AgentSettings) -> int:
             return open_free_network(settings, clock, patience)
         return open_client(settings.match, clock, settings.connect, patience, settings.credentials, any_match=True)
 
-    def serve_robot(robot: str, make_runner: MakeRunner) -> int:
-        def build(setup: Setup) -> Brain:
-            end_robot(brains.pop(robot, None))
-            use_batch_scheduling(setup.pace == LOCKSTEP)
-            if skipped is not None:
-                skipped.tick_s = setup.time.tick
-            folders = settings.brain_folder, settings.launch_folder
-            setups[robot] = setup
-            brains[robot] = start_robot(settings.brain, settings.stdio, Briefing.of(robot, setup), *folders)
-            return brains[robot]
+    def build(robot: str, setup: Setup) -> Brain:
+        end_robot(brains.pop(robot, None))
+        use_batch_scheduling(setup.pace == LOCKSTEP)
+        if skipped is not None:
+            skipped.tick_s = setup.time.tick
+        folders = settings.brain_folder, settings.launch_folder
+        setups[robot] = setup
+        brains[robot] = start_robot(settings.brain, settings.stdio, Briefing.of(robot, setup), *folders)
+        return brains[robot]
 
-        if settings.body.match_file is not None:
-            return serve_without_host(bus, settings.body.setup(), settings, build)
-
-        def on_hardware(bus: Bus, brain: Brain, robot: str) -> Runner:
-            guard = hardware.enter_context(guarded_hardware(settings, setups[robot], clock))
-            return HardwareRunner(guard, setups[robot], bus, brain, robot)
-
-        make_runner = on_hardware if settings.body.hardware else make_runner
+    def member(bus: Bus, robot: str, make_runner: MakeRunner) -> Member:
         membership = Membership(bus, robot, settings.launch_token, settings.match, settings.side)
-        reload = BrainReload(robot, build) if settings.reload else None
-        return serve(bus, build, robot, settings.patience, membership, make_runner, reload)
+        reload = BrainReload(robot, partial(build, robot)) if settings.reload else None
+        return Member(bus, partial(build, robot), robot, settings.patience, membership, make_runner, reload)
 
     try:
         client = open_when_there(connect, clock, settings.patience, log_line)
         assert client is not None  # a wait that nothing stops
         with client as bus, ExitStack() as hardware:
+
+            def on_hardware(bus: Bus, brain: Brain, robot: str) -> Runner:
+                guard = hardware.enter_context(guarded_hardware(settings, setups[robot], clock))
+                return HardwareRunner(guard, setups[robot], bus, brain, robot)
+
             if settings.mates:
-                return serve_team((settings.robot, *settings.mates), serve_robot, bus.close, clock)
-            return serve_robot(settings.robot, ProgramRunner if settings.stdio else BrainRunner)
+
+                def mate(robot: str, sights: Subscription) -> Member:
+                    return member(bus, robot, partial(BrainRunner, sights=sights))
+
+                return serve_team(bus, (settings.robot, *settings.mates), mate)
+            if settings.body.match_file is not None:
+                return serve_without_host(bus, settings.body.setup(), settings, partial(build, settings.robot))
+            alone = on_hardware if settings.body.hardware else ProgramRunner if settings.stdio else BrainRunner
+            return serve(bus, member(bus, settings.robot, alone))
     except HardwareError as error:
         log_line(f"{settings.robot}: {error}", Level.ERROR)
         return 1

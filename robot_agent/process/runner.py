@@ -9,7 +9,7 @@ from robot_agent.process.claim import Membership
 from robot_agent.process.settings import FIRST_SIGHT_FAILED
 from robot_agent.process.timing import IDLE_S
 from robot_agent.sdk.contract import Brain
-from runtime.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp
+from runtime.bus.contract import Bus, NoReplyError, RefusedQueryError, Stamp, Subscription
 from runtime.bus.host_watch import HostWatch
 from runtime.process.process_log import Level, log_line
 from runtime.process.timing import REPLY_S, SLICE_S
@@ -24,7 +24,8 @@ from schemas.wire.message import BadMessageError
 class Runner:
     """Answers each sight of one robot once."""
 
-    def __init__(self, bus: Bus, brain: Brain, robot: str) -> None:
+    def __init__(self, bus: Bus, brain: Brain, robot: str, sights: Subscription | None = None) -> None:
+        """`sights` are those of several robots, whose reader calls `read`; None for a subscription of its own."""
         self.brain = brain
         self.answered = 0
         self.repeated = 0
@@ -32,7 +33,7 @@ class Runner:
         self.invalid = 0
         """Payloads on the sight's key that were not a sight."""
         self._clock = bus.clock
-        self._sights = bus.subscribe(SIGHT, robot=robot)
+        self._sights = sights or bus.subscribe(SIGHT, robot=robot)
         self._commands = bus.publisher(COMMAND, robot=robot)
         self._last_tick: int | None = None
         self._last_answer = b""
@@ -42,8 +43,10 @@ class Runner:
     def next_sight(self, timeout: float | None) -> Sight | None:
         """The newest sight, waiting up to `timeout` s for one (None: for ever)."""
         payload = self._sights.receive_payload(timeout)
-        if payload is None:
-            return None
+        return self.read(payload) if payload is not None else None
+
+    def read(self, payload: bytes) -> Sight | None:
+        """The sight in a payload; None if it is none, which is counted."""
         try:
             return Sight.decode(payload)
         except BadMessageError as error:
@@ -121,61 +124,99 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
             return setup
 
 
-def serve(
-    bus: Bus,
-    build: Callable[[Setup], Brain],
-    robot: str,
-    patience: float,
-    membership: Membership | None = None,
-    runner_class: Callable[[Bus, Brain, str], Runner] = Runner,
-    reload: BrainReload | None = None,
-) -> int:
-    """Run a robot until its host has been gone for `patience` s; the exit status of the process.
+MakeRunner = Callable[[Bus, Brain, str], Runner]
 
-    `membership` is the agent's, by default that of one without a launch; `runner_class` runs what `build` returns.
-    `reload` builds the brain in place of `build`, and again when its code has changed between two episodes; None keeps
-    the brain.
 
-    The status is 0 if the host has gone or the bus is closed, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did
-    so at once.
+class Member:
+    """A robot in its matches: a host that has left and is back plays another one, with a brain that is built anew."""
 
-    A host that has left and is back plays another match: the brain is built again before its first sight of it.
+    def __init__(
+        self,
+        bus: Bus,
+        build: Callable[[Setup], Brain],
+        robot: str,
+        patience: float,
+        membership: Membership | None = None,
+        make_runner: MakeRunner = Runner,
+        reload: BrainReload | None = None,
+    ) -> None:
+        """Build the robot, which has not joined yet.
 
-    Raises:
-        TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
-    """
-    membership = membership or Membership(bus, robot, None)
-    build = reload.build if reload is not None else build
-    setup = ask_setup(bus, patience)
-    if not membership.fits(setup):
-        membership.join(setup, patience)  # the host refuses it, and reports that on its side, too
-    runner = runner_class(bus, build(setup), robot)
-    host = HostWatch(bus)
-    membership.join(setup, patience)
-    gc.collect()
-    gc.freeze()
-    is_new_match = False
-    while not bus.closed:
-        sight = runner.next_sight(IDLE_S)
-        is_new_match = host.update() or is_new_match
-        if sight is not None and not is_new_match:
-            changed = reload.before(sight, setup) if reload is not None else None
-            if changed is not None:
-                runner.restart(changed)
-            try:
-                runner.answer(sight)
-            except RobotError as error:
-                log_line(error.report(), Level.ERROR, tick=sight.tick)
-                return 1 if runner.answered else FIRST_SIGHT_FAILED
-        elif host.is_reachable():
-            if is_new_match:
-                setup = ask_setup(bus, patience)
-                runner.restart(build(setup))
-                membership.join(setup, patience)
-                is_new_match = False
-        elif host.is_given_up(patience):
-            log_line(f"{robot}: the host has been gone for {patience:g} s; leaving", Level.WARNING)
+        `membership` is the agent's, by default that of one without a launch; `make_runner` runs what `build` returns.
+        `reload` builds the brain in place of `build`, and again when its code has changed between two episodes; None
+        keeps the brain.
+
+        Raises:
+            TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
+        """
+        self.robot = robot
+        self._bus, self._patience = bus, patience
+        self._membership = membership or Membership(bus, robot, None)
+        self._reload, self._build = reload, reload.build if reload is not None else build
+        self._setup = ask_setup(bus, patience)
+        if not self._membership.fits(self._setup):
+            self.join()  # the host refuses it, and reports that on its side, too
+        self.runner = make_runner(bus, self._build(self._setup), robot)
+        self._host = HostWatch(bus)
+        self._is_new_match = False
+
+    def join(self) -> None:
+        """Join the match.
+
+        Raises:
+            TouchlineError: the host refuses the agent.
+        """
+        self._membership.join(self._setup, self._patience)
+
+    def go_on(self, sight: Sight | None) -> int | None:
+        """Answer a sight, or look for the host without one; None, or at the robot's end the status of its process.
+
+        The status is 0 if the host has been gone for `patience` s, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if
+        it did so at once.
+
+        Raises:
+            TouchlineError: as for the first match.
+        """
+        host = self._host
+        self._is_new_match = host.update() or self._is_new_match
+        if sight is not None and not self._is_new_match:
+            return self._answer(sight)
+        if host.is_reachable():
+            if self._is_new_match:
+                self._setup = ask_setup(self._bus, self._patience)
+                self.runner.restart(self._build(self._setup))
+                self.join()
+                self._is_new_match = False
+        elif host.is_given_up(self._patience):
+            log_line(f"{self.robot}: the host has been gone for {self._patience:g} s; leaving", Level.WARNING)
             return 0
         else:
-            is_new_match = True
+            self._is_new_match = True
+        return None
+
+    def _answer(self, sight: Sight) -> int | None:
+        changed = self._reload.before(sight, self._setup) if self._reload is not None else None
+        if changed is not None:
+            self.runner.restart(changed)
+        try:
+            self.runner.answer(sight)
+        except RobotError as error:
+            log_line(error.report(), Level.ERROR, tick=sight.tick)
+            return 1 if self.runner.answered else FIRST_SIGHT_FAILED
+        return None
+
+
+def serve(bus: Bus, member: Member) -> int:
+    """Run the robot of a process until it ends, or the bus is closed; the exit status, as of `Member.go_on`.
+
+    Raises:
+        TouchlineError: as `Member`.
+    """
+    member.join()
+    gc.collect()
+    gc.freeze()
+    while not bus.closed:
+        status = member.go_on(member.runner.next_sight(IDLE_S))
+        if status is not None:
+            return status
     return 0

@@ -15,8 +15,7 @@ REPORT_S = 0.05
 """Between two lines without a command that are sent to the host, which limits a flood of them."""
 PROGRAM_ENDS_S = 0.5
 """For a program to end after its input has ended, and again after SIGTERM; for a signal that has ended it to interrupt
-this process, too, where it was sent to both. For the other robots of a process to end with the first, after their
-decisions."""
+this process, too, where it was sent to both."""
 HANG_S = 10.0
 """For which a brain may be silent until its stack is reported, and in a planned match and in a check at all: a thousand
 times what a decision takes. Also for it to be built where the match file allows less."""

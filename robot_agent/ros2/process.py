@@ -1,12 +1,14 @@
-"""The process of a ROS 2 graph: a session with the match, one with the nodes, and a thread for each robot."""
+"""The process of a ROS 2 graph: a session with the match, and one with the nodes."""
 
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
+from typing import Any
 
 from robot_agent.process.claim import Membership
-from robot_agent.process.runner import ask_setup, serve
-from robot_agent.process.team_process import MakeRunner, serve_team
+from robot_agent.process.runner import Member, ask_setup
+from robot_agent.process.team_process import serve_team
 from robot_agent.ros2.clock_keeper import ClockKeeper
 from robot_agent.ros2.robot import RosRobot, RosRunner
 from robot_agent.ros2.settings import Ros2Settings
@@ -17,7 +19,7 @@ from robot_agent.sdk.contract import Briefing
 from runtime.access.accounts import Account
 from runtime.access.credentials import read_host_credentials
 from runtime.access.protection import Protection
-from runtime.bus.contract import Bus
+from runtime.bus.contract import Bus, Subscription
 from runtime.bus.endpoint import is_loopback
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.bus.zenoh.waiting_client import open_when_there
@@ -76,20 +78,22 @@ def serve_robots(bus: Bus, graph: Graph, robots: Sequence[str], every: int, pati
     keeper = ClockKeeper(graph, bus)
     served = {name: RosRobot(graph, name, keeper, every) for name in robots}
     keeper.follow([one.messages for one in served.values()])
+    told_at = bus.clock.now()
 
-    def serve_robot(name: str, _: MakeRunner) -> int:
-        robot = served[name]
-        while not robot.is_driven.wait(RECONNECT_S):
-            log_line(f"{name}: no node publishes /{name}/cmd_vel yet; waiting for one")
-        membership = Membership(bus, name, None, bus.match)
-        return serve(bus, robot.begin, name, patience, membership, RosRunner)  # type: ignore[arg-type]
+    def is_driven(robot: str) -> bool:
+        nonlocal told_at
+        if not served[robot].is_driven and bus.clock.now() - told_at >= RECONNECT_S:
+            told_at = bus.clock.now()
+            missing = [f"/{name}/cmd_vel" for name, one in served.items() if not one.is_driven]
+            log_line(f"no node publishes {', '.join(missing)} yet; waiting for one")
+        return served[robot].is_driven
 
-    def stop() -> None:
-        bus.close()
-        for robot in served.values():
-            robot.is_driven.set()  # ends its wait
+    def member(robot: str, sights: Subscription) -> Member:
+        membership = Membership(bus, robot, None, bus.match)
+        runner: Any = partial(RosRunner, sights=sights)
+        return Member(bus, served[robot].begin, robot, patience, membership, runner)  # type: ignore[arg-type]
 
-    return serve_team(robots, serve_robot, stop, bus.clock)
+    return serve_team(bus, robots, member, is_driven)
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from robot_agent.ros2.answers import Answers, Fault
 from robot_agent.ros2.clock_keeper import ClockKeeper
 from robot_agent.ros2.sight_messages import SightMessages
 from robot_agent.ros2.velocity import read_velocity
-from runtime.bus.contract import Bus
+from runtime.bus.contract import Bus, Subscription
 from runtime.process.process_log import Level, log_line
 from runtime.process.timing import REPLY_S
 from runtime.ros2.graph import Arrived, Graph, Request
@@ -34,8 +34,6 @@ class RosRobot:
         """`every` as in `Ros2Settings`."""
         self.name = name
         self.messages = SightMessages(graph, name, keeper.transforms)
-        self.is_driven = threading.Event()
-        """Set while a node publishes commands."""
         self._keeper, self._every = keeper, every
         self._store = typestore()
         self._lock = threading.Lock()
@@ -63,6 +61,11 @@ class RosRobot:
         self.messages.use_sensors(setup.sensors_of(self.name))
         self._keeper.begin(setup.sides)
         return self
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether a node publishes commands."""
+        return bool(self._drivers)
 
     def answer_by(self, send: Callable[[Command], None]) -> None:
         """What sends the robot's commands."""
@@ -143,7 +146,6 @@ class RosRobot:
                 self._drivers.pop(gid, None)
             if self._answers is not None:
                 self._answer(self._answers.driven(bool(self._drivers)))
-        (self.is_driven.set if self._drivers else self.is_driven.clear)()
 
     def _name_of(self, gid: bytes) -> str:
         """The node that publishes commands with this identity; some libraries announce another one in their token."""
@@ -160,10 +162,10 @@ class RosRobot:
 
 
 class RosRunner(Runner):
-    """Gives the sights of a robot to its nodes, and sends their commands, which come on other threads."""
+    """Gives the sights of a robot to its nodes, and sends their commands, which come on the thread of the graph."""
 
-    def __init__(self, bus: Bus, robot: RosRobot, name: str) -> None:
-        super().__init__(bus, robot, name)  # type: ignore[arg-type]
+    def __init__(self, bus: Bus, robot: RosRobot, name: str, sights: Subscription | None = None) -> None:
+        super().__init__(bus, robot, name, sights)  # type: ignore[arg-type]
         self._robot = robot
         self._sending = threading.Lock()
         self._published_at = 0.0

@@ -5,6 +5,7 @@ conformance suite.
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any, NamedTuple, Self
@@ -254,6 +255,13 @@ class Bus(ABC):
         """
 
     @abstractmethod
+    def subscribe_each(self, topic: Topic, **chunks: Sequence[str]) -> Subscription:
+        """One subscription to several keys of a topic, which yields the newest message of each.
+
+        The first key has the first value of each chunk, and so on; every chunk must be given.
+        """
+
+    @abstractmethod
     def serve(self, topic: Topic, **chunks: str) -> Server:
         """Serve the queries of this topic; without a chunk, of all its values."""
 
@@ -315,3 +323,8 @@ def full_key(topic: Topic, chunks: dict[str, str]) -> str:
     if missing:
         raise BusError(f"topic {topic.key} needs {', '.join(missing)} to be published")
     return topic.fill(**chunks)
+
+
+def full_keys(topic: Topic, chunks: dict[str, Sequence[str]]) -> list[str]:
+    """The keys that have the first value of each chunk, the second one, and so on."""
+    return [full_key(topic, dict(zip(chunks, values, strict=True))) for values in zip(*chunks.values(), strict=True)]

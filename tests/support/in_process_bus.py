@@ -2,6 +2,7 @@
 
 import threading
 from collections import defaultdict, deque
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,6 +23,7 @@ from runtime.bus.contract import (
     Subscription,
     check_publishable,
     full_key,
+    full_keys,
 )
 from runtime.bus.mailbox import Mailbox
 from runtime.process.clock import Clock
@@ -94,8 +96,8 @@ class _Publisher(Publisher):
 
 
 class _Subscription(Subscription):
-    def __init__(self, topic: Topic, chunks: dict[str, str], bus: "InProcessBus", newest: bool) -> None:
-        self._wanted = chunks
+    def __init__(self, topic: Topic, wanted: list[dict[str, str]], bus: "InProcessBus", newest: bool) -> None:
+        self._wanted = wanted
         self._topic = topic
         self._bus = bus
         one = newest or topic.delivery is Delivery.NEWEST
@@ -104,7 +106,7 @@ class _Subscription(Subscription):
 
     def wants(self, key: str) -> bool:
         chunks = self._topic.match(key) or {}
-        return all(chunks[name] == value for name, value in self._wanted.items())
+        return any(all(chunks[name] == value for name, value in wanted.items()) for wanted in self._wanted)
 
     def deliver(self, key: str, received: ReceivedMessage) -> None:
         if self.wants(key):
@@ -178,7 +180,15 @@ class InProcessBus(Bus):
         self.check_open()
         check_publishable(topic)
         topic.fill(**chunks)
-        subscription = _Subscription(topic, chunks, self, newest)
+        return self._add(_Subscription(topic, [chunks], self, newest), topic, history=history)
+
+    def subscribe_each(self, topic: Topic, **chunks: Sequence[str]) -> Subscription:
+        self.check_open()
+        check_publishable(topic)
+        wanted = [topic.match(key) or {} for key in full_keys(topic, chunks)]
+        return self._add(_Subscription(topic, wanted, self, newest=True), topic, history=False)
+
+    def _add(self, subscription: _Subscription, topic: Topic, *, history: bool) -> Subscription:
         with self.shared_state.lock:
             for kept in self.shared_state.caches.get(self.prefix + topic.key, {}).values() if history else ():
                 for received in kept:

@@ -2,7 +2,7 @@
 
 import atexit
 import weakref
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ from runtime.bus.contract import (
     Subscription,
     check_publishable,
     full_key,
+    full_keys,
 )
 from runtime.bus.endpoint import is_cut_off
 from runtime.bus.mailbox import Mailbox
@@ -32,6 +33,7 @@ from runtime.bus.zenoh.presence import ZenohPresenceWatch
 from runtime.bus.zenoh.queries import ZenohPendingReply, ZenohServer
 from runtime.bus.zenoh.reader import ZenohReader
 from runtime.bus.zenoh.session import SessionContext, open_connection, open_router
+from runtime.bus.zenoh.several import ZenohSeveral
 from runtime.bus.zenoh.stream import ZenohPublisher, ZenohSubscription
 from runtime.bus.zenoh.wait_timer import WaitTimer
 from runtime.process.clock import Clock
@@ -163,6 +165,12 @@ class ZenohBus(Bus):
             subscription = ZenohSubscription(topic, key, context, newest, history)
         self._subscriptions.append(subscription)
         context.timer.add(subscription)
+        return subscription
+
+    def subscribe_each(self, topic: Topic, **chunks: Sequence[str]) -> Subscription:
+        check_publishable(topic)
+        subscription = ZenohSeveral(topic, full_keys(topic, chunks), self._open())
+        self._subscriptions.append(subscription)
         return subscription
 
     def serve(self, topic: Topic, **chunks: str) -> Server:

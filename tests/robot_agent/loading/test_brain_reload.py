@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from robot_agent.loading.brain_loader import load_brain
 from robot_agent.loading.brain_reload import BrainReload
 from robot_agent.process.run import run
-from robot_agent.process.runner import serve
+from robot_agent.process.runner import Member, serve
 from robot_agent.process.settings import AgentSettings
 from robot_agent.sdk.contract import Briefing
 from schemas.errors import TouchlineError
@@ -166,7 +166,7 @@ def test_an_agent_answers_the_first_sight_of_an_episode_with_its_new_brain(
     monkeypatch.setattr(robot, "query", query)
     monkeypatch.setattr("robot_agent.process.runner.Runner.next_sight", next_sight)
     with pytest.raises(KeyboardInterrupt):
-        serve(robot, reload.build, "cyan2", 1.0, reload=reload)
+        serve(robot, Member(robot, reload.build, "cyan2", 1.0, reload=reload))
     drives = [received.message().drive for received in iter(commands.receive, None)]
     assert [drive.vx for drive in drives] == [1.0, 1.0, 2.0, 2.0]
     assert [round(10 * drive.vy) for drive in drives] == [1, 2, 1, 2]

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from robot_agent.loading.brain_error import BrainError
-from robot_agent.process.runner import Runner, ask_setup, serve
+from robot_agent.process.runner import Member, Runner, ask_setup, serve
 from robot_agent.process.settings import FIRST_SIGHT_FAILED
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
@@ -160,7 +160,7 @@ def test_a_brain_that_raises_ends_the_process_with_its_traceback(
             sights.put(sight_of(sight.tick + 1))
             return Command(answers_tick=sight.tick)
 
-    assert serve(robot, lambda setup: Late(), "cyan2", 1.0) == status
+    assert serve(robot, Member(robot, lambda setup: Late(), "cyan2", 1.0)) == status
     assert len(list(iter(commands.receive, None))) == answered
     report = capsys.readouterr().err
     place = place_in(Raising.act, 1)
@@ -173,11 +173,11 @@ def test_a_robot_whose_bus_is_closed_ends_with_status_0_and_waits_for_no_host(st
     _, robot = stage
 
     def closes() -> bool:
-        robot.close()  # as the thread of a teammate does
+        robot.close()
         return False
 
     monkeypatch.setattr(robot, "connected", closes)
-    assert serve(robot, lambda setup: Counting(), "cyan2", 60.0) == 0
+    assert serve(robot, Member(robot, lambda setup: Counting(), "cyan2", 60.0)) == 0
     assert capsys.readouterr().err == ""
 
 
@@ -270,14 +270,14 @@ def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, 
         return built[-1]
 
     monkeypatch.setattr(robot, "declare_alive", host_is_replaced)
-    assert serve(robot, build, "cyan2", 3.0) == 0
+    assert serve(robot, Member(robot, build, "cyan2", 3.0)) == 0
     assert [brain.seen for brain in built] == [[], [1]]
 
 
 def test_a_host_that_is_gone_for_longer_than_patience_ends_the_process_with_status_0(stage, capsys, monkeypatch):
     host, robot = stage
     monkeypatch.setattr(robot, "declare_alive", lambda kind, name: host.close())
-    assert serve(robot, lambda setup: Counting(), "cyan2", 3.0) == 0
+    assert serve(robot, Member(robot, lambda setup: Counting(), "cyan2", 3.0)) == 0
     assert "the host has been gone for 3 s" in capsys.readouterr().err
 
 
@@ -294,7 +294,7 @@ def test_when_the_host_comes_back_the_brain_is_built_anew_and_answers(stage, sig
         return built[-1]
 
     monkeypatch.setattr(robot, "connected", lambda: next(there, False))
-    assert serve(robot, build, "cyan2", 3.0) == 0
+    assert serve(robot, Member(robot, build, "cyan2", 3.0)) == 0
     assert [brain.seen for brain in built] == [[], [0]]
 
 
@@ -302,5 +302,5 @@ def test_an_agent_is_seen_to_be_alive_under_its_robots_name(stage, monkeypatch):
     host, robot = stage
     watch = host.watch_alive()
     monkeypatch.setattr(robot, "connected", lambda: False)
-    serve(robot, lambda setup: Counting(), "cyan2", 1.0)
+    serve(robot, Member(robot, lambda setup: Counting(), "cyan2", 1.0))
     assert ("agent", "cyan2", True) in [(one.kind, one.name, one.alive) for one in iter(watch.receive, None)]

@@ -1,128 +1,148 @@
 """The robots of a team in one process: turns, and what ends all of them."""
 
-import subprocess
-import sys
 import threading
-import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
-from robot_agent.process import team_process
-from robot_agent.process.team_process import MakeRunner, serve_team
-from runtime.bus.endpoint import with_free_port
-from runtime.bus.zenoh.bus import open_host
-from runtime.process.clock import WallClock
+from robot_agent.process.brain_runner import BrainRunner
+from robot_agent.process.runner import Member
+from robot_agent.process.settings import FIRST_SIGHT_FAILED
+from robot_agent.process.team_process import serve_team
+from runtime.bus.contract import PresenceKind, Subscription
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
-from schemas.topics import COMMAND, SIGHT
+from schemas.messages.sight import Sight
+from schemas.topics import COMMAND, SETUP, SIGHT
 from support.in_process_bus import SharedState
+from support.process_story import wait_for
 from support.stepped_clock import SteppedClock
 
 ROBOTS = ("cyan1", "cyan2", "cyan3")
-LIMIT_S = 60.0
 
 
-class Alone:
-    """Answers, and notes whether another brain is within `act` at the same time."""
+class Team:
+    """A process of a team on a thread of the test, which is its host."""
 
-    acting = 0
-    most = 0
+    def __init__(self, setup: Any) -> None:
+        medium = SharedState()
+        self.host, self.bus = (medium.open_bus("friendly", SteppedClock()) for _ in range(2))
+        self.host.declare_alive(PresenceKind.HOST, "host")
+        self.commands = self.host.subscribe(COMMAND)
+        self.sights = {robot: self.host.publisher(SIGHT, robot=robot) for robot in ROBOTS}
+        self.presence = self.host.watch_alive()
+        self.ready = set(ROBOTS)
+        self.threads: set[str] = set()
+        self.status: int | BaseException | None = None
+        self._setup, self._server = setup, self.host.serve(SETUP)
+        self._thread = threading.Thread(target=self._run, daemon=True)
 
-    def act(self, sight):
-        Alone.acting += 1
-        Alone.most = max(Alone.most, Alone.acting)
-        time.sleep(0.002)  # others may run meanwhile
-        Alone.acting -= 1
+    def act(self, sight: Sight) -> Command:
+        self.threads.add(threading.current_thread().name)
+        if sight.tick == 9:
+            raise ZeroDivisionError("no ball, no plan")
         return Command(answers_tick=sight.tick)
 
+    def build(self, _: Any) -> Any:
+        return SimpleNamespace(act=self.act)
 
-def test_each_robot_answers_its_sights_and_none_thinks_while_another_does(sight_of):
-    medium = SharedState()
-    host = medium.open_bus("friendly", SteppedClock())
-    commands = host.subscribe(COMMAND)
-    sights = {robot: host.publisher(SIGHT, robot=robot) for robot in ROBOTS}
-    together = threading.Barrier(len(ROBOTS), timeout=LIMIT_S)
+    def start(self) -> None:
+        self._thread.start()
 
-    def serve_robot(robot: str, make_runner: MakeRunner) -> int:
-        runner = make_runner(medium.open_bus("friendly", SteppedClock()), Alone(), robot)
-        together.wait()
-        for tick in range(10):
-            sights[robot].put(sight_of(tick))
-            runner.answer(runner.next_sight(0.0))
-        together.wait()
-        return 0
+    def end(self) -> int | BaseException | None:
+        self._thread.join(30.0)
+        return self.status
 
-    assert serve_team(ROBOTS, serve_robot, nothing, WallClock()) == 0
-    answered = [received.message().answers_tick for received in iter(commands.receive, None)]
-    assert sorted(answered) == sorted(3 * [*range(10)])
-    assert Alone.most == 1
+    def joined(self) -> set[str]:
+        """The robots that have joined since the last call."""
+        found = iter(self.presence.receive, None)
+        return {one.name for one in found if one.kind is PresenceKind.AGENT and one.alive}
 
+    def _run(self) -> None:
+        answering = threading.Thread(target=self._answer, daemon=True)
+        answering.start()
+        try:
+            self.status = serve_team(self.bus, ROBOTS, self._member, self.ready.__contains__)
+        except TouchlineError as error:
+            self.status = error
 
-def nothing() -> None:
-    """Ends no robot: those of the test have ended, or never end."""
+    def _answer(self) -> None:
+        while (query := self._server.receive(None)) is not None:
+            query.reply(self._setup)
 
-
-def ended(event: threading.Event) -> int:
-    """The status of a robot that plays until the event."""
-    return 0 if event.wait(LIMIT_S) else 1
-
-
-def robots_that_run() -> set[str]:
-    return {thread.name for thread in threading.enumerate()} & set(ROBOTS)
+    def _member(self, robot: str, sights: Subscription) -> Member:
+        return Member(self.bus, self.build, robot, 60.0, make_runner=partial(BrainRunner, sights=sights))
 
 
-def test_the_first_robot_that_ends_ends_the_process_with_its_status_and_all_others(monkeypatch):
-    monkeypatch.setattr(team_process, "PROGRAM_ENDS_S", LIMIT_S)
-    over = threading.Event()
-    assert serve_team(ROBOTS, lambda robot, _: 3 if robot == "cyan2" else ended(over), over.set, WallClock()) == 3
-    assert robots_that_run() == set()
+@pytest.fixture
+def team(setup, monkeypatch) -> Iterator[Team]:
+    monkeypatch.setattr("robot_agent.process.team_process.IDLE_S", 0.01)
+    made = Team(setup)
+    yield made
+    made.bus.close()
+    made.end()
+    made.host.close()
 
 
-def test_a_brain_that_does_not_end_delays_the_end_of_the_process_by_a_moment_only(monkeypatch):
-    monkeypatch.setattr(team_process, "PROGRAM_ENDS_S", 0.05)
-    over = threading.Event()
-    assert serve_team(ROBOTS, lambda robot, _: 3 if robot == "cyan2" else ended(over), nothing, WallClock()) == 3
-    assert robots_that_run() == {"cyan1", "cyan3"}
-    over.set()
+def test_each_robot_answers_its_sights_on_the_one_thread_of_its_team(team: Team, sight_of: Callable[..., Sight]):
+    team.start()
+    joined: set[str] = set()
+    wait_for(lambda: joined.update(team.joined()) or joined == set(ROBOTS))
+    for tick in range(3):
+        for robot, sights in team.sights.items():
+            sights.put(sight_of(tick, robot))
+        answered = [wait_for(team.commands.receive) for _ in ROBOTS]
+        assert [(one.key, one.message().answers_tick) for one in answered] == [
+            (f"robot/{robot}/command", tick) for robot in ROBOTS
+        ]
+    assert len(team.threads) == 1
 
 
-TEAM = """
-import sys
-from robot_agent.process.team_process import serve_team
-from runtime.bus.zenoh.bus import open_client
-from runtime.process.clock import WallClock
-
-clock = WallClock()
-with open_client("friendly", clock, sys.argv[1], 60.0) as bus:
-    def serve_robot(robot, make_runner):
-        runner = make_runner(bus, None, robot)
-        while not bus.closed:
-            runner.next_sight(0.05)
-            if robot == "cyan1":
-                return 3
-        return 0
-    status = serve_team([f"cyan{number}" for number in range(1, 6)], serve_robot, bus.close, clock)
-sys.exit(status)
-"""
+def test_a_robot_joins_once_it_is_ready_and_gets_no_sight_before(team: Team, sight_of: Callable[..., Sight]):
+    team.ready = {"cyan1"}
+    team.start()
+    joined: set[str] = set()
+    wait_for(lambda: joined.update(team.joined()) or joined)
+    team.sights["cyan2"].put(sight_of(0, "cyan2"))
+    team.sights["cyan1"].put(sight_of(0, "cyan1"))
+    assert wait_for(team.commands.receive).key == "robot/cyan1/command"
+    assert joined == {"cyan1"} and team.commands.receive() is None
+    team.ready.add("cyan2")
+    wait_for(lambda: joined.update(team.joined()) or joined == {"cyan1", "cyan2"})
+    team.sights["cyan2"].put(sight_of(1, "cyan2"))
+    assert wait_for(team.commands.receive).key == "robot/cyan2/command"
 
 
-@pytest.mark.processes
-@pytest.mark.slow
-def test_no_robot_that_waits_on_the_network_aborts_the_process_that_ends():
-    with open_host("friendly", WallClock(), with_free_port("tcp/127.0.0.1:0")) as host:
-        words = [sys.executable, "-c", TEAM, host.endpoint]
-        teams = [subprocess.Popen(words, stderr=subprocess.PIPE, text=True) for _ in range(6)]
-        ends = [(team.communicate(timeout=LIMIT_S)[1], team.returncode) for team in teams]
-    assert ends == 6 * [("", 3)]  # without the wait for threads each one of them aborts in every second run
+@pytest.mark.parametrize(("first", "status"), [(9, FIRST_SIGHT_FAILED), (8, 1)])
+def test_a_robot_that_fails_ends_the_process_with_its_status(
+    team: Team, sight_of: Callable[..., Sight], capsys: pytest.CaptureFixture[str], first: int, status: int
+):
+    team.start()
+    joined: set[str] = set()
+    wait_for(lambda: joined.update(team.joined()) or joined == set(ROBOTS))
+    if first == 8:
+        team.sights["cyan2"].put(sight_of(8, "cyan2"))
+        wait_for(team.commands.receive)
+    team.sights["cyan2"].put(sight_of(9, "cyan2"))
+    assert team.end() == status
+    assert "cyan2 has failed, and with it the process of its team" in capsys.readouterr().err
 
 
-def test_what_one_robot_raises_the_process_raises():
-    others = threading.Event()
+def test_a_bus_that_is_closed_ends_the_process_with_status_0(team: Team):
+    team.start()
+    joined: set[str] = set()
+    wait_for(lambda: joined.update(team.joined()) or joined == set(ROBOTS))
+    team.bus.close()
+    assert team.end() == 0
 
-    def serve_robot(robot: str, _: MakeRunner) -> int:
-        if robot == "cyan3":
-            raise TouchlineError("cyan3: refused by the host")
-        return ended(others)
 
-    with pytest.raises(TouchlineError, match="cyan3: refused by the host"):
-        serve_team(ROBOTS, serve_robot, others.set, WallClock())
+def test_what_one_robot_raises_the_process_raises(team: Team):
+    def build(_: Any) -> Any:
+        raise TouchlineError("no such brain")
+
+    team.build = build  # type: ignore[method-assign]
+    team.start()
+    assert str(team.end()) == "no such brain"

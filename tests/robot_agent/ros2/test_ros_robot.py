@@ -31,7 +31,6 @@ from support.process_story import wait_for
 from support.stepped_clock import SteppedClock
 
 ROBOT = "cyan2"
-LIMIT_S = 30.0
 
 
 def raw_session(endpoint: str) -> zenoh.Session:
@@ -111,8 +110,7 @@ class Bench:
     def driver(self, stamped: bool = True, node: Graph | None = None, robot: str = ROBOT) -> GraphPublisher:
         """A publisher of commands that the bridge has noticed."""
         publisher = (node or self.node).publisher(f"/{robot}/cmd_vel", types.TWIST_STAMPED if stamped else types.TWIST)
-        assert self.robots[robot].is_driven.wait(LIMIT_S)
-        wait_for(lambda: publisher.is_read)
+        wait_for(lambda: self.robots[robot].is_driven and publisher.is_read)
         return publisher
 
     def twist(self, vx: float, tick: int | None = None) -> memoryview:

@@ -159,6 +159,43 @@ def test_the_newest_is_kept_for_each_key_apart(buses: Buses) -> None:
     assert reader.receive() is None
 
 
+def test_one_reader_of_several_keys_yields_the_newest_message_of_each_and_nothing_of_others(buses: Buses) -> None:
+    bus = buses.join()
+    reader = bus.subscribe_each(SIGHT, robot=["cyan1", "cyan3"])
+    writers = {name: buses.host.publisher(SIGHT, robot=name) for name in ("cyan1", "cyan2", "cyan3")}
+    for name in ("cyan1", "cyan3"):
+        put_until_heard(lambda name=name: writers[name].put_payload(b"first"), reader)  # type: ignore[misc]
+    for round_ in range(3):
+        for name, writer in writers.items():
+            writer.put_payload(f"{name} {round_}".encode())
+    wait_for_all(buses, bus)
+    found = [reader.receive(SOON) for _ in range(2)]
+    assert [(one.key, one.payload) for one in found] == [  # type: ignore[union-attr]
+        ("robot/cyan1/sight", b"cyan1 2"),
+        ("robot/cyan3/sight", b"cyan3 2"),
+    ]
+    assert reader.receive() is None
+
+
+@pytest.mark.parametrize("how", ["bus", "reader"])
+def test_a_wait_for_several_keys_has_an_end_and_is_ended_with_its_reader_and_its_bus(buses: Buses, how: str) -> None:
+    bus = buses.join()
+    reader = bus.subscribe_each(SIGHT, robot=["cyan1", "cyan2"])
+    assert reader.receive(MOMENT) is None
+    ending = threading.Timer(MOMENT, bus.close if how == "bus" else reader.close)
+    ending.start()
+    began = time.monotonic()
+    assert reader.receive(SOON) is None
+    assert time.monotonic() - began < SOON / 2
+    ending.join()
+    assert reader.receive(None) is None
+
+
+def test_a_reader_of_several_keys_needs_each_chunk_of_each_key(buses: Buses) -> None:
+    with pytest.raises(BusError, match="needs robot"):
+        buses.join().subscribe_each(SIGHT, side=["cyan"])
+
+
 @pytest.mark.parametrize("other", ["robot", "ball", "match"])
 def test_a_reader_of_one_robot_hears_nothing_of_another_of_the_ball_and_of_another_match(
     buses: Buses, other: str
