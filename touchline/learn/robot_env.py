@@ -60,6 +60,11 @@ class RobotEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         """Name, unit and scale of each number of an action."""
         return self._team.action_entries(self._robot)
 
+    @property
+    def ended_by(self) -> str:
+        """What ended the newest episode, as of `TaskEnv`."""
+        return self._team.ended_by
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:

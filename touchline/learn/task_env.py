@@ -200,6 +200,11 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
         sights = self._episode.sights
         return np.concatenate([layout.observe(sights[agent]) for agent, layout in self._observations.items()])
 
+    @property
+    def ended_by(self) -> str:
+        """What ended the newest episode, by the words of its task; empty while it goes on, or at `max_cycles`."""
+        return self._episode.state.ended_by if self._episode is not None else ""
+
     def render(self) -> NDArray[np.uint8] | None:
         """With `rgb_array` a picture from above, shape (height, width, 3), else None: a window shows steps by itself.
 
@@ -247,7 +252,8 @@ class TaskEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types
 
     def _infos(self, episode: Episode) -> Infos:
         state = episode.state
-        info = {"seed": self._seed, "tick": episode.tick, "score": state.value or 0.0, "ended_by": state.ended_by}
+        # Numbers, as TorchRL requires.
+        info: dict[str, Any] = {"seed": self._seed, "tick": episode.tick, "score": state.value or 0.0}
         infos = {agent: dict(info) for agent in self.agents}
         if self._advised:
             for agent, command in episode.advice.items():

@@ -107,9 +107,19 @@ def test_score_terminates_and_time_truncates(rovers: Callable[..., TaskEnv]) -> 
     for speed in (1.0, 0.0):
         env.reset(3)
         while env.agents:
-            *_, terminated, truncated, infos = env.step(still(env) | {"one": np.array([speed, 0.0])})
-        ends.append((terminated["two"], truncated["two"], infos["two"]["ended_by"]))
+            *_, terminated, truncated, _ = env.step(still(env) | {"one": np.array([speed, 0.0])})
+        ends.append((terminated["two"], truncated["two"], env.ended_by))
     assert ends == [(True, False, "score"), (False, True, "time")]
+
+
+def test_infos_are_numbers_with_equal_names_in_all_steps_as_torchrl_requires(rovers: Callable[..., TaskEnv]) -> None:
+    env = rovers()
+    _, infos = env.reset(3)
+    kinds = {name: type(value) for name, value in infos["one"].items()}
+    while env.agents:
+        *_, infos = env.step(still(env))
+        assert all({name: type(value) for name, value in infos[agent].items()} == kinds for agent in infos)
+    assert set(kinds.values()) <= {int, float}
 
 
 def test_equal_seeds_are_equal_episodes_and_others_are_drawn(rovers: Callable[..., TaskEnv]) -> None:
