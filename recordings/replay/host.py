@@ -38,7 +38,9 @@ class ReplayLoop:
     player: Player
 
     def __init__(self, bus: Bus) -> None:
-        self._clock = bus.clock
+        self.clock = bus.clock
+        self.unknown_keys = 0
+        """Messages left out because their keys match no topic."""
         self._controls = bus.serve(REPLAY_CONTROL)
 
     def run(self, meanwhile: Callable[[Player], Any] = lambda _: None) -> None:
@@ -51,8 +53,8 @@ class ReplayLoop:
             published = self.pump()
             meanwhile(self.player)
             if not published:
-                now = self._clock.now()
-                self._clock.sleep_until(now + max(REPLAY_STEP_S, min(POLL_S, self.player.wait())))
+                now = self.clock.now()
+                self.clock.sleep_until(now + max(REPLAY_STEP_S, min(POLL_S, self.player.wait())))
 
     def pump(self) -> int:
         """Answer queries and publish due messages; returns the number of messages published."""
@@ -87,8 +89,6 @@ class ReplayHost(ReplayLoop):
         self._tick_ns = setup.time.tick * 1e9 if setup is not None else math.inf
         self._listeners = Listeners(bus, self._tick_ns)
         self.player = make_player(publish=self._publish, can_publish=self._listeners.can_publish)
-        self.unknown_keys = 0
-        """Messages left out because their keys match no topic."""
         self._published_at = -math.inf
         bus.declare_alive(PresenceKind.HOST, "host")
         bus.declare_alive(PresenceKind.REPLAY, "replay")
@@ -103,7 +103,7 @@ class ReplayHost(ReplayLoop):
         has_newcomers = self._listeners.update()
         published = self.player.pump()
         self._batches.send_if_due()
-        now = self._clock.now()
+        now = self.clock.now()
         stands_still = self.player.paused and self.player.published > 0
         is_due = has_newcomers or now - self._published_at > LATCHED_S
         if published:
@@ -117,16 +117,16 @@ class ReplayHost(ReplayLoop):
         """Give recorders time to receive the last messages."""
         self._batches.end_tick(self._tick())
         self._batches.send()
-        deadline = self._clock.now() + PARTING_S
-        while self._listeners.any_behind() and self._clock.now() < deadline:
-            self._clock.sleep_until(self._clock.now() + POLL_S)
+        deadline = self.clock.now() + PARTING_S
+        while self._listeners.any_behind() and self.clock.now() < deadline:
+            self.clock.sleep_until(self.clock.now() + POLL_S)
             self._answer()
             self._listeners.update()
 
     def _publish(self, recorded: RecordedMessage) -> None:
-        if recorded.log_ns != self._clock.sim_ns:
+        if recorded.log_ns != self.clock.sim_ns:
             self._batches.end_tick(self._tick())
-            self._clock.sim_ns = recorded.log_ns
+            self.clock.sim_ns = recorded.log_ns
         try:
             publisher = self._publishers[recorded.key]
         except KeyError:
@@ -142,7 +142,7 @@ class ReplayHost(ReplayLoop):
 
     def _tick(self) -> int:
         """The tick that is being published."""
-        return round(max(0, self._clock.sim_ns) / self._tick_ns)
+        return round(max(0, self.clock.sim_ns) / self._tick_ns)
 
     def _open_publisher(self, recorded: RecordedMessage) -> Publisher | None:
         chunks = recorded.topic.match(recorded.key)

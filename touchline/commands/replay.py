@@ -1,24 +1,20 @@
 """`touchline replay`: a recording back onto the bus."""
 
 import math
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from runtime.access.accounts import Account
-from runtime.access.credentials import account_file, read_host_credentials
+from runtime.access.credentials import read_host_credentials
 from runtime.access.protection import Protection
 from runtime.bus.contract import Bus
-from runtime.bus.endpoint import local_endpoint, parse_endpoint
+from runtime.bus.endpoint import parse_endpoint
 from runtime.bus.settings import ClientSettings, ListenSettings
 from runtime.process.clock import Clock, WallClock
 from schemas.errors import TouchlineError
-from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.side import Side
 from touchline.commands.cli import options
 from touchline.commands.cli.option_groups import from_options, with_option_groups
@@ -27,11 +23,11 @@ from touchline.launch.terminal.json_text import json_text
 
 if TYPE_CHECKING:
     from recordings.reading.recording import RecordedMessage
+    from recordings.replay.host import ReplayHost
     from recordings.replay.live_view import LiveView
     from recordings.replay.player import Player
     from recordings.replay.replay import Replay
     from runtime.bus.zenoh.bus import ZenohBus
-    from touchline.launch.processes.supervisor import Notice
 
 _REPORTED = ("time", "start", "end", "messages")
 """Fields of the last status that `--json` prints."""
@@ -149,6 +145,7 @@ def replay(
     from recordings.reading.log_order import is_match
     from recordings.replay.replay import Replay, ReplaySettings
     from touchline.launch.page import open_page, serve_page_beside
+    from touchline.launch.replay_run import run_replay
 
     for option, value in (("--rate", rate), ("--behind", behind)):
         if not math.isfinite(value):
@@ -202,18 +199,11 @@ def replay(
         protection = _protection(opened, name, listening.credentials)
         bus = stack.enter_context(_open_bus(name, clock, connect, listen, protection, listening.credentials))
         stop = stack.enter_context(StopSignals())  # before any address is printed
-        look_after: Callable[[], list[Notice]] = list
-        if opened_page is not None:
-            log, credentials = partial(typer.echo, err=True), listening.credentials
-            operator = account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
-            look_after = stack.enter_context(
-                serve_page_beside(name, local_endpoint(bus.endpoint), opened_page, clock, log, operator)
-            )
+        look_after = stack.enter_context(serve_page_beside(bus, opened_page, listening.credentials))
         view = stack.enter_context(closing(_live_view(opened, foxglove_port))) if foxglove else None
         began = clock.now()
-        player = _play(opened, bus, clock, stop, look_after, view, quiet=json)
+        status = run_replay(_host(opened, bus, view), stop, look_after, view, quiet=json)
         wall = clock.now() - began
-    status = player.status()
     if json:
         fields = {name: getattr(status, name) for name in _REPORTED}
         typer.echo(json_text(fields | {"wall_s": round(wall, 3)}))
@@ -267,23 +257,9 @@ def _live_view(opened: "Replay", port: int) -> "LiveView":
     return view
 
 
-def _play(
-    opened: "Replay",
-    bus: Bus,
-    clock: Clock,
-    stop: StopSignals,
-    look_after: "Callable[[], list[Notice]]",
-    view: "LiveView | None",
-    *,
-    quiet: bool,
-) -> "Player":
-    """Play until the end or a signal, with its progress on the output."""
+def _host(opened: "Replay", bus: Bus, view: "LiveView | None") -> "ReplayHost":
+    """The host of the replay, which shows all that it publishes to viewers, too."""
     from recordings.replay.host import ReplayHost
-    from touchline.launch.terminal.replay_progress import bar_text, status_text
-    from touchline.launch.terminal.screen import screen_for
-
-    stream = sys.stderr if quiet else sys.stdout
-    text_of = bar_text if stream.isatty() else status_text
 
     def make_player(publish: "Callable[[RecordedMessage], None]", can_publish: Callable[[], bool]) -> "Player":
         def publish_and_show(recorded: "RecordedMessage") -> None:
@@ -291,24 +267,6 @@ def _play(
             if view is not None:
                 view.publish(recorded)
 
-        return opened.player(clock, publish=publish_and_show, can_publish=can_publish)
+        return opened.player(bus.clock, publish=publish_and_show, can_publish=can_publish)
 
-    host = ReplayHost(bus, opened.recording.manifest.setup, make_player)
-    with screen_for(stream, clock) as screen:
-
-        def meanwhile(player: "Player") -> None:
-            if stop.received is not None:
-                player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
-            screen.status(text_of(player.status()))
-            if view is not None:
-                view.update(player)
-            for notice in look_after():
-                typer.echo(f"touchline: {notice.sentence}", err=True)
-
-        host.run(meanwhile)
-        screen.event(text_of(host.player.status()), notable=True)
-    if host.unknown_keys:
-        typer.echo(f"touchline: {host.unknown_keys} messages on unknown keys were left out", err=True)
-    if stop.received is not None:
-        raise typer.Exit(128 + stop.received)
-    return host.player
+    return ReplayHost(bus, opened.recording.manifest.setup, make_player)

@@ -1,9 +1,7 @@
 """Replays MCAP files that are no recordings of a match, on a network of Zenoh."""
 
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack, closing
-from functools import partial
 from pathlib import Path
 
 import typer
@@ -11,22 +9,17 @@ import typer
 from recordings.reading.log_order import check_no_match, open_log
 from recordings.replay.live_view import LiveView
 from recordings.replay.log_replay import Keys, LogReplay
-from recordings.replay.player import Player
 from recordings.replay.replay import ReplaySettings
-from runtime.access.accounts import Account
-from runtime.access.credentials import account_file, read_host_credentials
+from runtime.access.credentials import read_host_credentials
 from runtime.access.protection import Protection
 from runtime.bus.contract import PresenceKind
-from runtime.bus.endpoint import local_endpoint
 from runtime.bus.zenoh.any_keys import open_network
 from runtime.process.clock import WallClock
-from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.replay import ReplayReply
 from touchline.launch.page import serve_page_beside
 from touchline.launch.processes.programs import Page
 from touchline.launch.processes.stop_signals import StopSignals
-from touchline.launch.processes.supervisor import Notice
-from touchline.launch.terminal.replay_progress import bar_text, status_text
-from touchline.launch.terminal.screen import screen_for
+from touchline.launch.replay_run import run_replay
 
 
 def replay_log(
@@ -53,12 +46,9 @@ def replay_log(
     """
     log = open_log(files, keys.of)
     check_no_match(log)
-    clock = WallClock()
-    stream = sys.stderr if quiet else sys.stdout
-    text_of = bar_text if stream.isatty() else status_text
     with ExitStack() as stack:
         known = Protection.of_any_keys(read_host_credentials(credentials), name) if credentials is not None else None
-        bus = stack.enter_context(open_network(name, clock, connect, listen, protection=known))
+        bus = stack.enter_context(open_network(name, WallClock(), connect, listen, protection=known))
         stop = stack.enter_context(StopSignals())
         typer.echo(f"{len(log.channels)} channels {'to' if connect else 'at'} {bus.endpoint}", err=True)
         view = None
@@ -67,27 +57,7 @@ def replay_log(
             view = stack.enter_context(closing(LiveView(f"Touchline: {name}", None, extent, viewers, log.base_ns)))
             typer.echo(f"Foxglove, Lichtblick: open the connection {view.address}", err=True)
         replay = LogReplay(bus, log, settings, *([view.publish_of_log] if view is not None else []))
-        look_after: Callable[[], list[Notice]] = list
         if page is not None:
             bus.declare_alive(PresenceKind.HOST, "host")  # for which a page looks
-            say = partial(typer.echo, err=True)
-            operator = account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
-            look_after = stack.enter_context(
-                serve_page_beside(name, local_endpoint(bus.endpoint), page, clock, say, operator)
-            )
-        with screen_for(stream, clock) as screen:
-
-            def meanwhile(player: Player) -> None:
-                if stop.received is not None:
-                    player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
-                screen.status(text_of(player.status()))
-                if view is not None:
-                    view.update(player)
-                for notice in look_after():
-                    typer.echo(f"touchline: {notice.sentence}", err=True)
-
-            replay.run(meanwhile)
-            screen.event(text_of(replay.player.status()), notable=True)
-    if stop.received is not None:
-        raise typer.Exit(128 + stop.received)
-    return replay.player.status()
+        look_after = stack.enter_context(serve_page_beside(bus, page, credentials))
+        return run_replay(replay, stop, look_after, view, quiet=quiet)

@@ -6,11 +6,16 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
+import typer
+
 from coach_gateway.access.tokens import page_address, tokens_of
 from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.serving.listener import listen, origin_of
 from coach_gateway.web.settings import WebSettings, need_web
-from runtime.process.clock import Clock
+from runtime.access.accounts import Account
+from runtime.access.credentials import account_file
+from runtime.bus.endpoint import local_endpoint
+from runtime.bus.zenoh.bus import ZenohBus
 from touchline.launch.processes.child_process import ChildProcess
 from touchline.launch.processes.process_table import ProcessKind, library_process
 from touchline.launch.processes.programs import TOKENS, Page
@@ -45,27 +50,26 @@ def address_lines(web: WebSettings, tokens: Path) -> list[str]:
 
 @contextmanager
 def serve_page_beside(
-    match: str,
-    connect: str,
-    page: Page,
-    clock: Clock,
-    log: Callable[[str], None],
-    credentials: Path | None = None,
+    bus: ZenohBus, page: Page | None, credentials: Path | None
 ) -> Iterator[Callable[[], list[Notice]]]:
-    """Serve the page of a match within the block; yields a function that supervises it, to be called periodically.
+    """Serve the page of a replay within the block; yields a function that supervises it, to be called periodically.
 
-    The tokens are valid within the block. `credentials` is the operator's file of a host that has credentials.
+    The tokens are valid within the block. `credentials` is the file of a host that has credentials.
     """
+    if page is None:
+        yield list
+        return
+    operator = account_file(credentials.parent, Account.OPERATOR) if credentials is not None else None
     with tempfile.TemporaryDirectory(prefix="touchline-page-") as name:
         folder = Path(name)
-        tokens = folder / TOKENS
+        tokens, endpoint = folder / TOKENS, local_endpoint(bus.endpoint)
         settings = GatewaySettings(
-            connect=connect, match=match, credentials=credentials, tokens=tokens, web=page.settings
+            connect=endpoint, match=bus.match, credentials=operator, tokens=tokens, web=page.settings
         )
         process = library_process("page", ProcessKind.PAGE, settings, folder, sockets=(page.listener,))
-        supervisor = Supervisor([process], partial(ChildProcess, folder=folder), clock)
+        supervisor = Supervisor([process], partial(ChildProcess, folder=folder), bus.clock)
         for line in address_lines(page.settings, tokens):
-            log(line)
+            typer.echo(line, err=True)
         supervisor.start()
         try:
             yield supervisor.check
