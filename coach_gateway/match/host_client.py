@@ -26,14 +26,8 @@ M = TypeVar("M", RefereeAction, SeatRequest)
 class HostClient:
     """One client of a match's host."""
 
-    def __init__(self, bus: Bus, patience: float = REQUEST_S, referee: str | None = None) -> None:
-        """`referee` is the name under which it officiates; by default its connection's, which is present with it.
-
-        A client that closes its connection after each request needs a name of its own, to keep the referee's seat.
-        """
+    def __init__(self, bus: Bus, patience: float = REQUEST_S) -> None:
         self._bus = bus
-        self._referee = gateway_name(bus.name) if referee is None else referee
-        self._stays = referee is None
         self._patience = patience
         """How long a reply may take, in s of wall time."""
         self._orders: dict[Side, Publisher] = {}
@@ -94,9 +88,9 @@ class HostClient:
 
     def _named(self, request: M) -> M:
         """The request with the name of this referee, whose presence the host sees as long as its connection is open."""
-        if self._stays:
-            self._bus.declare_alive(PresenceKind.REFEREE, self._referee)
-        return request.replace(referee=self._referee)
+        name = gateway_name(self._bus.name)
+        self._bus.declare_alive(PresenceKind.REFEREE, name)
+        return request.replace(referee=name)
 
     @property
     def orders(self) -> OrderFollower:

@@ -4,12 +4,11 @@ from typing import Annotated
 
 import typer
 
-from coach_gateway.match.host_client import HostClient
 from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
 from schemas.messages.admission import AdmissionRequest
 from schemas.topics import ADMISSION
-from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.bus_client import ask_host
 from touchline.commands.cli.option_groups import from_options, with_option_groups
 
 
@@ -22,6 +21,5 @@ def recorder(
     Example: touchline referee admit-recorder --name tape
     """
     request = from_options(AdmissionRequest, recorder=name)
-    with bus_client(connection, Account.REFEREE) as bus:
-        HostClient(bus).ask(ADMISSION, request)
+    ask_host(connection, ADMISSION, request, Account.REFEREE)
     typer.echo(f"the host waits for {name}")

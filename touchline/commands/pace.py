@@ -4,13 +4,10 @@ from typing import Annotated
 
 import typer
 
-from coach_gateway.match.host_client import HostClient
-from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
-from schemas.errors import MatchFailedError
 from schemas.messages.pace import PaceOperation, PaceReply, PaceRequest
 from schemas.topics import PACE
-from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.bus_client import ask_host
 from touchline.commands.cli.option_groups import with_option_groups
 
 
@@ -29,9 +26,6 @@ def pace(
 
     Example: touchline pace step 50
     """
-    with bus_client(connection, Account.OPERATOR) as bus:
-        reply: PaceReply = HostClient(bus).ask(PACE, PaceRequest(operation=operation, ticks=ticks))
-    if not reply.accepted:
-        raise MatchFailedError(f"refused: {reply.reason}")
+    reply: PaceReply = ask_host(connection, PACE, PaceRequest(operation=operation, ticks=ticks))
     state = "paused" if reply.paused else f"pauses at tick {reply.until}" if reply.until is not None else "runs"
     typer.echo(f"tick {reply.tick}: {state}")

@@ -6,16 +6,14 @@ from typing import Annotated
 
 import typer
 
-from coach_gateway.match.host_client import HostClient
-from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
-from schemas.errors import MatchFailedError, TouchlineError
+from schemas.errors import TouchlineError
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest, Value
 from schemas.topics import PARAMETERS
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import validated
 from touchline.commands.cli import options
-from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.bus_client import ask_host
 from touchline.commands.cli.option_groups import with_option_groups
 from touchline.launch.terminal.aligned import aligned
 from touchline.launch.terminal.json_text import json_text
@@ -115,10 +113,7 @@ def _query(connection: ClientSettings, **content: object) -> ParametersReply:
         raise TouchlineError(
             f"{error.fault.value!r} is no parameter; touchline parameters list shows all of them"
         ) from None
-    with bus_client(connection, Account.OPERATOR) as bus:
-        reply: ParametersReply = HostClient(bus).ask(PARAMETERS, request)
-    if not reply.accepted:
-        raise MatchFailedError(f"refused: {reply.reason}")
+    reply: ParametersReply = ask_host(connection, PARAMETERS, request)
     return reply
 
 

@@ -7,16 +7,15 @@ from typing import Annotated, ClassVar, NamedTuple
 import typer
 
 from coach_gateway.access.referee_name import terminal_name
-from coach_gateway.match.host_client import HostClient
 from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
-from schemas.errors import MatchFailedError
 from schemas.messages.soccer.game import RefereeAction
-from schemas.messages.soccer.referee_seat import SeatOperation
+from schemas.messages.soccer.referee_seat import SeatOperation, SeatReply, SeatRequest
 from schemas.soccer.game import ActionName
+from schemas.topics import ACTION, REFEREE_SEAT
 from touchline.commands import admit
 from touchline.commands.cli import options
-from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.bus_client import ask_host
 from touchline.commands.cli.option_groups import from_options, with_option_groups
 
 app = typer.Typer(
@@ -113,7 +112,9 @@ def _command(row: RefereeCommand) -> Callable[..., None]:
         content = asdict(target)
         if isinstance(target, PlaceTarget):
             content = {"place": content}
-        _send(connection, from_options(RefereeAction, action=row.action, **content))
+        action = from_options(RefereeAction, action=row.action, **content)
+        ask_host(connection, ACTION, action.replace(referee=terminal_name()), Account.REFEREE)
+        typer.echo(f"{row.action.value} accepted")
 
     command.__annotations__["target"] = row.target
     return with_option_groups(command)
@@ -146,10 +147,8 @@ SEAT_COMMANDS: dict[str, SeatCommand] = {
 
 def _seat_command(row: SeatCommand) -> Callable[..., None]:
     def command(connection: ClientSettings) -> None:
-        with bus_client(connection, Account.REFEREE) as bus:
-            reply = HostClient(bus, referee=terminal_name()).referee_seat(row.operation)
-        if not reply.accepted:
-            raise MatchFailedError(f"refused: {reply.reason}")
+        request = SeatRequest(operation=row.operation, referee=terminal_name())
+        reply: SeatReply = ask_host(connection, REFEREE_SEAT, request, Account.REFEREE)
         typer.echo(f"{reply.holder} officiates" if reply.holder is not None else "the referee's seat is free")
 
     return with_option_groups(command)
@@ -159,11 +158,3 @@ for _word, _seat in SEAT_COMMANDS.items():
     app.command(_word, help=f"{_seat.help}\n\nExample: touchline referee {_word}")(_seat_command(_seat))
 
 app.command("admit-recorder")(admit.recorder)
-
-
-def _send(connection: ClientSettings, action: RefereeAction) -> None:
-    with bus_client(connection, Account.REFEREE) as bus:
-        reply = HostClient(bus, referee=terminal_name()).act(action)
-    if not reply.accepted:
-        raise MatchFailedError(f"refused: {reply.reason}")
-    typer.echo(f"{action.action.value} accepted")

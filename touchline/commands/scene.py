@@ -5,18 +5,16 @@ from typing import Annotated, Any
 
 import typer
 
-from coach_gateway.match.host_client import HostClient
-from runtime.access.accounts import Account
 from runtime.bus.settings import ClientSettings
 from schemas.config.scene import REMEDIES, load_scene
 from schemas.config.toml_file import table_error
-from schemas.errors import MatchFailedError, TouchlineError
+from schemas.errors import TouchlineError
 from schemas.messages.scene import SceneReply, SceneRequest
 from schemas.side import Side
 from schemas.topics import SCENE
 from schemas.wire.faults import FaultError
 from schemas.wire.part_faults import validated
-from touchline.commands.cli.bus_client import bus_client
+from touchline.commands.cli.bus_client import ask_host
 from touchline.commands.cli.option_groups import with_option_groups
 from touchline.commands.scenes import scenes
 
@@ -157,8 +155,5 @@ def _send(connection: ClientSettings, **content: Any) -> None:
         request = validated(SceneRequest, content)
     except FaultError as error:
         raise table_error(error.fault, f"scene {content['operation']}", REMEDIES) from None
-    with bus_client(connection, Account.OPERATOR) as bus:
-        reply: SceneReply = HostClient(bus).ask(SCENE, request)
-    if not reply.accepted:
-        raise MatchFailedError(f"refused: {reply.reason}")
+    reply: SceneReply = ask_host(connection, SCENE, request)
     typer.echo(f"{request.operation.value} accepted, episode {reply.episode}")

@@ -1,8 +1,6 @@
 """`touchline health` of a running match and of a recording."""
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -11,8 +9,6 @@ from typer.testing import CliRunner, Result
 from recordings.container.key_selection import EVERYTHING
 from recordings.recorder.part_sink import PartSink
 from recordings.recorder.recorder import Recorder
-from runtime.bus.contract import Bus
-from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.messages.health import AccountHealth, Health, RobotHealth, TeamRadio
 from schemas.side import Side
@@ -21,7 +17,7 @@ from support.fake_host import FakeHost
 from support.host_rig import TEAMS, HostRig
 from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
-from touchline.commands import health
+from support.terminal import Terminal
 from touchline.commands.cli.command_line import app
 
 
@@ -70,19 +66,15 @@ def report(tick: int) -> Health:
 
 
 @pytest.fixture
-def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeHost]:
+def host(terminal: Terminal) -> FakeHost:
     there = FakeHost(SharedState(), clock=SteppedClock(), in_threads=True)
 
-    @contextmanager
-    def seat(connection: ClientSettings) -> Iterator[Bus]:
+    def make_clock() -> PlayingClock:
         clock = PlayingClock()
         clock.host, clock.reports = there, iter([report(50), report(100), report(200)])
-        with there.medium.open_bus(connection.match or "friendly", clock) as bus:
-            yield bus
+        return clock
 
-    monkeypatch.setattr(health, "bus_client", seat)
-    yield there
-    there.close()
+    return terminal.join(there, make_clock)
 
 
 def touchline(*words: str) -> Result:

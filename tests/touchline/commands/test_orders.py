@@ -1,15 +1,10 @@
 """Orders from the terminal: what was typed in, and who has acknowledged it."""
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import pytest
 from typer.testing import CliRunner, Result
 
-from runtime.access.accounts import Account
-from runtime.bus.contract import Bus
-from runtime.bus.settings import ClientSettings
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.messages.setup import Setup
@@ -18,7 +13,7 @@ from schemas.topics import SETUP
 from support.fake_host import FakeHost
 from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
-from touchline.commands import orders
+from support.terminal import Terminal
 from touchline.commands.cli.command_line import app
 
 
@@ -42,17 +37,8 @@ class Host(FakeHost):
 
 
 @pytest.fixture
-def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
-    there = Host()
-
-    @contextmanager
-    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
-        with there.medium.open_bus(connection.match or "friendly", SteppedClock()) as bus:
-            yield bus
-
-    monkeypatch.setattr(orders, "bus_client", seat)
-    yield there
-    there.close()
+def host(terminal: Terminal) -> FakeHost:
+    return terminal.join(Host())
 
 
 def coach(*words: str) -> Result:

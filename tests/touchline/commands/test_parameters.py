@@ -1,56 +1,33 @@
 """`touchline parameters`, against a host of the same process."""
 
 import json
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import pytest
 from typer.testing import CliRunner, Result
 
-from runtime.access.accounts import Account
-from runtime.bus.contract import Bus
-from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
-from schemas.messages.parameters import ParametersReply
+from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.topics import PARAMETERS
 from sim_host.match.live_parameters import LiveParameters
-from support.in_process_bus import SharedState
-from support.stepped_clock import SteppedClock
-from touchline.commands import parameters
+from support.terminal import Terminal
 from touchline.commands.cli.command_line import app
 
 
 @pytest.fixture(autouse=True)
-def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def host(terminal: Terminal) -> None:
     """Answers as a host does, from the numbers of the default match."""
-    medium = SharedState()
-    bus = medium.open_bus("friendly", SteppedClock())
-    server = bus.serve(PARAMETERS)
+    live = [LiveParameters.of(MatchConfig())]
 
-    def answer() -> None:
-        live_parameters = LiveParameters.of(MatchConfig())
-        while (query := server.receive(None)) is not None:
-            request = query.message()
-            try:
-                live_parameters = live_parameters.after_request(request)
-                asked = tuple(request.values) or tuple(request.names)
-                query.reply(ParametersReply(accepted=True, parameters=live_parameters.describe(asked)))
-            except TouchlineError as error:
-                query.reply(ParametersReply(accepted=False, reason=str(error)))
+    def answer(request: ParametersRequest) -> ParametersReply:
+        try:
+            live.append(live[-1].after_request(request))
+        except TouchlineError as error:
+            return ParametersReply(accepted=False, reason=str(error))
+        asked = tuple(request.values) or tuple(request.names)
+        return ParametersReply(accepted=True, parameters=live[-1].describe(asked))
 
-    @contextmanager
-    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
-        with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
-            yield client
-
-    monkeypatch.setattr(parameters, "bus_client", seat)
-    thread = threading.Thread(target=answer)
-    thread.start()
-    yield
-    bus.close()
-    thread.join()
+    terminal.answers({PARAMETERS: answer})
 
 
 def touchline(*words: str) -> Result:
@@ -75,11 +52,3 @@ def test_parameters_are_set_shown_and_brought_back() -> None:
     }
     assert "0.43 kg" in touchline("get", "ball").stdout and "was 0.41" in touchline("get", "ball").stdout
     assert "was" not in touchline("reset").stdout
-
-
-def test_a_refusal_fails_with_its_reason() -> None:
-    result = touchline("set", "radio.loss=2")
-    assert (result.exit_code, result.stderr) == (
-        1,
-        "touchline: refused: radio.loss is 2; it must be between 0 and 1\n",
-    )

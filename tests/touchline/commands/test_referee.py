@@ -1,14 +1,9 @@
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import pytest
 from typer.testing import CliRunner, Result
 
 from coach_gateway.access.referee_name import terminal_name
-from runtime.access.accounts import Account
-from runtime.bus.contract import Bus
-from runtime.bus.settings import ClientSettings
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.soccer.game import ActionReply, GameState, RefereeAction
 from schemas.side import Side
@@ -18,7 +13,8 @@ from sim_host.server.services.referee_seat import RefereeSeat
 from support.fake_host import FakeHost
 from support.in_process_bus import SharedState
 from support.stepped_clock import SteppedClock
-from touchline.commands import coach, referee
+from support.terminal import Terminal
+from touchline.commands import referee
 from touchline.commands.cli.command_line import app
 
 
@@ -50,20 +46,16 @@ class Host(FakeHost):
 
 
 @pytest.fixture
-def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
+def host(terminal: Terminal) -> Host:
     there = Host()
 
-    @contextmanager
-    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
+    def make_clock() -> TalkingClock:
         clock = TalkingClock()
         clock.host = there
-        with there.medium.open_bus(connection.match or "friendly", clock) as bus:
-            yield bus
+        return clock
 
-    monkeypatch.setattr(referee, "bus_client", seat)
-    monkeypatch.setattr(coach, "bus_client", seat)
-    yield there
-    there.close()
+    terminal.join(there, make_clock)
+    return there
 
 
 def touchline(*words: str) -> Result:

@@ -2,53 +2,29 @@
 
 import json
 import math
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 from pytest import approx
 from typer.testing import CliRunner, Result
 
-from runtime.access.accounts import Account
-from runtime.bus.contract import Bus
-from runtime.bus.settings import ClientSettings
 from schemas.config.match_config import load_match
 from schemas.config.scene import shipped_scenes
 from schemas.side import Side
 from schemas.topics import SCENE
 from sim_host.match.simulation import Simulation
-from support.in_process_bus import SharedState
-from support.stepped_clock import SteppedClock
-from touchline.commands import scene
+from support.terminal import Terminal
 from touchline.commands.cli.command_line import app
 from touchline.play.play_match import InProcessMatch
 
 
 @pytest.fixture
-def simulation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulation]:
+def simulation(terminal: Terminal) -> Iterator[Simulation]:
     """Answers as a host does."""
     simulation = Simulation(load_match(None))
-    medium = SharedState()
-    bus = medium.open_bus("friendly", SteppedClock())
-    server = bus.serve(SCENE)
-
-    def answer() -> None:
-        while (query := server.receive(None)) is not None:
-            query.reply(simulation.handle_scene(query.message()))
-
-    @contextmanager
-    def seat(connection: ClientSettings, account: Account) -> Iterator[Bus]:
-        with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
-            yield client
-
-    monkeypatch.setattr(scene, "bus_client", seat)
-    thread = threading.Thread(target=answer)
-    thread.start()
+    terminal.answers({SCENE: simulation.handle_scene})
     yield simulation
-    bus.close()
-    thread.join()
     simulation.close()
 
 
@@ -82,12 +58,6 @@ def test_scenes_are_loaded_by_name_and_by_file_and_begun_anew(simulation: Simula
     assert list(simulation.step({}).world["robots"]) == ["anna"]
     assert accepted("reset", "--to-start") == "reset accepted, episode 4\n"
     assert len(simulation.step({}).world["robots"]) == 10
-
-
-def test_a_refusal_fails_with_its_reason(simulation: Simulation) -> None:
-    result = touchline("scene", "place", "cyan9", "0", "0")
-    assert result.exit_code == 1
-    assert result.stderr.startswith("touchline: refused: cyan9 is neither a robot nor the ball; did you mean")
 
 
 def test_the_scenes_are_listed_with_a_sentence_each_and_shown() -> None:
