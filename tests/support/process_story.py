@@ -16,11 +16,11 @@ from runtime.bus.contract import ReceivedMessage, Subscription
 from runtime.bus.zenoh.bus import ZenohBus, open_client
 from runtime.process.clock import WallClock
 from schemas.messages.applied import Applied
-from schemas.messages.health import Health, Invalid, RobotHealth
+from schemas.messages.health import Health, RobotHealth
 from schemas.messages.soccer.game import GameEvent
 from schemas.messages.world import World
 from schemas.soccer.game import EventKind
-from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
+from schemas.topics import APPLIED, EVENT, HEALTH, STATE, WORLD
 from schemas.wire.message import BadMessageError
 
 LIMIT = 90.0
@@ -188,7 +188,7 @@ class Listener:
         self._limit = limit
         self.bus: ZenohBus = open_client(match, WallClock(), endpoint, limit, account=Account.VIEWER)
         self._subscriptions: dict[str, Subscription] = {
-            topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
+            topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, STATE)
         }
         each_tick = (WORLD.key, APPLIED.key)
         self.logs = {key: MessageLog(newest_only=key in each_tick and not every_tick) for key in self._subscriptions}
@@ -233,10 +233,6 @@ class Listener:
     @property
     def events(self) -> Sequence[GameEvent]:
         return self.logs["game/event"]
-
-    @property
-    def invalid(self) -> Sequence[Invalid]:
-        return self.logs["host/invalid"]
 
     @property
     def tick(self) -> int:
